@@ -1,0 +1,364 @@
+//! Rigid bodies as the kernels see them: shapes with signed distances, poses and velocities.
+
+use glam::{DVec3, Mat3, Quat, Vec3};
+
+use crate::{
+    columns::ColumnData,
+    lanes::{self, Simd, f32x8, prelude::*, select},
+};
+
+/// Geometry of a rigid body, in its own frame, centre of mass at the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Solid half-space below the local plane y = 0 (outward normal +y). Fixed or kinematic bodies only.
+    Plane,
+    /// Ball around the origin.
+    Sphere {
+        /// Radius [m].
+        radius: f32,
+    },
+    /// Box around the origin.
+    Cuboid {
+        /// Distance of the faces from the origin [m].
+        half_extents: Vec3,
+    },
+    /// Segment along the local y axis, swept by a ball.
+    Capsule {
+        /// Half the length of the segment [m].
+        half_height: f32,
+        /// Radius of the ball [m].
+        radius: f32,
+    },
+    /// Convex hull.
+    Hull {
+        /// Outward unit normals and offsets [m]: a point is inside where `normal . x <= offset` for all.
+        planes: Vec<(Vec3, f32)>,
+        /// Corners [m].
+        vertices: Vec<Vec3>,
+        /// Faces as triangles of corners, outward winding.
+        triangles: Vec<[u32; 3]>,
+    },
+}
+
+impl Shape {
+    /// Radius of the ball around the origin that holds the shape [m]; infinite for a plane.
+    #[must_use]
+    pub fn bounding_radius(&self) -> f32 {
+        match self {
+            Self::Plane => f32::INFINITY,
+            Self::Sphere { radius } => *radius,
+            Self::Cuboid { half_extents } => half_extents.length(),
+            Self::Capsule { half_height, radius } => half_height + radius,
+            Self::Hull { vertices, .. } => vertices.iter().map(|vertex| vertex.length()).fold(0.0, f32::max),
+        }
+    }
+}
+
+/// How a body moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKind {
+    /// By forces and contacts.
+    Dynamic,
+    /// Not at all.
+    Fixed,
+    /// By a script, whatever pushes against it.
+    Kinematic,
+}
+
+/// Pose and velocity of a body at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyState {
+    /// Centre of mass, world [m].
+    pub position: Vec3,
+    /// Rotation from the body's frame to the world.
+    pub rotation: Quat,
+    /// Velocity of the centre of mass [m/s].
+    pub linear_velocity: Vec3,
+    /// Angular velocity, world [rad/s].
+    pub angular_velocity: Vec3,
+}
+
+/// Impulses that fluid and sponges gave to a body in one step, summed in f64 in a fixed order.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench {
+    /// Impulse [N s].
+    pub impulse: DVec3,
+    /// Angular impulse about the centre of mass [N m s].
+    pub angular_impulse: DVec3,
+}
+
+impl Wrench {
+    /// Adds an impulse at a point given relative to the centre of mass.
+    pub fn add(&mut self, impulse: DVec3, arm: DVec3) {
+        self.impulse += impulse;
+        self.angular_impulse += arm.cross(impulse);
+    }
+}
+
+/// One body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Geometry.
+    pub shape: Shape,
+    /// How it moves.
+    pub kind: BodyKind,
+    /// Pose and velocity.
+    pub state: BodyState,
+    /// Coulomb friction against sponge nodes [1].
+    pub friction: f32,
+    /// Whether sponge nodes are kept out; a body that grips a sponge lets them in.
+    pub touches_nodes: bool,
+}
+
+/// All bodies.
+#[derive(Clone, Debug, Default)]
+pub struct Bodies(pub Vec<Body>);
+
+impl ColumnData for Bodies {
+    fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
+        for body in &self.0 {
+            let BodyState {
+                position,
+                rotation,
+                linear_velocity,
+                angular_velocity,
+            } = body.state;
+            position
+                .to_array()
+                .into_iter()
+                .for_each(|value| visit(value.to_bits()));
+            rotation
+                .to_array()
+                .into_iter()
+                .for_each(|value| visit(value.to_bits()));
+            linear_velocity
+                .to_array()
+                .into_iter()
+                .for_each(|value| visit(value.to_bits()));
+            angular_velocity
+                .to_array()
+                .into_iter()
+                .for_each(|value| visit(value.to_bits()));
+        }
+    }
+    fn poison(&mut self) {
+        self.0.iter_mut().for_each(|body| body.state.position = Vec3::NAN);
+    }
+}
+
+/// A vector of eight points or directions.
+pub(crate) type Vec3x8<S> = [f32x8<S>; 3];
+
+/// Dot product, lane by lane.
+#[inline(always)]
+pub(crate) fn dot<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> f32x8<S> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Cross product, lane by lane.
+#[inline(always)]
+pub(crate) fn cross<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> Vec3x8<S> {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// A body placed in the world, ready to be asked for distances.
+pub(crate) struct Placed<'a, S: Simd> {
+    simd: S,
+    shape: &'a Shape,
+    position: Vec3x8<S>,
+    /// Columns of the rotation matrix.
+    axes: [Vec3x8<S>; 3],
+    linear: Vec3x8<S>,
+    angular: Vec3x8<S>,
+}
+
+impl<'a, S: Simd> Placed<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(simd: S, body: &'a Body) -> Self {
+        let splat = |vector: Vec3| vector.to_array().map(|value| lanes::splat(simd, value));
+        let matrix = Mat3::from_quat(body.state.rotation);
+        Self {
+            simd,
+            shape: &body.shape,
+            position: splat(body.state.position),
+            axes: [splat(matrix.x_axis), splat(matrix.y_axis), splat(matrix.z_axis)],
+            linear: splat(body.state.linear_velocity),
+            angular: splat(body.state.angular_velocity),
+        }
+    }
+
+    /// Velocity of the body's material at world points.
+    #[inline(always)]
+    pub(crate) fn velocity(&self, point: Vec3x8<S>) -> Vec3x8<S> {
+        let arm = [0, 1, 2].map(|axis| point[axis] - self.position[axis]);
+        let turn = cross(self.angular, arm);
+        [0, 1, 2].map(|axis| self.linear[axis] + turn[axis])
+    }
+
+    /// Signed distance from the surface (negative inside) and outward normal, at world points.
+    ///
+    /// Beside a hull's edge the distance is that to the nearest face plane, less than the true one.
+    #[inline(always)]
+    pub(crate) fn distance(&self, point: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
+        let arm = [0, 1, 2].map(|axis| point[axis] - self.position[axis]);
+        let local = [0, 1, 2].map(|axis| dot(self.axes[axis], arm));
+        let (distance, normal) = self.local_distance(local);
+        let world = [0, 1, 2].map(|axis| {
+            self.axes[0][axis] * normal[0] + self.axes[1][axis] * normal[1] + self.axes[2][axis] * normal[2]
+        });
+        (distance, world)
+    }
+
+    #[inline(always)]
+    fn local_distance(&self, local: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
+        let simd = self.simd;
+        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+        match self.shape {
+            Shape::Plane => (local[1], [zero, one, zero]),
+            Shape::Sphere { radius } => self.round(local, *radius),
+            Shape::Capsule { half_height, radius } => {
+                let half = lanes::splat(simd, *half_height);
+                let y = local[1];
+                let on_axis = select(y.simd_gt(half), half, select(y.simd_lt(-half), -half, y));
+                self.round([local[0], y - on_axis, local[2]], *radius)
+            }
+            Shape::Cuboid { half_extents } => self.cuboid(local, *half_extents),
+            Shape::Hull { planes, .. } => {
+                let mut nearest = lanes::splat(simd, f32::MIN);
+                let mut normal = [zero, one, zero];
+                for (plane, offset) in planes {
+                    let direction = plane.to_array().map(|value| lanes::splat(simd, value));
+                    let distance = dot(local, direction) - *offset;
+                    let closer = distance.simd_gt(nearest);
+                    nearest = select(closer, distance, nearest);
+                    normal = [0, 1, 2].map(|axis| select(closer, direction[axis], normal[axis]));
+                }
+                (nearest, normal)
+            }
+        }
+    }
+
+    /// Distance from a ball around the origin.
+    #[inline(always)]
+    fn round(&self, local: Vec3x8<S>, radius: f32) -> (f32x8<S>, Vec3x8<S>) {
+        let (zero, one) = (lanes::splat(self.simd, 0.0), lanes::splat(self.simd, 1.0));
+        let length = dot(local, local).sqrt();
+        let off_centre = length.simd_gt(lanes::splat(self.simd, 1.0e-12));
+        let scale = one / select(off_centre, length, one);
+        let up = [zero, one, zero];
+        let normal = [0, 1, 2].map(|axis| select(off_centre, local[axis] * scale, up[axis]));
+        (length - radius, normal)
+    }
+
+    #[inline(always)]
+    fn cuboid(&self, local: Vec3x8<S>, half_extents: Vec3) -> (f32x8<S>, Vec3x8<S>) {
+        let simd = self.simd;
+        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+        let half = half_extents.to_array();
+        let sign = local.map(|value| select(value.simd_lt(zero), -one, one));
+        let beyond = [0, 1, 2].map(|axis| local[axis] * sign[axis] - half[axis]);
+        let outside = beyond.map(|value| lanes::positive(simd, value));
+        let length = dot(outside, outside).sqrt();
+        let is_outside = length.simd_gt(zero);
+        let scale = one / select(is_outside, length, one);
+        // Inside, the face that is nearest.
+        let x_first = beyond[0].simd_ge(beyond[1]) & beyond[0].simd_ge(beyond[2]);
+        let y_first = !x_first & beyond[1].simd_ge(beyond[2]);
+        let z_first = !x_first & !y_first;
+        let face = [x_first, y_first, z_first].map(|mask| select(mask, one, zero));
+        let depth = select(x_first, beyond[0], select(y_first, beyond[1], beyond[2]));
+        let normal = [0, 1, 2].map(|axis| sign[axis] * select(is_outside, outside[axis] * scale, face[axis]));
+        (select(is_outside, length, depth), normal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::{LANES, SimdLevel, dispatch};
+
+    fn body(shape: Shape) -> Body {
+        let state = BodyState {
+            position: Vec3::new(1.0, 2.0, 3.0),
+            rotation: Quat::from_rotation_z(std::f32::consts::FRAC_PI_2),
+            linear_velocity: Vec3::X,
+            angular_velocity: Vec3::new(0.0, 0.0, 2.0),
+        };
+        Body {
+            shape,
+            kind: BodyKind::Fixed,
+            state,
+            friction: 0.5,
+            touches_nodes: true,
+        }
+    }
+
+    /// Distance and normal at one world point, the same on every level.
+    fn probe(shape: Shape, point: [f32; 3]) -> (f32, Vec3) {
+        let body = body(shape);
+        let mut results = Vec::new();
+        for level in SimdLevel::ALL {
+            let Some(token) = level.token() else { continue };
+            results.push(dispatch!(token, simd => {
+                let (distance, normal) =
+                    Placed::new(simd, &body).distance(point.map(|value| lanes::splat(simd, value)));
+                let lane = LANES - 1;
+                (distance[lane], Vec3::new(normal[0][lane], normal[1][lane], normal[2][lane]))
+            }));
+        }
+        assert!(results.windows(2).all(|pair| pair[0] == pair[1]));
+        results[0]
+    }
+
+    #[track_caller]
+    fn assert_probe(shape: Shape, point: [f32; 3], distance: f32, normal: Vec3) {
+        let found = probe(shape, point);
+        assert!(
+            (found.0 - distance).abs() < 1e-5,
+            "distance {} instead of {distance}",
+            found.0
+        );
+        assert!(
+            found.1.distance(normal) < 1e-5,
+            "normal {} instead of {normal}",
+            found.1
+        );
+    }
+
+    #[test]
+    fn distances_of_a_body_turned_by_a_quarter() {
+        // The body's y axis points along -x of the world, its x axis along +y.
+        assert_probe(Shape::Plane, [0.5, 0.0, 0.0], 0.5, -Vec3::X);
+        assert_probe(Shape::Sphere { radius: 0.5 }, [1.0, 4.0, 3.0], 1.5, Vec3::Y);
+        let capsule = Shape::Capsule {
+            half_height: 2.0,
+            radius: 0.25,
+        };
+        assert_probe(capsule.clone(), [-0.5, 3.0, 3.0], 0.75, Vec3::Y);
+        assert_probe(capsule, [-2.0, 2.0, 3.0], 0.75, -Vec3::X);
+        let cuboid = Shape::Cuboid {
+            half_extents: Vec3::new(1.0, 0.5, 0.25),
+        };
+        assert_probe(cuboid.clone(), [1.0, 3.5, 3.0], 0.5, Vec3::Y);
+        assert_probe(cuboid.clone(), [1.0, 2.0, 3.2], -0.05, Vec3::Z);
+        assert_probe(cuboid, [2.0, 2.0, 3.0], 0.5, Vec3::X);
+        let planes = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z]
+            .map(|n| (n, 0.5))
+            .to_vec();
+        let hull = Shape::Hull {
+            planes,
+            vertices: vec![Vec3::splat(0.5)],
+            triangles: Vec::new(),
+        };
+        assert_probe(hull, [1.0, 2.75, 3.1], 0.25, Vec3::Y);
+    }
+
+    #[test]
+    fn the_centre_of_a_ball_has_a_normal() {
+        assert_probe(Shape::Sphere { radius: 0.5 }, [1.0, 2.0, 3.0], -0.5, -Vec3::X);
+    }
+}

@@ -1,0 +1,281 @@
+//! The stores: structures of arrays, each column declared once.
+//!
+//! A *column* is one physical quantity of one store, and the unit of scheduling, hashing and saving. Vector
+//! columns that neighbours read are packed rows of four floats, because one 16-byte load per neighbour is the
+//! fastest way to fetch it; the fourth float carries a scalar that is needed along with the vector.
+//!
+//! Rows are padded to a multiple of eight with at least one row to spare ([`padded`]). Padding rows of
+//! particles lie at [`FAR`], beyond every support radius, so that a list can be filled up with them: they add
+//! exact zeros to every sum.
+
+use crate::{
+    body::Bodies,
+    grid::{cells::Cells, neighbors::Neighbors},
+    pbd::lattice::Topology,
+    reduce::{Extremes, Wrenches},
+};
+
+/// Coordinate of padding rows [m]: beyond every support radius, with a square that is still finite.
+pub const FAR: f32 = 1.0e15;
+
+/// A row at [`FAR`].
+pub const FAR_ROW: [f32; 4] = [FAR, FAR, FAR, 0.0];
+
+/// Number of rows to allocate for `rows` particles: a multiple of eight with at least one padding row.
+#[must_use]
+pub fn padded(rows: usize) -> usize {
+    (rows + 8) / 8 * 8
+}
+
+/// How long the content of a column lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Life {
+    /// Survives a step; part of the digest and of a saved state.
+    State,
+    /// Set up with the scene and never written by a kernel.
+    Constant,
+    /// Rebuilt in every step; never read before it is written.
+    Scratch,
+}
+
+/// What a column must offer to be hashed, and to be audited by the tests.
+pub trait ColumnData {
+    /// Calls `visit` with every 32-bit word of the first `rows` rows, in order.
+    fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32));
+    /// Overwrites everything with values that no kernel can read without being noticed.
+    fn poison(&mut self);
+}
+
+impl ColumnData for Vec<f32> {
+    fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
+        self.iter().take(rows).for_each(|value| visit(value.to_bits()));
+    }
+    fn poison(&mut self) {
+        self.fill(f32::NAN);
+    }
+}
+
+impl ColumnData for Vec<[f32; 4]> {
+    fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
+        self.iter()
+            .take(rows)
+            .flatten()
+            .for_each(|value| visit(value.to_bits()));
+    }
+    fn poison(&mut self) {
+        self.fill([f32::NAN; 4]);
+    }
+}
+
+impl ColumnData for Vec<u32> {
+    fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
+        self.iter().take(rows).for_each(|value| visit(*value));
+    }
+    fn poison(&mut self) {
+        self.fill(u32::MAX);
+    }
+}
+
+macro_rules! columns {
+    ($($(#[$store_doc:meta])* $store:ident: $Store:ident {
+        $($(#[$doc:meta])* $Column:ident = $field:ident: $Type:ty, $unit:literal, $life:ident;)*
+    })*) => {
+        $($(#[$store_doc])*
+        #[derive(Clone, Debug, Default)]
+        pub struct $Store {
+            $($(#[$doc])* #[doc = concat!("\n\nUnit: ", $unit, ".")] pub $field: $Type,)*
+        })*
+
+        /// Every column; the order is the order of the digest and of saved files.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Column {
+            $($($(#[$doc])* $Column,)*)*
+        }
+
+        impl Column {
+            /// All columns, in order.
+            pub const ALL: &'static [Self] = &[$($(Self::$Column,)*)*];
+
+            /// Name, `store.quantity`.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self { $($(Self::$Column => concat!(stringify!($store), ".", stringify!($field)),)*)* }
+            }
+
+            /// SI unit.
+            #[must_use]
+            pub const fn unit(self) -> &'static str {
+                match self { $($(Self::$Column => $unit,)*)* }
+            }
+
+            /// How long the content lives.
+            #[must_use]
+            pub const fn life(self) -> Life {
+                match self { $($(Self::$Column => Life::$life,)*)* }
+            }
+
+            /// The store that the column belongs to.
+            #[must_use]
+            pub const fn store(self) -> Store {
+                match self { $($(Self::$Column => Store::$Store,)*)* }
+            }
+        }
+
+        /// Every store.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Store {
+            $($(#[$store_doc])* $Store,)*
+        }
+
+        /// All stores of a world.
+        #[derive(Clone, Debug, Default)]
+        pub struct Columns {
+            /// Number of rows in use, without padding.
+            pub rows: RowCounts,
+            $($(#[$store_doc])* pub $store: $Store,)*
+        }
+
+        impl Columns {
+            /// The data of a column.
+            #[must_use]
+            pub fn data(&self, column: Column) -> &dyn ColumnData {
+                match column { $($(Column::$Column => &self.$store.$field,)*)* }
+            }
+
+            /// The data of a column, writable.
+            pub fn data_mut(&mut self, column: Column) -> &mut dyn ColumnData {
+                match column { $($(Column::$Column => &mut self.$store.$field,)*)* }
+            }
+        }
+    };
+}
+
+columns! {
+    /// The fluid, one row per particle, in the order of its cells.
+    fluid: Fluid {
+        /// Centre of the particle; w: pressure over density squared, p/rho^2 [Pa m^6/kg^2].
+        FluidPosition = position: Vec<[f32; 4]>, "m", State;
+        /// Velocity of the particle; w: its volume m/rho [m^3].
+        FluidVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
+        /// Identity of the particle, kept while rows are re-ordered.
+        FluidId = id: Vec<u32>, "1", State;
+        /// Cells over the particles.
+        FluidCells = cells: Cells, "1", Scratch;
+        /// For every particle, the particles within the support radius, itself included.
+        FluidNeighbors = neighbors: Neighbors, "1", Scratch;
+        /// Mass density rho.
+        FluidDensity = density: Vec<f32>, "kg/m^3", Scratch;
+        /// Acceleration by all forces of this step; w: unused.
+        FluidAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
+        /// For every particle, the control rows within the suction radius.
+        FluidControls = controls: Neighbors, "1", Scratch;
+        /// How far inside a sponge the particle is: sum of node volume times kernel, 0 outside, 1 inside.
+        FluidInterior = interior: Vec<f32>, "1", Scratch;
+        /// Rate at which drag takes the particle to the velocity of the sponge.
+        FluidDragRate = drag_rate: Vec<f32>, "1/s", Scratch;
+        /// Impulse that the particle loses to the sponge, over its interior value; w: the same per velocity [kg].
+        FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
+        /// Extremes over chunks of particles, for the time step.
+        FluidExtremes = extremes: Extremes, "m/s", Scratch;
+    }
+    /// The sponges, one row per lattice node, in the order of the vertex colours.
+    nodes: Nodes {
+        /// Position of the node; w: inverse mass [1/kg], 0 for a held node.
+        NodePosition = position: Vec<[f32; 4]>, "m", State;
+        /// Velocity of the node; w: unused.
+        NodeVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
+        /// Volume of sponge that the node stands for, pores included.
+        NodeVolume = volume: Vec<f32>, "m^3", Constant;
+        /// Index of the node's sponge.
+        NodeSponge = sponge: Vec<u32>, "1", Constant;
+        /// 0 for nodes of the outer surface, else 1: surface nodes do not suck.
+        NodeSuction = suction: Vec<f32>, "1", Constant;
+        /// Kernel sum of node volumes at the node, at rest: what saturation is measured against.
+        NodeInterior = interior: Vec<f32>, "1", Constant;
+        /// Body that holds the node, or `u32::MAX`.
+        NodeGrip = grip: Vec<u32>, "1", Constant;
+        /// Position of a held node in the frame of its body; w: unused.
+        NodeGripOffset = grip_offset: Vec<[f32; 4]>, "m", Constant;
+        /// Tets, their colours and the chunks that colours are solved in.
+        NodeTopology = topology: Topology, "1", Constant;
+        /// Predicted position, corrected by the constraints; w: inverse mass [1/kg].
+        NodePredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
+        /// Acceleration by the fluid; w: unused.
+        NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
+        /// Pore volume filled with fluid, over pore volume.
+        NodeSaturation = saturation: Vec<f32>, "1", Scratch;
+        /// Extremes over chunks of nodes, for the time step.
+        NodeExtremes = extremes: Extremes, "m/s", Scratch;
+    }
+    /// The sponge nodes again, as control particles of the fluid, in the order of their cells.
+    controls: Controls {
+        /// Row of the node.
+        ControlNode = node: Vec<u32>, "1", Scratch;
+        /// Position of the node; w: its volume [m^3].
+        ControlPosition = position: Vec<[f32; 4]>, "m", Scratch;
+        /// Velocity of the node, filtered by the drag of the fluid; w: inverse mass [1/kg].
+        ControlVelocity = velocity: Vec<[f32; 4]>, "m/s", Scratch;
+        /// Velocity of the node before the filter; w: unused.
+        ControlUnfiltered = unfiltered: Vec<[f32; 4]>, "m/s", Scratch;
+        /// Cells over the controls.
+        ControlCells = cells: Cells, "1", Scratch;
+        /// For every control, the particles within the suction radius.
+        ControlFluid = fluid: Neighbors, "1", Scratch;
+        /// Pore volume filled with fluid, over pore volume.
+        ControlSaturation = saturation: Vec<f32>, "1", Scratch;
+        /// Control pressure times volume: negative, so that it sucks.
+        ControlSuction = suction: Vec<f32>, "Pa m^3", Scratch;
+    }
+    /// Rigid bodies, one row per body.
+    bodies: BodyStore {
+        /// Shapes, poses and velocities.
+        BodyStates = states: Bodies, "m", State;
+        /// What fluid and sponges gave to the bodies in this step.
+        BodyWrenches = wrenches: Wrenches, "N s", Scratch;
+    }
+}
+
+/// Number of rows of every store, without padding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RowCounts {
+    /// Fluid particles.
+    pub fluid: usize,
+    /// Sponge nodes, and control rows.
+    pub nodes: usize,
+    /// Tets.
+    pub tets: usize,
+    /// Rigid bodies.
+    pub bodies: usize,
+}
+
+impl RowCounts {
+    /// Number of rows of a store.
+    #[must_use]
+    pub fn of(&self, store: Store) -> usize {
+        match store {
+            Store::Fluid => self.fluid,
+            Store::Nodes | Store::Controls => self.nodes,
+            Store::BodyStore => self.bodies,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn padding_always_leaves_a_spare_row() {
+        for rows in 0..100 {
+            assert!(padded(rows) > rows && padded(rows) % 8 == 0 && padded(rows) <= rows + 8);
+        }
+    }
+
+    #[test]
+    fn names_are_unique() {
+        let mut names: Vec<_> = Column::ALL.iter().map(|column| column.name()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), Column::ALL.len());
+    }
+}

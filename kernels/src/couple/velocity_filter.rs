@@ -1,0 +1,81 @@
+//! Velocity filter of the nodes: one Jacobi sweep of the drag solved for the nodes (the paper, section 3.3).
+//!
+//!     u_a += (m_a (u0_a - u_a) + sum_i w_ia J_i) / (m_a + sum_i w_ia k_i),   w_ia = V_a W_ia / chi_i
+//!
+//! with J_i and k_i = dJ_i/dv_i from `couple::drag`. A node weighs a fraction of the water around it: without
+//! the implicit denominator it would be thrown back and forth.
+
+use crate::{
+    columns::{Column::*, Columns, Controls},
+    cpu::Cpu,
+    grid::neighbors::ChunkLists,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, with_lanes},
+    params::Params,
+    smoothing::WendlandLanes,
+};
+
+/// `couple::velocity_filter`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::velocity_filter",
+    needs: &[Need::Fluid, Need::Sponge],
+    reads: &[
+        FluidPosition,
+        FluidDrag,
+        ControlPosition,
+        ControlVelocity,
+        ControlUnfiltered,
+        ControlFluid,
+    ],
+    writes: &[ControlVelocity],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let fluid = &columns.fluid;
+    let Controls {
+        position,
+        velocity,
+        unfiltered,
+        fluid: lists,
+        ..
+    } = &mut columns.controls;
+    cpu.for_chunks(&mut velocity[..], |first, velocity| {
+        let lists = lists.chunk(first);
+        with_lanes!(cpu, simd => {
+            let kernel = params.coupling.lanes(simd);
+            let one = lanes::splat(simd, 1.0);
+            for row in (0..velocity.len()).step_by(LANES) {
+                let [ux, uy, uz, w] = lanes::load_rows(simd, velocity, row);
+                let [ox, oy, oz, _] = lanes::load_rows(simd, unfiltered, first + row);
+                let (u, old) = ([ux, uy, uz], [ox, oy, oz]);
+                let received = received(simd, kernel, (position, first + row), (&fluid.position, &fluid.drag), lists, row);
+                let inverse = one / (one + w * received[3]);
+                let new = [0, 1, 2].map(|axis| u[axis] + (old[axis] - u[axis] + w * received[axis]) * inverse);
+                lanes::store_rows(velocity, row, [new[0], new[1], new[2], w]);
+            }
+        });
+    });
+}
+
+/// Sum over the particles of eight controls of `V_a W_ia` times the drag row.
+#[inline(always)]
+pub(super) fn received<S: Simd>(
+    simd: S,
+    kernel: WendlandLanes<S>,
+    (controls, control): (&[[f32; 4]], usize),
+    (particles, drag): (&[[f32; 4]], &[[f32; 4]]),
+    lists: &ChunkLists,
+    row: usize,
+) -> [f32x8<S>; 4] {
+    let [x, y, z, volume] = lanes::load_rows(simd, controls, control);
+    let mut sum = [lanes::splat(simd, 0.0); 4];
+    for entry in lists.group(row) {
+        let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
+        let drag = lanes::gather_rows(simd, drag, entry);
+        let (dx, dy, dz) = (x - xi, y - yi, z - zi);
+        let weight = kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+        sum = [0, 1, 2, 3].map(|column| sum[column] + weight * drag[column]);
+    }
+    sum.map(|value| value * kernel.value_scale() * volume)
+}

@@ -1,0 +1,8 @@
+//! Neighbour search.
+
+pub mod cells;
+pub mod fluid_neighbors;
+pub mod neighbors;
+pub(crate) mod scan;
+pub(crate) mod sort;
+pub mod sort_fluid;

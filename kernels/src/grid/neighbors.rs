@@ -1,0 +1,361 @@
+//! Neighbour lists: for every query point, the target points within a radius.
+//!
+//! Lists are interleaved by groups of eight queries, so that a pass over neighbours has one particle per lane
+//! and adds up each particle's list in order: the width of the machine's vectors cannot change the sum. Shorter
+//! lists of a group are filled up with a padding row, which adds exact zeros.
+
+use super::cells::Cells;
+use crate::{
+    columns::{ColumnData, FAR},
+    cpu::{CHUNK, Cpu, PerChunk},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, u32x8, with_lanes},
+};
+
+const GROUPS: usize = CHUNK / LANES;
+
+/// Neighbour lists of all queries, in chunks of [`CHUNK`] queries.
+#[derive(Clone, Debug, Default)]
+pub struct Neighbors {
+    chunks: Vec<ChunkLists>,
+}
+
+/// Lists of the queries of one chunk.
+#[derive(Clone, Debug)]
+pub(crate) struct ChunkLists {
+    /// Where the entries of a group begin.
+    start: [u32; GROUPS + 1],
+    /// The k-th neighbours of eight queries.
+    entries: Vec<[u32; LANES]>,
+}
+
+impl Default for ChunkLists {
+    fn default() -> Self {
+        Self {
+            start: [0; GROUPS + 1],
+            entries: Vec::new(),
+        }
+    }
+}
+
+impl ChunkLists {
+    /// The list entries of the group of eight queries that begins at `row` of the chunk.
+    #[inline(always)]
+    pub(crate) fn group(&self, row: usize) -> &[[u32; LANES]] {
+        let group = row / LANES;
+        &self.entries[self.start[group] as usize..self.start[group + 1] as usize]
+    }
+}
+
+impl Neighbors {
+    /// The lists of the chunk that begins at query `first`.
+    #[inline(always)]
+    pub(crate) fn chunk(&self, first: usize) -> &ChunkLists {
+        &self.chunks[first / CHUNK]
+    }
+
+    /// The neighbours of one query, in list order, without padding.
+    pub fn of(&self, query: usize, targets: usize) -> impl Iterator<Item = u32> + '_ {
+        let lists = self.chunk(query).group(query % CHUNK);
+        lists
+            .iter()
+            .map(move |entry| entry[query % LANES])
+            .filter(move |row| (*row as usize) < targets)
+    }
+
+    /// Number of list entries, padding included.
+    #[must_use]
+    pub fn entries(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.entries.len() * LANES).sum()
+    }
+
+    /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded
+    /// rows in the order of `cells`).
+    pub(crate) fn build(
+        &mut self,
+        cpu: &Cpu,
+        (queries, count): (&[[f32; 4]], usize),
+        (targets, target_count): (&[[f32; 4]], usize),
+        cells: &Cells,
+        radius: f32,
+    ) {
+        self.chunks
+            .resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
+        cpu.for_chunks(PerChunk(&mut self.chunks), |first, lists| {
+            let end = queries.len().min(first + CHUNK);
+            let task = Task {
+                targets,
+                padding: target_count as u32,
+                cells,
+                radius,
+            };
+            let used = count.saturating_sub(first).min(end - first);
+            with_lanes!(cpu, simd => task.chunk(simd, &queries[first..end], used, &mut lists.0[0]));
+        });
+    }
+}
+
+impl ColumnData for Neighbors {
+    fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
+        for chunk in &self.chunks {
+            chunk.start.iter().for_each(|start| visit(*start));
+            chunk.entries.iter().flatten().for_each(|row| visit(*row));
+        }
+    }
+    fn poison(&mut self) {
+        self.chunks
+            .iter_mut()
+            .for_each(|chunk| chunk.entries.fill([u32::MAX; LANES]));
+    }
+}
+
+/// What all groups of a build share.
+struct Task<'a> {
+    targets: &'a [[f32; 4]],
+    padding: u32,
+    cells: &'a Cells,
+    radius: f32,
+}
+
+/// Targets near a few queries, and the lists of eight queries.
+#[derive(Default)]
+struct Candidates {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    row: Vec<u32>,
+    count: usize,
+    lists: Vec<u32>,
+    stride: usize,
+    lengths: [usize; LANES],
+}
+
+impl Candidates {
+    /// Makes room for eight more candidates.
+    #[inline(always)]
+    fn reserve(&mut self) {
+        if self.count + LANES > self.x.len() {
+            let length = (self.count + LANES).max(256) * 2;
+            self.x.resize(length, FAR);
+            self.y.resize(length, FAR);
+            self.z.resize(length, FAR);
+            self.row.resize(length, 0);
+        }
+    }
+}
+
+impl Task<'_> {
+    #[inline(always)]
+    fn chunk<S: Simd>(&self, simd: S, queries: &[[f32; 4]], used: usize, lists: &mut ChunkLists) {
+        let mut candidates = Candidates::default();
+        lists.entries.clear();
+        lists.start.fill(0);
+        for (group, queries) in queries.chunks_exact(LANES).enumerate() {
+            let used = used.saturating_sub(group * LANES).min(LANES);
+            self.group(simd, &queries[..used], &mut candidates);
+            self.interleave(&candidates, &mut lists.entries);
+            lists.start[group + 1] = lists.entries.len() as u32;
+        }
+        let groups = queries.len() / LANES;
+        lists.start[groups + 1..].fill(lists.entries.len() as u32);
+    }
+
+    /// Lists of up to eight queries. Consecutive queries may lie far apart, where a row of cells ends: they are
+    /// cut into runs that fit a small box.
+    #[inline(always)]
+    fn group<S: Simd>(&self, simd: S, queries: &[[f32; 4]], candidates: &mut Candidates) {
+        candidates.lengths = [0; LANES];
+        let mut first = 0;
+        while first < queries.len() {
+            let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+            let mut end = first;
+            while end < queries.len() {
+                let grown_low = [0, 1, 2].map(|axis| low[axis].min(queries[end][axis]));
+                let grown_high = [0, 1, 2].map(|axis| high[axis].max(queries[end][axis]));
+                let fits = (0..3).all(|axis| grown_high[axis] - grown_low[axis] <= 1.5 * self.radius);
+                if end > first && !fits {
+                    break;
+                }
+                (low, high) = (grown_low, grown_high);
+                end += 1;
+            }
+            self.collect(simd, low, high, candidates);
+            self.test(simd, queries, first..end, candidates);
+            first = end;
+        }
+    }
+
+    /// Collects the targets whose distance from the box is less than the radius.
+    #[inline(always)]
+    fn collect<S: Simd>(&self, simd: S, low: [f32; 3], high: [f32; 3], candidates: &mut Candidates) {
+        let radius = self.radius;
+        let splat = |value| lanes::splat(simd, value);
+        let (lows, highs) = (low.map(splat), high.map(splat));
+        let square = splat(radius * radius);
+        let lane_index = u32x8::from_fn(simd, |lane| lane as u32);
+        candidates.count = 0;
+        self.cells
+            .spans(low.map(|x| x - radius), high.map(|x| x + radius), |begin, end| {
+                let mut row = begin;
+                while row < end {
+                    let [x, y, z, _] =
+                        lanes::load_rows(simd, self.targets, row.min(self.targets.len() - LANES));
+                    // Near the end of the array the last eight rows are loaded; those before `row` were seen already.
+                    let loaded = row.min(self.targets.len() - LANES);
+                    let rows = lane_index + loaded as u32;
+                    let outside = |axis: usize, value: f32x8<S>| {
+                        (lows[axis] - value).max(value - highs[axis]).max(splat(0.0))
+                    };
+                    let (dx, dy, dz) = (outside(0, x), outside(1, y), outside(2, z));
+                    let near = (dx * dx + dy * dy + dz * dz).simd_lt(square)
+                        & rows.simd_ge(u32x8::splat(simd, row as u32))
+                        & rows.simd_lt(u32x8::splat(simd, end as u32));
+                    let hits = near.to_bitmask().count_ones() as usize;
+                    if hits > 0 {
+                        candidates.reserve();
+                        let at = candidates.count..candidates.count + LANES;
+                        simd.compress_f32x8(x, near)
+                            .store_slice(&mut candidates.x[at.clone()]);
+                        simd.compress_f32x8(y, near)
+                            .store_slice(&mut candidates.y[at.clone()]);
+                        simd.compress_f32x8(z, near)
+                            .store_slice(&mut candidates.z[at.clone()]);
+                        simd.compress_u32x8(rows, near)
+                            .store_slice(&mut candidates.row[at]);
+                        candidates.count += hits;
+                    }
+                    row = loaded + LANES;
+                }
+            });
+        candidates.reserve();
+        candidates.x[candidates.count..candidates.count + LANES].fill(FAR);
+        if candidates.stride < candidates.count + LANES {
+            candidates.stride = (candidates.count + LANES) * 2;
+            candidates.lists.resize(candidates.stride * LANES, 0);
+        }
+    }
+
+    /// Appends to the lists of `range` the candidates within the radius.
+    #[inline(always)]
+    fn test<S: Simd>(
+        &self,
+        simd: S,
+        queries: &[[f32; 4]],
+        range: std::ops::Range<usize>,
+        candidates: &mut Candidates,
+    ) {
+        let square = lanes::splat(simd, self.radius * self.radius);
+        let Candidates {
+            x,
+            y,
+            z,
+            row,
+            count,
+            lists,
+            stride,
+            lengths,
+        } = candidates;
+        for lane in range {
+            let query = [0, 1, 2].map(|axis| lanes::splat(simd, queries[lane][axis]));
+            let list = &mut lists[lane * *stride..(lane + 1) * *stride];
+            let mut length = 0;
+            for at in (0..*count).step_by(LANES) {
+                let dx = lanes::load(simd, x, at) - query[0];
+                let dy = lanes::load(simd, y, at) - query[1];
+                let dz = lanes::load(simd, z, at) - query[2];
+                let near = (dx * dx + dy * dy + dz * dz).simd_lt(square);
+                let rows = u32x8::from_slice(simd, &row[at..at + LANES]);
+                simd.compress_u32x8(rows, near)
+                    .store_slice(&mut list[length..length + LANES]);
+                length += near.to_bitmask().count_ones() as usize;
+            }
+            lengths[lane] = length;
+        }
+    }
+
+    /// Appends the lists of eight queries, one entry for all k-th neighbours.
+    #[inline(always)]
+    fn interleave(&self, candidates: &Candidates, entries: &mut Vec<[u32; LANES]>) {
+        let length = candidates.lengths.into_iter().max().unwrap_or(0);
+        let stride = candidates.stride;
+        let lists: [&[u32]; LANES] =
+            std::array::from_fn(|lane| &candidates.lists[lane * stride..lane * stride + length]);
+        let first = entries.len();
+        entries.extend((0..length).map(|k| std::array::from_fn(|lane| lists[lane][k])));
+        let entries = &mut entries[first..];
+        for (lane, &own) in candidates.lengths.iter().enumerate() {
+            entries[own..]
+                .iter_mut()
+                .for_each(|entry| entry[lane] = self.padding);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        columns::{FAR_ROW, padded},
+        grid::cells::Domain,
+        lanes::SimdLevel,
+        testing::random_points,
+    };
+    use glam::Vec3;
+
+    fn build(points: &[[f32; 4]], radius: f32, domain: Domain, cpu: &Cpu) -> (Vec<[f32; 4]>, Neighbors) {
+        let mut cells = Cells::default();
+        cells.build(cpu, points, radius, domain);
+        let mut sorted: Vec<[f32; 4]> = cells.order.iter().map(|row| points[*row as usize]).collect();
+        sorted.resize(padded(points.len()), FAR_ROW);
+        let mut lists = Neighbors::default();
+        cpu.enter(|| {
+            lists.build(
+                cpu,
+                (&sorted, points.len()),
+                (&sorted, points.len()),
+                &cells,
+                radius,
+            )
+        });
+        (sorted, lists)
+    }
+
+    fn brute_force(sorted: &[[f32; 4]], count: usize, query: usize, radius: f32) -> Vec<u32> {
+        let near = |row: &u32| {
+            let d: [f32; 3] = std::array::from_fn(|axis| sorted[*row as usize][axis] - sorted[query][axis]);
+            d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < radius * radius
+        };
+        (0..count as u32).filter(near).collect()
+    }
+
+    #[test]
+    fn lists_equal_brute_force_on_every_level_and_scheme() {
+        let bounded = Domain::Bounded {
+            minimum: Vec3::splat(-1.0),
+            maximum: Vec3::splat(1.0),
+        };
+        for count in [0, 1, 7, 8, 9, 1500] {
+            let points = random_points(count, 1.0, 11);
+            for domain in [bounded, Domain::Unbounded] {
+                for level in SimdLevel::ALL.into_iter().filter(|level| level.is_supported()) {
+                    let cpu = Cpu::with_threads(level, 2).expect("supported");
+                    let (sorted, lists) = build(&points, 0.21, domain, &cpu);
+                    for query in 0..count {
+                        let mut found: Vec<u32> = lists.of(query, count).collect();
+                        found.sort_unstable();
+                        assert_eq!(found, brute_force(&sorted, count, query, 0.21), "{level} {query}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_radius_that_is_a_little_too_small_is_noticed() {
+        let points = random_points(1500, 1.0, 11);
+        let cpu = Cpu::serial(SimdLevel::best()).expect("supported");
+        let (sorted, lists) = build(&points, 0.20, Domain::Unbounded, &cpu);
+        let differ = (0..1500)
+            .any(|query| lists.of(query, 1500).count() != brute_force(&sorted, 1500, query, 0.21).len());
+        assert!(differ);
+    }
+}

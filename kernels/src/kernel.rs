@@ -1,0 +1,84 @@
+//! A kernel: what it reads and writes, what it needs, and how the CPU computes it.
+
+use crate::{
+    columns::{Column, Columns},
+    couple,
+    cpu::Cpu,
+    grid,
+    params::Params,
+    pbd, sph,
+};
+
+/// Something that a scene must contain for a kernel to have work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// Fluid particles.
+    Fluid,
+    /// A sponge.
+    Sponge,
+    /// Walls of a container, or bodies.
+    Obstacles,
+    /// Fluid with surface tension.
+    SurfaceTension,
+}
+
+impl Need {
+    /// Why a phase is skipped when the need is not met.
+    #[must_use]
+    pub fn missing(self) -> &'static str {
+        match self {
+            Self::Fluid => "no fluid",
+            Self::Sponge => "no sponge",
+            Self::Obstacles => "no walls and no bodies",
+            Self::SurfaceTension => "surface tension is zero",
+        }
+    }
+}
+
+/// One phase of a step: a declaration and a body. The same name is used for its path, its WGSL twin, its bench
+/// and its line in a plan.
+#[derive(Debug)]
+pub struct Kernel {
+    /// `family::name`.
+    pub name: &'static str,
+    /// What the scene must contain; all of these.
+    pub needs: &'static [Need],
+    /// Columns whose content before the kernel matters.
+    pub reads: &'static [Column],
+    /// Columns that the kernel changes.
+    pub writes: &'static [Column],
+    /// The body for the CPU.
+    pub cpu: fn(&Cpu, &Params, &mut Columns),
+}
+
+/// Every kernel, by family.
+pub static KERNELS: &[&Kernel] = &[
+    &grid::sort_fluid::KERNEL,
+    &grid::fluid_neighbors::KERNEL,
+    &sph::density::KERNEL,
+    &sph::pressure::KERNEL,
+    &sph::forces::KERNEL,
+    &sph::surface_tension::KERNEL,
+    &sph::repulsion::KERNEL,
+    &sph::kick::KERNEL,
+    &sph::advect::KERNEL,
+    &pbd::predict::KERNEL,
+    &pbd::strain::KERNEL,
+    &pbd::contact::KERNEL,
+    &pbd::velocity::KERNEL,
+    &couple::controls::KERNEL,
+    &couple::saturation::KERNEL,
+    &couple::interior::KERNEL,
+    &couple::suction::KERNEL,
+    &couple::zero_distance::KERNEL,
+    &couple::control_velocity::KERNEL,
+    &couple::drag::KERNEL,
+    &couple::velocity_filter::KERNEL,
+    &couple::exchange::KERNEL,
+];
+
+/// The kernel of that name.
+#[must_use]
+pub fn kernel(name: &str) -> Option<&'static Kernel> {
+    KERNELS.iter().copied().find(|kernel| kernel.name == name)
+}

@@ -1,0 +1,266 @@
+//! Eight lanes of f32 on every machine: the only door to the SIMD library.
+//!
+//! A vector is always eight lanes wide, whatever the machine has, and only operations that IEEE 754 rounds
+//! exactly are used: the bits of a result do not depend on the level. Not used, because they differ from
+//! machine to machine: fused multiply-add, approximate reciprocals, horizontal reductions.
+
+use std::fmt;
+
+use fearless_simd::{Level, f32x4};
+pub(crate) use fearless_simd::{Simd, dispatch, f32x8, prelude, u32x8};
+use prelude::*;
+
+/// Number of lanes of a vector.
+pub const LANES: usize = 8;
+
+/// An instruction set that the CPU bodies can run on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SimdLevel {
+    /// Scalar code, eight lanes emulated.
+    Fallback,
+    /// x86-64 baseline.
+    Sse2,
+    /// x86-64-v2.
+    Sse42,
+    /// x86-64-v3.
+    Avx2,
+    /// Ice Lake class AVX-512.
+    Avx512,
+    /// 64-bit ARM.
+    Neon,
+}
+
+impl SimdLevel {
+    /// Every level, worst first.
+    pub const ALL: [Self; 6] = [
+        Self::Fallback,
+        Self::Sse2,
+        Self::Sse42,
+        Self::Avx2,
+        Self::Avx512,
+        Self::Neon,
+    ];
+
+    /// The best level of this machine.
+    #[must_use]
+    pub fn best() -> Self {
+        // AVX-512 gains nothing in these kernels, which are bound by 16-byte loads and shuffles, and lowers the
+        // clock on some machines; it is there for whoever asks for it by name.
+        [Self::Avx2, Self::Neon, Self::Sse42, Self::Sse2]
+            .into_iter()
+            .find(|level| level.is_supported())
+            .unwrap_or(Self::Fallback)
+    }
+
+    /// Whether this machine has the level.
+    #[must_use]
+    pub fn is_supported(self) -> bool {
+        self.token().is_some()
+    }
+
+    /// Name as used on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fallback => "fallback",
+            Self::Sse2 => "sse2",
+            Self::Sse42 => "sse4.2",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+            Self::Neon => "neon",
+        }
+    }
+
+    /// The level of that name, if there is one.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|level| level.name() == name)
+    }
+
+    /// Proof that the machine has the level.
+    pub(crate) fn token(self) -> Option<Level> {
+        let best = Level::new();
+        match self {
+            Self::Fallback => Some(Level::fallback()),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Sse2 => best.as_sse2().map(Level::Sse2),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Sse42 => best.as_sse4_2().map(Level::Sse4_2),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Avx2 => best.as_avx2().map(Level::Avx2),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Avx512 => best.as_avx512().map(Level::Avx512),
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => best.as_neon().map(Level::Neon),
+            #[allow(unreachable_patterns, reason = "which levels remain depends on the target")]
+            _ => {
+                let _ = best;
+                None
+            }
+        }
+    }
+}
+
+impl fmt::Display for SimdLevel {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+/// A vector with the same value in every lane.
+#[inline(always)]
+pub(crate) fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
+    f32x8::splat(simd, value)
+}
+
+/// Eight consecutive values from `start`.
+#[inline(always)]
+pub(crate) fn load<S: Simd>(simd: S, values: &[f32], start: usize) -> f32x8<S> {
+    f32x8::from_slice(simd, &values[start..start + LANES])
+}
+
+/// Stores eight consecutive values from `start`.
+#[inline(always)]
+pub(crate) fn store<S: Simd>(values: &mut [f32], start: usize, lanes: f32x8<S>) {
+    lanes.store_slice(&mut values[start..start + LANES]);
+}
+
+/// The larger of the lane and zero; `+0` for `-0` and NaN on every machine.
+#[inline(always)]
+pub(crate) fn positive<S: Simd>(simd: S, lanes: f32x8<S>) -> f32x8<S> {
+    let zero = splat(simd, 0.0);
+    lanes.simd_gt(zero).select(lanes, zero)
+}
+
+/// Lanes where `condition` holds from `yes`, else from `no`.
+#[inline(always)]
+pub(crate) fn select<S: Simd>(
+    condition: fearless_simd::mask32x8<S>,
+    yes: f32x8<S>,
+    no: f32x8<S>,
+) -> f32x8<S> {
+    condition.select(yes, no)
+}
+
+/// Transposes four rows of four.
+#[inline(always)]
+fn transpose_four<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
+    let (ac_low, ac_high) = (a.zip_low(c), a.zip_high(c));
+    let (bd_low, bd_high) = (b.zip_low(d), b.zip_high(d));
+    [
+        ac_low.zip_low(bd_low),
+        ac_low.zip_high(bd_low),
+        ac_high.zip_low(bd_high),
+        ac_high.zip_high(bd_high),
+    ]
+}
+
+/// Transposes eight rows of four into four vectors.
+#[inline(always)]
+fn transpose<S: Simd>(simd: S, rows: [&[f32; 4]; LANES]) -> [f32x8<S>; 4] {
+    let row = |lane: usize| f32x4::load_array_ref(simd, rows[lane]);
+    let low = transpose_four([row(0), row(1), row(2), row(3)]);
+    let high = transpose_four([row(4), row(5), row(6), row(7)]);
+    [
+        low[0].combine(high[0]),
+        low[1].combine(high[1]),
+        low[2].combine(high[2]),
+        low[3].combine(high[3]),
+    ]
+}
+
+/// Rows `start..start + 8` as vectors of x, y, z and w.
+#[inline(always)]
+pub(crate) fn load_rows<S: Simd>(simd: S, rows: &[[f32; 4]], start: usize) -> [f32x8<S>; 4] {
+    let rows: &[[f32; 4]; LANES] = rows[start..start + LANES]
+        .try_into()
+        .expect("the slice has eight rows");
+    transpose(simd, rows.each_ref())
+}
+
+/// Stores vectors of x, y, z and w to rows `start..start + 8`.
+#[inline(always)]
+pub(crate) fn store_rows<S: Simd>(rows: &mut [[f32; 4]], start: usize, vectors: [f32x8<S>; 4]) {
+    let halves = vectors.map(|vector| vector.split());
+    let low = transpose_four(halves.map(|(low, _)| low));
+    let high = transpose_four(halves.map(|(_, high)| high));
+    let rows = &mut rows[start..start + LANES];
+    for lane in 0..4 {
+        low[lane].store_slice(&mut rows[lane]);
+        high[lane].store_slice(&mut rows[lane + 4]);
+    }
+}
+
+/// Eight rows by index as vectors of x, y, z and w.
+#[inline(always)]
+pub(crate) fn gather_rows<S: Simd>(simd: S, rows: &[[f32; 4]], index: &[u32; LANES]) -> [f32x8<S>; 4] {
+    let row = |lane: usize| &rows[index[lane] as usize];
+    transpose(
+        simd,
+        [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)],
+    )
+}
+
+/// Eight values by index.
+#[inline(always)]
+pub(crate) fn gather<S: Simd>(simd: S, values: &[f32], index: &[u32; LANES]) -> f32x8<S> {
+    let value = |lane: usize| values[index[lane] as usize];
+    f32x8::load_array(
+        simd,
+        [
+            value(0),
+            value(1),
+            value(2),
+            value(3),
+            value(4),
+            value(5),
+            value(6),
+            value(7),
+        ],
+    )
+}
+
+/// Runs an expression that is generic over the SIMD token at the level of the CPU context.
+macro_rules! with_lanes {
+    ($cpu:expr, $simd:pat => $body:expr) => {
+        $crate::lanes::dispatch!($cpu.level(), $simd => $body)
+    };
+}
+pub(crate) use with_lanes;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_round_trip_and_one_level_is_always_there() {
+        for level in SimdLevel::ALL {
+            assert_eq!(SimdLevel::from_name(level.name()), Some(level));
+        }
+        assert_eq!(SimdLevel::from_name("avx"), None);
+        assert!(SimdLevel::Fallback.is_supported());
+        assert!(SimdLevel::best().is_supported());
+    }
+
+    #[test]
+    fn gathered_rows_are_transposed_on_every_level() {
+        let rows: Vec<[f32; 4]> = (0..20)
+            .map(|i| [i as f32, i as f32 + 0.25, i as f32 + 0.5, -(i as f32)])
+            .collect();
+        let index = [3, 19, 0, 7, 7, 12, 1, 5];
+        for level in SimdLevel::ALL {
+            let Some(token) = level.token() else { continue };
+            let (x, w) = dispatch!(token, simd => {
+                let [x, _, _, w] = gather_rows(simd, &rows, &index);
+                (x.to_array(), w.to_array())
+            });
+            for lane in 0..LANES {
+                assert_eq!(
+                    (x[lane], w[lane]),
+                    (index[lane] as f32, -(index[lane] as f32)),
+                    "{level}"
+                );
+            }
+        }
+    }
+}

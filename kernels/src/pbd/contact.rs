@@ -1,0 +1,171 @@
+//! Contact of nodes with walls and bodies, with friction (the paper, sections 3.2 and 3.3).
+//!
+//! A node inside a body is moved to its surface along the normal, and its motion along the surface, relative to
+//! the body, is undone as far as Coulomb friction reaches: up to `mu` times the depth. Bodies receive the
+//! opposite impulse `-m dy / h`.
+
+use glam::{DVec3, Vec3};
+
+use crate::{
+    body::{Body, Placed, Vec3x8, Wrench, dot},
+    columns::{Column::*, Columns, Nodes},
+    cpu::{CHUNK, Cpu, PerChunk},
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    params::Params,
+};
+
+/// `pbd::contact`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::contact",
+    needs: &[Need::Sponge, Need::Obstacles],
+    reads: &[NodePosition, NodePredicted, NodeSponge, BodyStates, BodyWrenches],
+    writes: &[NodePredicted, BodyWrenches],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Nodes {
+        position,
+        predicted,
+        sponge,
+        ..
+    } = &mut columns.nodes;
+    let bodies = &columns.bodies.states.0;
+    let chunks = predicted.len().div_ceil(CHUNK);
+    let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
+        0 => (0..chunks).map(|_| &mut [][..]).collect(),
+        count => columns.bodies.wrenches.nodes.chunks_exact_mut(count).collect(),
+    };
+    cpu.for_chunks(
+        (&mut predicted[..], PerChunk(&mut wrenches)),
+        |first, (predicted, wrenches)| {
+            let task = Task {
+                params,
+                bodies,
+                position,
+                sponge,
+            };
+            with_lanes!(cpu, simd => task.chunk(simd, first, predicted, wrenches.0[0]));
+        },
+    );
+}
+
+struct Task<'a> {
+    params: &'a Params,
+    bodies: &'a [Body],
+    position: &'a [[f32; 4]],
+    sponge: &'a [u32],
+}
+
+impl Task<'_> {
+    #[inline(always)]
+    fn chunk<S: Simd>(&self, simd: S, first: usize, predicted: &mut [[f32; 4]], wrenches: &mut [Wrench]) {
+        let placed: Vec<(usize, Placed<'_, S>)> = (0..self.bodies.len())
+            .filter(|body| self.bodies[*body].touches_nodes)
+            .map(|body| (body, Placed::new(simd, &self.bodies[body])))
+            .collect();
+        for row in (0..predicted.len()).step_by(LANES) {
+            let [x, y, z, w] = lanes::load_rows(simd, predicted, row);
+            let [ox, oy, oz, _] = lanes::load_rows(simd, self.position, first + row);
+            let (mut point, old) = ([x, y, z], [ox, oy, oz]);
+            for (index, placed) in &placed {
+                let body = &self.bodies[*index];
+                let drift = placed.velocity(point).map(|value| value * self.params.step);
+                // The body stands where it began the step: so is the node, in the body's frame.
+                let (distance, normal) = placed.distance([0, 1, 2].map(|axis| point[axis] - drift[axis]));
+                let depth = lanes::positive(simd, -distance) * touchable(simd, w);
+                let slide = [0, 1, 2].map(|axis| point[axis] - old[axis] - drift[axis]);
+                let change = contact(simd, depth, normal, slide, body.friction);
+                point = [0, 1, 2].map(|axis| point[axis] + change[axis]);
+                self.react(
+                    depth.to_array(),
+                    change,
+                    w,
+                    point,
+                    body.state.position,
+                    &mut wrenches[*index],
+                );
+            }
+            self.walls(simd, first + row, w, old, &mut point);
+            lanes::store_rows(predicted, row, [point[0], point[1], point[2], w]);
+        }
+    }
+
+    #[inline(always)]
+    fn walls<S: Simd>(&self, simd: S, row: usize, w: f32x8<S>, old: Vec3x8<S>, point: &mut Vec3x8<S>) {
+        let Some((minimum, maximum)) = self.params.walls else {
+            return;
+        };
+        let zero = lanes::splat(simd, 0.0);
+        let friction = self
+            .params
+            .sponges
+            .get(self.sponge.get(row).copied().unwrap_or(0) as usize);
+        let friction = friction.map_or(0.0, |sponge| sponge.friction);
+        for axis in 0..3 {
+            for (sign, wall) in [(1.0, minimum[axis]), (-1.0, maximum[axis])] {
+                let distance = (point[axis] - wall) * sign;
+                let depth = lanes::positive(simd, -distance) * touchable(simd, w);
+                let mut normal = [zero; 3];
+                normal[axis] = lanes::splat(simd, sign);
+                let slide = [0, 1, 2].map(|axis| point[axis] - old[axis]);
+                let change = contact(simd, depth, normal, slide, friction);
+                *point = [0, 1, 2].map(|axis| point[axis] + change[axis]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn react<S: Simd>(
+        &self,
+        depth: [f32; LANES],
+        change: Vec3x8<S>,
+        w: f32x8<S>,
+        point: Vec3x8<S>,
+        centre: Vec3,
+        wrench: &mut Wrench,
+    ) {
+        for lane in (0..LANES).filter(|lane| depth[*lane] > 0.0) {
+            let lane_of = |vector: Vec3x8<S>| {
+                DVec3::new(
+                    f64::from(vector[0][lane]),
+                    f64::from(vector[1][lane]),
+                    f64::from(vector[2][lane]),
+                )
+            };
+            let mass = 1.0 / f64::from(w[lane]);
+            let impulse = lane_of(change) * (-mass / f64::from(self.params.step));
+            wrench.add(impulse, lane_of(point) - centre.as_dvec3());
+        }
+    }
+}
+
+/// 1 for nodes that can be moved, 0 for held ones.
+#[inline(always)]
+fn touchable<S: Simd>(simd: S, inverse_mass: f32x8<S>) -> f32x8<S> {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    select(inverse_mass.simd_gt(zero), one, zero)
+}
+
+/// Change of position: out along the normal, and back along the surface.
+#[inline(always)]
+fn contact<S: Simd>(
+    simd: S,
+    depth: f32x8<S>,
+    normal: Vec3x8<S>,
+    slide: Vec3x8<S>,
+    friction: f32,
+) -> Vec3x8<S> {
+    let one = lanes::splat(simd, 1.0);
+    let along = dot(slide, normal);
+    let tangent = [0, 1, 2].map(|axis| slide[axis] - along * normal[axis]);
+    let length = dot(tangent, tangent).sqrt();
+    let reach = depth * friction;
+    let slips = length.simd_gt(reach);
+    // Sticks if friction reaches as far as the node slid, which includes not having slid at all.
+    let undone = select(slips, reach / select(slips, length, one), one);
+    let touches = depth.simd_gt(lanes::splat(simd, 0.0));
+    let undone = select(touches, undone, lanes::splat(simd, 0.0));
+    [0, 1, 2].map(|axis| depth * normal[axis] - undone * tangent[axis])
+}

@@ -1,0 +1,67 @@
+//! Initial position change: semi-implicit Euler without the elastic forces (the paper, Figure 2).
+//!
+//!     y = x + h (v + h (g + a))
+//!
+//! with the acceleration a by the fluid. Held nodes go where their body takes them.
+
+use glam::{Mat3, Vec3};
+
+use crate::{
+    body::{Body, Wrench},
+    columns::{Column::*, Columns, Nodes},
+    cpu::{CHUNK, Cpu},
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `pbd::predict`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::predict",
+    needs: &[Need::Sponge],
+    reads: &[
+        NodePosition,
+        NodeVelocity,
+        NodeAcceleration,
+        NodeGrip,
+        NodeGripOffset,
+        BodyStates,
+    ],
+    writes: &[NodePredicted, BodyWrenches],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let bodies = &columns.bodies.states.0;
+    let wrenches = &mut columns.bodies.wrenches.nodes;
+    let Nodes {
+        position,
+        velocity,
+        acceleration,
+        grip,
+        grip_offset,
+        predicted,
+        ..
+    } = &mut columns.nodes;
+    wrenches.clear();
+    wrenches.resize(position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
+    predicted.resize(position.len(), [0.0; 4]);
+    let h = params.step;
+    cpu.for_chunks(&mut predicted[..], |first, predicted| {
+        for (row, predicted) in predicted.iter_mut().enumerate() {
+            let node = first + row;
+            let (x, v, a) = (position[node], velocity[node], acceleration[node]);
+            let y = match bodies.get(grip[node] as usize) {
+                Some(body) => held(body, grip_offset[node], h).to_array(),
+                None => [0, 1, 2].map(|axis| x[axis] + h * (v[axis] + h * (params.gravity[axis] + a[axis]))),
+            };
+            *predicted = [y[0], y[1], y[2], x[3]];
+        }
+    });
+}
+
+/// Where a held node is at the end of the step.
+fn held(body: &Body, offset: [f32; 4], step: f32) -> Vec3 {
+    let arm = Mat3::from_quat(body.state.rotation) * Vec3::new(offset[0], offset[1], offset[2]);
+    let velocity = body.state.linear_velocity + body.state.angular_velocity.cross(arm);
+    body.state.position + arm + velocity * step
+}

@@ -1,0 +1,52 @@
+//! Velocity from the corrected positions (the paper, Figure 2).
+//!
+//!     v = (y - x) / h,   x <- y
+
+use crate::{
+    columns::{Column::*, Columns, Nodes},
+    cpu::Cpu,
+    grid::sort::per_chunk,
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `pbd::velocity`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::velocity",
+    needs: &[Need::Sponge],
+    reads: &[NodePosition, NodeVelocity, NodePredicted],
+    writes: &[NodePosition, NodeVelocity, NodeExtremes],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.nodes;
+    let Nodes {
+        position,
+        velocity,
+        predicted,
+        extremes,
+        ..
+    } = &mut columns.nodes;
+    let rate = 1.0 / params.step;
+    let rows = (
+        &mut position[..count],
+        &mut velocity[..count],
+        per_chunk(&mut extremes.0, count),
+    );
+    cpu.for_chunks(rows, |first, (position, velocity, extreme)| {
+        let extreme = &mut extreme.0[0];
+        let mut largest = 0.0_f32;
+        for (row, (x, v)) in position.iter_mut().zip(velocity).enumerate() {
+            let y = predicted[first + row];
+            (0..3).for_each(|axis| v[axis] = (y[axis] - x[axis]) * rate);
+            *x = y;
+            let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+            largest = if square > largest { square } else { largest };
+            if !square.is_finite() && extreme.not_finite == 0 {
+                extreme.not_finite = (first + row + 1) as u32;
+            }
+        }
+        extreme.speed_squared = largest;
+    });
+}

@@ -1,0 +1,58 @@
+//! Mass density by summation [MCG03, eq. 3].
+//!
+//!     rho_i = sum_j m W(|x_i - x_j|)
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    grid::neighbors::ChunkLists,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, with_lanes},
+    params::Params,
+};
+
+/// `sph::density`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::density",
+    needs: &[Need::Fluid],
+    reads: &[FluidPosition, FluidNeighbors],
+    writes: &[FluidDensity],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Fluid {
+        position,
+        neighbors,
+        density,
+        ..
+    } = &mut columns.fluid;
+    density.resize(position.len(), 0.0);
+    cpu.for_chunks(&mut density[..], |first, density| {
+        let lists = neighbors.chunk(first);
+        with_lanes!(cpu, simd => chunk(simd, params, first, position, lists, density));
+    });
+}
+
+#[inline(always)]
+fn chunk<S: Simd>(
+    simd: S,
+    params: &Params,
+    first: usize,
+    position: &[[f32; 4]],
+    lists: &ChunkLists,
+    density: &mut [f32],
+) {
+    let kernel = params.fluid.smoothing.lanes(simd);
+    let scale = kernel.value_scale() * params.fluid.particle_mass;
+    for row in (0..density.len()).step_by(LANES) {
+        let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+        let mut sum = lanes::splat(simd, 0.0);
+        for entry in lists.group(row) {
+            let [xj, yj, zj, _] = lanes::gather_rows(simd, position, entry);
+            let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+            sum += kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+        }
+        lanes::store(density, row, sum * scale);
+    }
+}

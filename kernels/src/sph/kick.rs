@@ -1,0 +1,40 @@
+//! First half of semi-implicit Euler: velocity by acceleration.
+//!
+//!     v <- v + h a
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    grid::sort::per_chunk,
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `sph::kick`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::kick",
+    needs: &[Need::Fluid],
+    reads: &[FluidVelocity, FluidAcceleration],
+    writes: &[FluidVelocity, FluidExtremes],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
+    let Fluid {
+        velocity,
+        acceleration,
+        extremes,
+        ..
+    } = &mut columns.fluid;
+    let rows = (&mut velocity[..count], per_chunk(&mut extremes.0, count));
+    cpu.for_chunks(rows, |first, (velocity, extreme)| {
+        let mut largest = 0.0_f32;
+        for (velocity, a) in velocity.iter_mut().zip(&acceleration[first..]) {
+            let square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+            largest = if square > largest { square } else { largest };
+            (0..3).for_each(|axis| velocity[axis] += params.step * a[axis]);
+        }
+        extreme.0[0].acceleration_squared = largest;
+    });
+}

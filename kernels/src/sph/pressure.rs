@@ -1,0 +1,60 @@
+//! Pressure by an equation of state, not below zero [MCG03, eq. 12; M94].
+//!
+//!     linear:  p = c^2 (rho - rho_0)
+//!     Tait:    p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)
+//!
+//! Negative pressure at a free surface would make particles clump; there the density is too low only because
+//! half of the neighbours are missing.
+//!
+//! Leaves p / rho^2 beside the position and m / rho beside the velocity, where neighbours read them.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::{EquationOfState, FluidParams, Params},
+};
+
+/// `sph::pressure`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::pressure",
+    needs: &[Need::Fluid],
+    reads: &[FluidPosition, FluidVelocity, FluidDensity],
+    writes: &[FluidPosition, FluidVelocity],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Fluid {
+        position,
+        velocity,
+        density,
+        ..
+    } = &mut columns.fluid;
+    let fluid = &params.fluid;
+    cpu.for_chunks(
+        (&mut position[..], &mut velocity[..]),
+        |first, (position, velocity)| {
+            let rows = position.iter_mut().zip(velocity).zip(&density[first..]);
+            for ((position, velocity), density) in rows {
+                position[3] = pressure(fluid, *density) / (density * density);
+                velocity[3] = fluid.particle_mass / density;
+            }
+        },
+    );
+}
+
+/// Pressure at a density [Pa].
+#[must_use]
+pub fn pressure(fluid: &FluidParams, density: f32) -> f32 {
+    let square = fluid.sound_speed * fluid.sound_speed;
+    let pressure = match fluid.equation_of_state {
+        EquationOfState::Linear => square * (density - fluid.rest_density),
+        EquationOfState::Tait => {
+            let ratio = density / fluid.rest_density;
+            let cube = ratio * ratio * ratio;
+            fluid.rest_density * square * (1.0 / 7.0) * (cube * cube * ratio - 1.0)
+        }
+    };
+    if pressure > 0.0 { pressure } else { 0.0 }
+}
