@@ -124,8 +124,7 @@ struct Candidates {
     z: Vec<f32>,
     row: Vec<u32>,
     count: usize,
-    lists: Vec<u32>,
-    stride: usize,
+    lists: [Vec<u32>; LANES],
     lengths: [usize; LANES],
 }
 
@@ -152,7 +151,7 @@ impl Task<'_> {
         for (group, queries) in queries.chunks_exact(LANES).enumerate() {
             let used = used.saturating_sub(group * LANES).min(LANES);
             self.group(simd, &queries[..used], &mut candidates);
-            self.interleave(&candidates, &mut lists.entries);
+            self.interleave(&mut candidates, &mut lists.entries);
             lists.start[group + 1] = lists.entries.len() as u32;
         }
         let groups = queries.len() / LANES;
@@ -228,10 +227,6 @@ impl Task<'_> {
             });
         candidates.reserve();
         candidates.x[candidates.count..candidates.count + LANES].fill(FAR);
-        if candidates.stride < candidates.count + LANES {
-            candidates.stride = (candidates.count + LANES) * 2;
-            candidates.lists.resize(candidates.stride * LANES, 0);
-        }
     }
 
     /// Appends to the lists of `range` the candidates within the radius.
@@ -256,7 +251,10 @@ impl Task<'_> {
         } = candidates;
         for lane in range {
             let query = [0, 1, 2].map(|axis| lanes::splat(simd, queries[lane][axis]));
-            let list = &mut lists[lane * *stride..(lane + 1) * *stride];
+            let list = &mut lists[lane];
+            if list.len() < *count + LANES {
+                list.resize(*count + LANES, 0);
+            }
             let mut length = 0;
             for at in (0..*count).step_by(LANES) {
                 let dx = lanes::load(simd, x, at) - query[0];
@@ -274,11 +272,14 @@ impl Task<'_> {
 
     /// Appends the lists of eight queries, one entry for all k-th neighbours.
     #[inline(always)]
-    fn interleave(&self, candidates: &Candidates, entries: &mut Vec<[u32; LANES]>) {
+    fn interleave(&self, candidates: &mut Candidates, entries: &mut Vec<[u32; LANES]>) {
         let length = candidates.lengths.into_iter().max().unwrap_or(0);
-        let stride = candidates.stride;
-        let lists: [&[u32]; LANES] =
-            std::array::from_fn(|lane| &candidates.lists[lane * stride..lane * stride + length]);
+        for list in &mut candidates.lists {
+            if list.len() < length {
+                list.resize(length, 0);
+            }
+        }
+        let lists: [&[u32]; LANES] = std::array::from_fn(|lane| &candidates.lists[lane][..length]);
         let first = entries.len();
         entries.extend((0..length).map(|k| std::array::from_fn(|lane| lists[lane][k])));
         let entries = &mut entries[first..];
