@@ -1,6 +1,8 @@
 //! The smoothing function: Wendland's C2 kernel [W95; DA12].
 //!
-//!     W(r) = 21 / (2 pi H^3) (1 - q)^4 (4 q + 1),   q = r / H < 1
+//! ```text
+//! W(r) = 21 / (2 pi H^3) (1 - q)^4 (4 q + 1),   q = r / H < 1
+//! ```
 //!
 //! Differs from the paper, which names no kernel: it is its own gradient's potential (density and pressure
 //! agree, so that pressure conserves energy), it never lets particles pair, and gradient and value need one

@@ -1,7 +1,9 @@
 //! Drag of the sponge on the particles: the impulse that each would lose to it (the paper, section 3.3).
 //!
-//!     u_i = sum_a V_a W_ia u_a / chi_i                           velocity of the sponge at the particle
-//!     J_i = m h beta_i / (1 + h beta_i) (v_i - u_i)              linear drag, implicit in the particle
+//! ```text
+//! u_i = sum_a V_a W_ia u_a / chi_i                           velocity of the sponge at the particle
+//! J_i = m h beta_i / (1 + h beta_i) (v_i - u_i)              linear drag, implicit in the particle
+//! ```
 //!
 //! Differs from the paper, where the viscosity term is explicit: at the permeability of a real sponge the rate
 //! beta is thousands per second, and an explicit term would need steps of microseconds.

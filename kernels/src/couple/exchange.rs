@@ -1,6 +1,8 @@
 //! Applies the drag: particles lose what nodes gain.
 //!
-//!     v_i -= J_i / m,   u_a = u0_a + sum_i w_ia J_i / m_a
+//! ```text
+//! v_i -= J_i / m,   u_a = u0_a + sum_i w_ia J_i / m_a
+//! ```
 //!
 //! Both sides use the same J_i, so that momentum is kept at any number of sweeps of the filter.
 

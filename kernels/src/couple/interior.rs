@@ -1,6 +1,8 @@
 //! How far inside a sponge every particle is, and how fast drag acts there.
 //!
-//!     chi_i = sum_a V_a W_ia,    beta_i = sum_a V_a W_ia mu phi_a / (rho K_a)
+//! ```text
+//! chi_i = sum_a V_a W_ia,    beta_i = sum_a V_a W_ia mu phi_a / (rho K_a)
+//! ```
 //!
 //! chi is 1 deep inside and 0 outside.
 

@@ -1,6 +1,8 @@
 //! Suction: the pressure force with control nodes in place of particles (the paper, sections 3.1 and 3.3).
 //!
-//!     F_i = -V_0 sum_a V_a p_a grad W_ia
+//! ```text
+//! F_i = -V_0 sum_a V_a p_a grad W_ia
+//! ```
 //!
 //! with the control pressure p_a below zero, and a smoothing radius of its own.
 

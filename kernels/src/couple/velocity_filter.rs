@@ -1,6 +1,8 @@
 //! Velocity filter of the nodes: one Jacobi sweep of the drag solved for the nodes (the paper, section 3.3).
 //!
-//!     u_a += (m_a (u0_a - u_a) + sum_i w_ia J_i) / (m_a + sum_i w_ia k_i),   w_ia = V_a W_ia / chi_i
+//! ```text
+//! u_a += (m_a (u0_a - u_a) + sum_i w_ia J_i) / (m_a + sum_i w_ia k_i),   w_ia = V_a W_ia / chi_i
+//! ```
 //!
 //! with J_i and k_i = dJ_i/dv_i from `couple::drag`. A node weighs a fraction of the water around it: without
 //! the implicit denominator it would be thrown back and forth.

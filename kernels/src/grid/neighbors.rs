@@ -246,7 +246,6 @@ impl Task<'_> {
             row,
             count,
             lists,
-            stride,
             lengths,
         } = candidates;
         for lane in range {

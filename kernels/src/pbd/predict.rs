@@ -1,6 +1,8 @@
 //! Initial position change: semi-implicit Euler without the elastic forces (the paper, Figure 2).
 //!
-//!     y = x + h (v + h (g + a))
+//! ```text
+//! y = x + h (v + h (g + a))
+//! ```
 //!
 //! with the acceleration a by the fluid. Held nodes go where their body takes them.
 

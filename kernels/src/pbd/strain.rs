@@ -3,13 +3,17 @@
 //! All tets have the same shape at rest, so the deformation gradient needs no matrix: in the frame of the tet
 //! its columns are
 //!
-//!     f_d = (p1 - p0) / a,   f_e = (p2 - p3) / a,   f_f = (p2 + p3 - p0 - p1) / a
+//! ```text
+//! f_d = (p1 - p0) / a,   f_e = (p2 - p3) / a,   f_f = (p2 + p3 - p0 - p1) / a
+//! ```
 //!
 //! and the frame itself does not matter to isotropic constraints. Per tet, one after the other:
 //!
-//!     stretch  C = |f_k| - 1,   shear  C = f_k . f_l,   volume  C = f_d . (f_e x f_f) - 1
-//!     dl = -(C + (tau / h) grad C . (p - x)) / ((1 + tau / h) sum w |grad C|^2 + 1 / (M V h^2))
-//!     p += w dl grad C
+//! ```text
+//! stretch  C = |f_k| - 1,   shear  C = f_k . f_l,   volume  C = f_d . (f_e x f_f) - 1
+//! dl = -(C + (tau / h) grad C . (p - x)) / ((1 + tau / h) sum w |grad C|^2 + 1 / (M V h^2))
+//! p += w dl grad C
+//! ```
 //!
 //! Differs from the paper: a constraint has a modulus M [Pa] and a damping time tau [s] instead of a stiffness
 //! between 0 and 1 (compliance of [MMC16]), so that the sponge does not stiffen when the step shrinks.

@@ -1,6 +1,8 @@
 //! Velocity from the corrected positions (the paper, Figure 2).
 //!
-//!     v = (y - x) / h,   x <- y
+//! ```text
+//! v = (y - x) / h,   x <- y
+//! ```
 
 use crate::{
     columns::{Column::*, Columns, Nodes},

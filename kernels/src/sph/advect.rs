@@ -1,6 +1,8 @@
 //! Second half of semi-implicit Euler: position by velocity, kept inside the walls.
 //!
-//!     x <- x + h v
+//! ```text
+//! x <- x + h v
+//! ```
 //!
 //! The repulsion is elastic and can be overrun; the clamp cannot, at any speed. A particle that is clamped
 //! loses its speed into the wall.

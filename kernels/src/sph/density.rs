@@ -1,6 +1,8 @@
 //! Mass density by summation [MCG03, eq. 3].
 //!
-//!     rho_i = sum_j m W(|x_i - x_j|)
+//! ```text
+//! rho_i = sum_j m W(|x_i - x_j|)
+//! ```
 
 use crate::{
     columns::{Column::*, Columns, Fluid},

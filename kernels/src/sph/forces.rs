@@ -1,7 +1,9 @@
 //! Acceleration by gravity, pressure [M92, eq. 3.3] and viscosity [MCG03, eq. 14, made symmetric].
 //!
-//!     a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij
-//!             + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)
+//! ```text
+//! a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij
+//!         + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)
+//! ```
 //!
 //! Both sums are equal and opposite for the two particles of a pair.
 

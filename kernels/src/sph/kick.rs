@@ -1,6 +1,8 @@
 //! First half of semi-implicit Euler: velocity by acceleration.
 //!
-//!     v <- v + h a
+//! ```text
+//! v <- v + h a
+//! ```
 
 use crate::{
     columns::{Column::*, Columns, Fluid},

@@ -1,7 +1,9 @@
 //! Pressure by an equation of state, not below zero [MCG03, eq. 12; M94].
 //!
-//!     linear:  p = c^2 (rho - rho_0)
-//!     Tait:    p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)
+//! ```text
+//! linear:  p = c^2 (rho - rho_0)
+//! Tait:    p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)
+//! ```
 //!
 //! Negative pressure at a free surface would make particles clump; there the density is too low only because
 //! half of the neighbours are missing.

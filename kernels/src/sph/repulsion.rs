@@ -1,6 +1,8 @@
 //! Elastic repulsion of particles from walls and bodies (the paper, section 3.1).
 //!
-//!     a_i += (k (R - d) - c v_n) n   where the distance d from the surface is less than R, not pulling
+//! ```text
+//! a_i += (k (R - d) - c v_n) n   where the distance d from the surface is less than R, not pulling
+//! ```
 //!
 //! Bodies receive the opposite, as one wrench per chunk of particles.
 

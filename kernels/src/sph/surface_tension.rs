@@ -1,6 +1,8 @@
 //! Surface tension from the colour field [MCG03, eqs. 15 to 19].
 //!
-//!     n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1
+//! ```text
+//! n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1
+//! ```
 //!
 //! Not an exchange between pairs: momentum is kept only on average.
 
