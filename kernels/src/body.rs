@@ -110,6 +110,17 @@ pub struct Body {
     pub touches_nodes: bool,
 }
 
+impl Body {
+    /// Signed distance of a world point from the surface [m], negative inside.
+    #[must_use]
+    pub fn distance(&self, point: Vec3) -> f32 {
+        lanes::dispatch!(fearless_simd::Level::baseline(), simd => {
+            let point = point.to_array().map(|value| lanes::splat(simd, value));
+            Placed::new(simd, self).distance(point).0[0]
+        })
+    }
+}
+
 /// All bodies.
 #[derive(Clone, Debug, Default)]
 pub struct Bodies(pub Vec<Body>);

@@ -200,7 +200,7 @@ columns! {
         NodeTopology = topology: Topology, "1", Constant;
         /// Predicted position, corrected by the constraints; w: inverse mass [1/kg].
         NodePredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
-        /// Acceleration by the fluid; w: unused.
+        /// External acceleration, by gravity and the fluid; w: unused.
         NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         NodeSaturation = saturation: Vec<f32>, "1", Scratch;

@@ -62,6 +62,7 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::repulsion::KERNEL,
     &sph::kick::KERNEL,
     &sph::advect::KERNEL,
+    &pbd::gravity::KERNEL,
     &pbd::predict::KERNEL,
     &pbd::strain::KERNEL,
     &pbd::contact::KERNEL,

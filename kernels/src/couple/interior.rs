@@ -7,11 +7,13 @@
 //! chi is 1 deep inside and 0 outside.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
     cpu::Cpu,
+    grid::{cells::Cells, neighbors::Neighbors, sort::permute},
     kernel::{Kernel, Need},
     lanes::{self, LANES, with_lanes},
     params::Params,
+    smoothing::Wendland,
 };
 
 /// `couple::interior`.
@@ -68,4 +70,44 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             });
         },
     );
+}
+
+/// Kernel sum of node volumes at every node, as the nodes lie now; set-up calls it at rest.
+#[must_use]
+pub fn node_interior(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<f32> {
+    let (nodes, count) = (&columns.nodes, columns.rows.nodes);
+    let mut cells = Cells::default();
+    cells.build(
+        cpu,
+        &nodes.position[..count],
+        params.coupling.support_radius,
+        params.domain,
+    );
+    let mut sorted = vec![FAR_ROW; padded(count)];
+    permute(cpu, &cells.order, &nodes.position, &mut sorted);
+    for (row, node) in sorted.iter_mut().zip(&cells.order) {
+        row[3] = nodes.volume[*node as usize];
+    }
+    let mut lists = Neighbors::default();
+    lists.build(
+        cpu,
+        (&sorted, count),
+        (&sorted, count),
+        &cells,
+        params.coupling.support_radius,
+    );
+    let radius = f64::from(params.coupling.support_radius);
+    let mut interior = vec![0.0; nodes.position.len()];
+    for (row, node) in cells.order.iter().enumerate() {
+        let sum: f64 = lists
+            .of(row, count)
+            .map(|other| {
+                let (a, b) = (sorted[row], sorted[other as usize]);
+                let square: f64 = (0..3).map(|axis| f64::from(a[axis] - b[axis]).powi(2)).sum();
+                f64::from(b[3]) * Wendland::value_f64(radius, square.sqrt())
+            })
+            .sum();
+        interior[*node as usize] = sum as f32;
+    }
+    interior
 }

@@ -29,6 +29,7 @@ pub static KERNEL: Kernel = Kernel {
         ControlSuction,
         NodePosition,
         NodeSponge,
+        NodeAcceleration,
     ],
     writes: &[NodeAcceleration],
     cpu,
@@ -63,6 +64,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     for (node, force) in controls.node.iter().zip(&force) {
         let node = *node as usize;
         let scale = params.sponges[nodes.sponge[node] as usize].reaction * nodes.position[node][3];
-        nodes.acceleration[node] = [force[0] * scale, force[1] * scale, force[2] * scale, 0.0];
+        (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * scale);
     }
 }

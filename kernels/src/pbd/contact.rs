@@ -76,7 +76,7 @@ impl Task<'_> {
                 let (distance, normal) = placed.distance([0, 1, 2].map(|axis| point[axis] - drift[axis]));
                 let depth = lanes::positive(simd, -distance) * touchable(simd, w);
                 let slide = [0, 1, 2].map(|axis| point[axis] - old[axis] - drift[axis]);
-                let change = contact(simd, depth, normal, slide, body.friction);
+                let change = contact(simd, depth, normal, slide, lanes::splat(simd, body.friction));
                 point = [0, 1, 2].map(|axis| point[axis] + change[axis]);
                 self.react(
                     depth.to_array(),
@@ -98,11 +98,14 @@ impl Task<'_> {
             return;
         };
         let zero = lanes::splat(simd, 0.0);
-        let friction = self
-            .params
-            .sponges
-            .get(self.sponge.get(row).copied().unwrap_or(0) as usize);
-        let friction = friction.map_or(0.0, |sponge| sponge.friction);
+        // Eight nodes may belong to several sponges, or to none where rows are padding.
+        let friction = f32x8::from_fn(simd, |lane| {
+            let sponge = self
+                .sponge
+                .get(row + lane)
+                .and_then(|sponge| self.params.sponges.get(*sponge as usize));
+            sponge.map_or(0.0, |sponge| sponge.friction)
+        });
         for axis in 0..3 {
             for (sign, wall) in [(1.0, minimum[axis]), (-1.0, maximum[axis])] {
                 let distance = (point[axis] - wall) * sign;
@@ -155,7 +158,7 @@ fn contact<S: Simd>(
     depth: f32x8<S>,
     normal: Vec3x8<S>,
     slide: Vec3x8<S>,
-    friction: f32,
+    friction: f32x8<S>,
 ) -> Vec3x8<S> {
     let one = lanes::splat(simd, 1.0);
     let along = dot(slide, normal);

@@ -1,10 +1,10 @@
 //! Initial position change: semi-implicit Euler without the elastic forces (the paper, Figure 2).
 //!
 //! ```text
-//! y = x + h (v + h (g + a))
+//! y = x + h (v + h a)
 //! ```
 //!
-//! with the acceleration a by the fluid. Held nodes go where their body takes them.
+//! with the external acceleration a, by gravity and fluid. Held nodes go where their body takes them.
 
 use glam::{Mat3, Vec3};
 
@@ -54,7 +54,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let (x, v, a) = (position[node], velocity[node], acceleration[node]);
             let y = match bodies.get(grip[node] as usize) {
                 Some(body) => held(body, grip_offset[node], h).to_array(),
-                None => [0, 1, 2].map(|axis| x[axis] + h * (v[axis] + h * (params.gravity[axis] + a[axis]))),
+                None => [0, 1, 2].map(|axis| x[axis] + h * (v[axis] + h * a[axis])),
             };
             *predicted = [y[0], y[1], y[2], x[3]];
         }
