@@ -1,1 +1,20 @@
-//! sorb.
+//! An absorbent sponge, the water it drinks and the bodies that squeeze it, in real time.
+
+mod clock;
+mod digest;
+mod measure;
+#[cfg(feature = "render")]
+pub mod render;
+pub mod rigid;
+pub mod scene;
+pub mod schedule;
+mod setup;
+pub mod sponge;
+mod world;
+
+pub use clock::{Bound, Clock};
+pub use measure::Measures;
+pub use sorb_kernels::{SimdLevel, body, columns, cpu, kernel, params};
+pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
+
+pub use glam;

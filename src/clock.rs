@@ -1,0 +1,159 @@
+//! How long a step may be, and what bounds it.
+
+use std::f32::consts::PI;
+
+use sorb_kernels::params::Params;
+
+use crate::scene::{Scene, Time};
+
+/// What limited a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// `time.maximum_step`.
+    Maximum,
+    /// The end of the frame.
+    Frame,
+    /// Sound and flow cross a support radius [M92].
+    Courant,
+    /// Acceleration over a support radius.
+    Acceleration,
+    /// Diffusion of velocity over a support radius.
+    Viscosity,
+    /// Capillary waves.
+    SurfaceTension,
+    /// Suction against the mass of a dry node.
+    Suction,
+    /// Nodes cross a quarter of the lattice constant.
+    SpongeSpeed,
+}
+
+impl Bound {
+    /// Name as it appears in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Maximum => "maximum_step",
+            Self::Frame => "frame",
+            Self::Courant => "courant",
+            Self::Acceleration => "acceleration",
+            Self::Viscosity => "viscosity",
+            Self::SurfaceTension => "surface_tension",
+            Self::Suction => "suction",
+            Self::SpongeSpeed => "sponge_speed",
+        }
+    }
+}
+
+/// Time since the start, and what the last step found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Clock {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Frames completed by [`crate::World::advance_frame`].
+    pub frames: u64,
+    /// Largest speed of a particle after the last step [m/s].
+    pub(crate) fluid_speed: f32,
+    /// Largest acceleration of a particle in the last step [m/s^2].
+    pub(crate) fluid_acceleration: f32,
+    /// Largest speed of a node after the last step [m/s].
+    pub(crate) node_speed: f32,
+}
+
+/// Bounds that do not change from step to step.
+#[derive(Clone, Debug)]
+pub(crate) struct Steps {
+    time: Time,
+    constant: (f32, Bound),
+    edge: f32,
+}
+
+impl Steps {
+    pub(crate) fn new(scene: &Scene, params: &Params) -> Self {
+        let mut bounds = vec![(scene.time.maximum_step, Bound::Maximum)];
+        let fluid = &params.fluid;
+        if scene.fluid.is_some() {
+            let h = fluid.smoothing.support_radius;
+            let viscosity = fluid.viscosity / fluid.rest_density;
+            bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
+            let capillary = fluid.rest_density * h * h * h / (2.0 * PI * fluid.surface_tension);
+            bounds.push((0.25 * capillary.sqrt(), Bound::SurfaceTension));
+            for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
+                // The springs of one node add up to 14 p V / H^2 for a kernel that is full of water.
+                let radius = params.coupling.support_radius;
+                let pressure = sponge.entry_pressure * (1.0 + sponge.saturation_gain) * sponge.reaction;
+                let frequency = (14.0 * pressure / (scene.density * radius * radius)).sqrt();
+                bounds.push((1.0 / frequency, Bound::Suction));
+            }
+        }
+        let constant = smallest(&bounds);
+        let edge = params
+            .sponges
+            .iter()
+            .map(|sponge| sponge.edge)
+            .fold(f32::INFINITY, f32::min);
+        Self {
+            time: scene.time,
+            constant,
+            edge,
+        }
+    }
+
+    /// Longest stable step after the last one, not beyond the time that is left of a frame.
+    pub(crate) fn next(&self, params: &Params, clock: &Clock, left: f64) -> (f32, Bound) {
+        let mut bounds = vec![self.constant];
+        let fluid = &params.fluid;
+        let h = fluid.smoothing.support_radius;
+        if fluid.particle_mass > 0.0 {
+            bounds.push((
+                self.time.courant * h / (fluid.sound_speed + clock.fluid_speed),
+                Bound::Courant,
+            ));
+            bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
+        }
+        bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
+        let (step, bound) = smallest(&bounds);
+        if f64::from(step) >= left {
+            return (left as f32, Bound::Frame);
+        }
+        // Two equal steps instead of a whole one and a sliver.
+        if f64::from(step) * 2.0 > left {
+            ((left * 0.5) as f32, Bound::Frame)
+        } else {
+            (step, bound)
+        }
+    }
+
+    /// Shortest step that is allowed [s].
+    pub(crate) fn minimum(&self) -> f32 {
+        self.time.minimum_step
+    }
+}
+
+/// The smallest bound; one that is not a number bounds nothing (a speed of zero over an acceleration of zero).
+fn smallest(bounds: &[(f32, Bound)]) -> (f32, Bound) {
+    let mut best = bounds[0];
+    for bound in &bounds[1..] {
+        if bound.0 < best.0 {
+            best = *bound;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smallest_bound_wins_and_not_a_number_never_does() {
+        let bounds = [
+            (2.0, Bound::Maximum),
+            (f32::NAN, Bound::Suction),
+            (1.0, Bound::Courant),
+        ];
+        assert_eq!(smallest(&bounds), (1.0, Bound::Courant));
+        assert_eq!(smallest(&bounds[..2]), (2.0, Bound::Maximum));
+    }
+}

@@ -1,0 +1,161 @@
+//! Measures of a state: what conservation, validation and tables need, in f64.
+
+use glam::DVec3;
+
+use crate::{World, rigid::Mechanics};
+
+/// Interior value above which a particle counts as inside a sponge: its value at a flat surface.
+const INSIDE: f32 = 0.5;
+
+/// Masses, momenta, energies and errors of one state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measures {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Mass of all water [kg].
+    pub water_mass: f64,
+    /// Mass of the water inside sponges [kg].
+    pub absorbed_mass: f64,
+    /// Pore volume filled with water over pore volume, mean over the nodes [1].
+    pub saturation: f64,
+    /// Height of the highest node that is more than half saturated above the lowest node [m].
+    pub wicking_height: f64,
+    /// Volume of all sponges [m^3].
+    pub sponge_volume: f64,
+    /// Centre of mass of the dry sponges [m].
+    pub sponge_centre: DVec3,
+    /// Momentum of water, sponges and bodies [kg m/s].
+    pub linear_momentum: DVec3,
+    /// Angular momentum about the origin [kg m^2/s].
+    pub angular_momentum: DVec3,
+    /// Kinetic energy [J].
+    pub kinetic_energy: f64,
+    /// Energy of height in the field of gravity, zero at the origin [J].
+    pub potential_energy: f64,
+    /// Energy of the strained sponges [J].
+    pub elastic_energy: f64,
+    /// Largest speed of particles and nodes [m/s].
+    pub maximum_speed: f64,
+    /// Mean of max(rho / rho_0 - 1, 0) over the particles [1].
+    pub mean_density_error: f64,
+    /// Largest rho / rho_0 - 1, not below zero [1].
+    pub maximum_density_error: f64,
+}
+
+impl Measures {
+    pub(crate) fn of(world: &World) -> Self {
+        let mut measures = Self {
+            time: world.clock().time,
+            ..Self::default()
+        };
+        measures.add_water(world);
+        measures.add_sponges(world);
+        for body in 0..world.bodies().len() {
+            if let Some(body) = Mechanics::of(world.rigid_engine(), body, world.scene().gravity) {
+                measures.linear_momentum += body.linear_momentum;
+                measures.angular_momentum += body.angular_momentum;
+                measures.kinetic_energy += body.kinetic_energy;
+                measures.potential_energy += body.potential_energy;
+            }
+        }
+        measures
+    }
+
+    fn add_point(&mut self, mass: f64, position: DVec3, velocity: DVec3, gravity: DVec3) {
+        self.linear_momentum += velocity * mass;
+        self.angular_momentum += position.cross(velocity) * mass;
+        self.kinetic_energy += 0.5 * mass * velocity.length_squared();
+        self.potential_energy -= mass * gravity.dot(position);
+        self.maximum_speed = self.maximum_speed.max(velocity.length());
+    }
+
+    fn add_water(&mut self, world: &World) {
+        let fluid = &world.columns().fluid;
+        let (mass, gravity) = (
+            f64::from(world.params().fluid.particle_mass),
+            world.params().gravity.as_dvec3(),
+        );
+        let rest_density = f64::from(world.params().fluid.rest_density);
+        let count = world.particle_positions().len();
+        for (position, velocity) in world.particle_positions().iter().zip(world.particle_velocities()) {
+            self.add_point(mass, vector(position), vector(velocity), gravity);
+        }
+        self.water_mass = mass * count as f64;
+        let inside = fluid
+            .interior
+            .iter()
+            .take(count)
+            .filter(|interior| **interior > INSIDE)
+            .count();
+        self.absorbed_mass = mass * inside as f64;
+        for density in fluid.density.iter().take(count) {
+            let error = (f64::from(*density) / rest_density - 1.0).max(0.0);
+            self.mean_density_error += error / count as f64;
+            self.maximum_density_error = self.maximum_density_error.max(error);
+        }
+    }
+
+    fn add_sponges(&mut self, world: &World) {
+        let (lattice, scene) = (world.lattice(), world.scene());
+        let gravity = scene.gravity.as_dvec3();
+        let (mut mass, mut volume, mut lowest) = (0.0, 0.0, f64::INFINITY);
+        for (node, position) in world.node_positions().iter().enumerate() {
+            let sponge = &scene.sponges[lattice.node_sponge[node] as usize];
+            let node_volume = f64::from(lattice.node_volume[node]);
+            let node_mass = node_volume * f64::from(sponge.density);
+            let position = vector(position);
+            self.add_point(
+                node_mass,
+                position,
+                vector(&world.node_velocities()[node]),
+                gravity,
+            );
+            self.sponge_centre += position * node_mass;
+            mass += node_mass;
+            lowest = lowest.min(position.y);
+            if let Some(saturation) = world.node_saturations().get(node) {
+                self.saturation += f64::from(*saturation) * node_volume;
+                volume += node_volume;
+                if *saturation > 0.5 {
+                    self.wicking_height = self.wicking_height.max(position.y);
+                }
+            }
+        }
+        if mass > 0.0 {
+            self.sponge_centre /= mass;
+        }
+        if volume > 0.0 {
+            self.saturation /= volume;
+        }
+        self.wicking_height = (self.wicking_height - lowest).max(0.0);
+        self.add_tets(world);
+    }
+
+    /// Volume and strain energy of the tets, as `pbd::strain` defines them.
+    fn add_tets(&mut self, world: &World) {
+        let nodes = world.node_positions();
+        for (tet, sponge) in world.lattice().tets.iter().zip(&world.lattice().tet_sponge) {
+            let sponge = &world.params().sponges[*sponge as usize];
+            let edge = f64::from(sponge.edge);
+            let [p0, p1, p2, p3] = tet.map(|node| vector(&nodes[node as usize]));
+            let (d, e, f) = ((p1 - p0) / edge, (p2 - p3) / edge, (p2 + p3 - p0 - p1) / edge);
+            let ratio = d.dot(e.cross(f));
+            let rest = edge.powi(3) / 12.0;
+            let stretch: f64 = [d, e, f]
+                .iter()
+                .map(|column| (column.length() - 1.0).powi(2))
+                .sum();
+            let shear = d.dot(e).powi(2) + d.dot(f).powi(2) + e.dot(f).powi(2);
+            self.sponge_volume += rest * ratio;
+            self.elastic_energy += 0.5
+                * rest
+                * (f64::from(sponge.stretch_modulus) * stretch
+                    + f64::from(sponge.shear_modulus) * shear
+                    + f64::from(sponge.volume_modulus) * (ratio - 1.0).powi(2));
+        }
+    }
+}
+
+fn vector(row: &[f32; 4]) -> DVec3 {
+    DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]))
+}

@@ -1,0 +1,26 @@
+//! Work on independent bands of rows, on all threads or one: what a band computes does not depend on which.
+
+/// Rows of samples in a band; fixed, so that the work is cut the same way whatever the number of threads.
+pub(super) const BAND: usize = 32;
+
+/// Runs `work` on every job.
+pub(super) fn each<J: Send>(jobs: Vec<J>, work: impl Fn(J) + Sync + Send) {
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        jobs.into_par_iter().for_each(work);
+    }
+    #[cfg(not(feature = "threads"))]
+    jobs.into_iter().for_each(work);
+}
+
+/// Runs `work(first row, rows)` on bands of `rows` rows of a buffer of `width` columns.
+pub(super) fn each_band<T: Send>(
+    buffer: &mut [T],
+    width: usize,
+    rows: usize,
+    work: impl Fn(usize, &mut [T]) + Sync + Send,
+) {
+    let jobs = buffer.chunks_mut(width * rows).enumerate().collect();
+    each(jobs, |(index, band): (usize, &mut [T])| work(index * rows, band));
+}

@@ -1,0 +1,225 @@
+//! Rays against the bodies' shapes.
+
+use super::DrawnBody;
+use crate::body::Shape;
+use glam::{Mat3, Vec3};
+
+/// A body ready for rays.
+pub(super) struct Solid<'a> {
+    shape: &'a Shape,
+    /// Place in the picture's list, which also picks the colour.
+    pub(super) index: usize,
+    pub(super) position: Vec3,
+    /// Local to world.
+    pub(super) rotation: Mat3,
+    /// Radius of a ball around the origin that holds the shape; infinite for a plane.
+    pub(super) radius: f32,
+    pub(super) translucent: bool,
+}
+
+/// Where a ray is inside a shape.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    pub(super) enter: f32,
+    pub(super) exit: f32,
+    /// Outward normal where it enters and where it leaves.
+    pub(super) normal: Vec3,
+    pub(super) exit_normal: Vec3,
+}
+
+impl<'a> Solid<'a> {
+    /// The body, or nothing where its pose or size is not usable.
+    pub(super) fn new(index: usize, body: &DrawnBody<'a>) -> Option<Self> {
+        let radius = match body.shape {
+            Shape::Plane => f32::INFINITY,
+            Shape::Sphere { radius } => *radius,
+            Shape::Cuboid { half_extents } => half_extents.length(),
+            Shape::Capsule { half_height, radius } => half_height + radius,
+            Shape::Hull { vertices, .. } => vertices.iter().map(|v| v.length()).fold(0.0, f32::max),
+        };
+        let rotation = body.state.rotation;
+        let usable = body.state.position.is_finite()
+            && rotation.is_finite()
+            && rotation.length_squared() > 1e-12
+            && radius > 0.0;
+        usable.then(|| Self {
+            shape: body.shape,
+            index,
+            position: body.state.position,
+            rotation: Mat3::from_quat(rotation.normalize()),
+            radius,
+            translucent: body.translucent,
+        })
+    }
+
+    pub(super) fn is_plane(&self) -> bool {
+        matches!(self.shape, Shape::Plane)
+    }
+
+    pub(super) fn local(&self, point: Vec3) -> Vec3 {
+        self.rotation.transpose() * (point - self.position)
+    }
+
+    /// The stretch of a ray inside the shape, if the ray starts outside and hits; normals in world axes.
+    pub(super) fn span(&self, origin: Vec3, direction: Vec3) -> Option<Span> {
+        let inverse = self.rotation.transpose();
+        let (o, d) = (inverse * (origin - self.position), inverse * direction);
+        let span = match self.shape {
+            Shape::Plane => plane(o, d),
+            Shape::Sphere { radius } => ball(o, d, *radius),
+            Shape::Cuboid { half_extents } => cuboid(o, d, *half_extents),
+            Shape::Capsule { half_height, radius } => capsule(o, d, *half_height, *radius),
+            Shape::Hull { planes, .. } => hull(o, d, planes),
+        }?;
+        (span.enter > 0.0).then(|| Span {
+            normal: self.rotation * span.normal,
+            exit_normal: self.rotation * span.exit_normal,
+            ..span
+        })
+    }
+
+    /// How far a point on the surface is from the nearest edge of the shape (m): only cuboids have edges to show.
+    pub(super) fn edge_distance(&self, point: Vec3) -> f32 {
+        let Shape::Cuboid { half_extents } = self.shape else {
+            return f32::INFINITY;
+        };
+        let inside = (*half_extents - self.local(point).abs())
+            .max(Vec3::ZERO)
+            .to_array();
+        // The smallest of the three is the face the point lies on; the next one is the way to an edge.
+        let [a, b, c] = inside;
+        a.max(b).min(a.max(c)).min(b.max(c))
+    }
+
+    /// Lightness factor of the painted marks that make rotation visible.
+    pub(super) fn mark(&self, point: Vec3) -> f32 {
+        let p = self.local(point);
+        match self.shape {
+            Shape::Sphere { radius } if p.y.abs() < 0.16 * radius => 1.9,
+            Shape::Capsule { radius, .. } if p.x.abs() < 0.22 * radius => 1.7,
+            _ => 1.0,
+        }
+    }
+}
+
+fn plane(o: Vec3, d: Vec3) -> Option<Span> {
+    // Seen from its outer side only: a wall between the eye and the scene would hide everything.
+    (o.y > 0.0 && d.y < 0.0).then(|| Span {
+        enter: -o.y / d.y,
+        exit: f32::INFINITY,
+        normal: Vec3::Y,
+        exit_normal: Vec3::NEG_Y,
+    })
+}
+
+fn ball(o: Vec3, d: Vec3, radius: f32) -> Option<Span> {
+    let a = d.length_squared();
+    let b = -o.dot(d);
+    // The cross product keeps digits that b * b - a * c would lose for a small ball far away.
+    let discriminant = a * radius * radius - o.cross(d).length_squared();
+    if discriminant <= 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let (enter, exit) = ((b - root) / a, (b + root) / a);
+    Some(Span {
+        enter,
+        exit,
+        normal: (o + d * enter) / radius,
+        exit_normal: (o + d * exit) / radius,
+    })
+}
+
+fn cuboid(o: Vec3, d: Vec3, half: Vec3) -> Option<Span> {
+    let mut span = Span {
+        enter: f32::MIN,
+        exit: f32::MAX,
+        normal: Vec3::ZERO,
+        exit_normal: Vec3::ZERO,
+    };
+    for axis in 0..3 {
+        let outward = Vec3::AXES[axis];
+        clip(&mut span, outward, half[axis], o, d)?;
+        clip(&mut span, -outward, half[axis], o, d)?;
+    }
+    Some(span)
+}
+
+fn hull(o: Vec3, d: Vec3, planes: &[(Vec3, f32)]) -> Option<Span> {
+    let mut span = Span {
+        enter: f32::MIN,
+        exit: f32::MAX,
+        normal: Vec3::ZERO,
+        exit_normal: Vec3::ZERO,
+    };
+    for &(normal, offset) in planes {
+        clip(&mut span, normal, offset, o, d)?;
+    }
+    (span.enter > f32::MIN && span.exit < f32::MAX).then_some(span)
+}
+
+/// Cuts a span at the half-space `normal . x <= offset`.
+fn clip(span: &mut Span, normal: Vec3, offset: f32, o: Vec3, d: Vec3) -> Option<()> {
+    let (slope, gap) = (normal.dot(d), offset - normal.dot(o));
+    if slope < 0.0 {
+        let t = gap / slope;
+        if t > span.enter {
+            (span.enter, span.normal) = (t, normal);
+        }
+    } else if slope > 0.0 {
+        let t = gap / slope;
+        if t < span.exit {
+            (span.exit, span.exit_normal) = (t, normal);
+        }
+    } else if gap < 0.0 {
+        return None;
+    }
+    (span.enter < span.exit).then_some(())
+}
+
+fn capsule(o: Vec3, d: Vec3, half_height: f32, radius: f32) -> Option<Span> {
+    let mut best: Option<Span> = None;
+    let mut keep = |span: Span| {
+        best = Some(match best {
+            None => span,
+            Some(old) => {
+                let first = if span.enter < old.enter { span } else { old };
+                let last = if span.exit > old.exit { span } else { old };
+                Span {
+                    exit: last.exit,
+                    exit_normal: last.exit_normal,
+                    ..first
+                }
+            }
+        });
+    };
+    for end in [half_height, -half_height] {
+        if let Some(span) = ball(o - Vec3::Y * end, d, radius) {
+            keep(span);
+        }
+    }
+    // Between the caps: the ball's formula in the plane across the axis.
+    let flat = Vec3::new(1.0, 0.0, 1.0);
+    if (d.x != 0.0 || d.z != 0.0)
+        && let Some(span) = ball(o * flat, d * flat, radius)
+    {
+        {
+            let within = |t: f32| (o.y + d.y * t).abs() <= half_height;
+            match (within(span.enter), within(span.exit)) {
+                (true, true) => keep(span),
+                (true, false) => keep(Span {
+                    exit: span.enter,
+                    exit_normal: span.normal,
+                    ..span
+                }),
+                (false, true) => keep(Span {
+                    enter: span.exit,
+                    normal: span.exit_normal,
+                    ..span
+                }),
+                (false, false) => {}
+            }
+        }
+    }
+    best
+}

@@ -1,0 +1,86 @@
+//! Rigid bodies: what moves them, and the one door through which fluid and sponge push them.
+//!
+//! A [`RigidEngine`] takes one [`Wrench`] per body and advances the bodies by one step. [`ScriptedEngine`]
+//! knows fixed and kinematic bodies only and needs no physics engine. With the feature `rigid`,
+//! `RapierEngine` adds dynamic bodies, moved by rapier3d. A host with an engine of its own implements the
+//! trait instead.
+//!
+//! The same inputs give the same bits on every run: bodies are inserted in the order given, nothing sleeps,
+//! and scripted poses are evaluated in closed form from the time, with trigonometry that does not depend on
+//! the platform.
+
+mod error;
+#[cfg(feature = "rigid")]
+mod hull;
+mod mass;
+mod mechanics;
+#[cfg(feature = "rigid")]
+mod rapier;
+mod script;
+mod scripted;
+mod setup;
+#[cfg(test)]
+mod tests;
+
+// The contracts shared with the kernels and the scene. The files of this folder take them from here.
+use crate::body::{BodyKind, BodyState, Shape, Wrench};
+use crate::scene::Motion;
+
+pub use error::RigidError;
+#[cfg(feature = "rigid")]
+pub use hull::{ConvexHull, HullError, MAX_HULL_VERTICES, convex_hull};
+pub use mass::MassProperties;
+pub use mechanics::Mechanics;
+#[cfg(feature = "rigid")]
+pub use rapier::RapierEngine;
+pub use scripted::ScriptedEngine;
+pub use setup::BodySetup;
+
+use glam::Mat3;
+use std::fmt;
+
+/// What the simulator needs from whatever moves the rigid bodies.
+///
+/// Bodies are numbered from zero in the order in which they were given; the numbers never change.
+/// [`BodyState`] is at the centre of mass, in the world's frame, in SI units.
+///
+/// The per-body methods may panic if `index` is not less than [`body_count`](Self::body_count).
+pub trait RigidEngine: fmt::Debug + Send {
+    /// Number of bodies.
+    fn body_count(&self) -> usize;
+
+    /// Who moves the body.
+    fn kind(&self, index: usize) -> BodyKind;
+
+    /// Pose and velocity now.
+    ///
+    /// The velocity of a kinematic body is the one that it keeps from now on, hence zero once its motion is
+    /// over.
+    fn state(&self, index: usize) -> BodyState;
+
+    /// Inverse of the mass \[1/kg\]; zero for fixed and kinematic bodies.
+    fn inverse_mass(&self, index: usize) -> f32;
+
+    /// Inverse of the inertia about the centre of mass, in the world's frame \[1/(kg m²)\]; zero for fixed and
+    /// kinematic bodies.
+    fn inverse_inertia(&self, index: usize) -> Mat3;
+
+    /// Applies one wrench per body at once, then advances all bodies by `dt` \[s\], which may differ from step
+    /// to step.
+    ///
+    /// Wrenches on fixed and kinematic bodies have no effect.
+    ///
+    /// # Errors
+    /// `dt` that is not finite and above zero, a wrong number of wrenches, or a wrench that is not finite:
+    /// nothing has moved then. A state that is no longer finite after the step: the run cannot go on.
+    fn step(&mut self, dt: f32, wrenches: &[Wrench]) -> Result<(), RigidError>;
+
+    /// Copies the engine with everything that its future depends on: the copy continues with the same bits.
+    fn boxed_clone(&self) -> Box<dyn RigidEngine>;
+}
+
+impl Clone for Box<dyn RigidEngine> {
+    fn clone(&self) -> Self {
+        (**self).boxed_clone()
+    }
+}

@@ -1,0 +1,424 @@
+use super::hull::check_hull;
+use super::mass::principal_moments;
+use super::script::Script;
+use super::setup::{check_step, checked_state};
+use super::{
+    BodyKind, BodySetup, BodyState, HullError, MassProperties, RigidEngine, RigidError, Shape, Wrench,
+};
+use glam::{Mat3, Vec3};
+use rapier3d::parry::mass_properties::MassProperties as RapierMass;
+use rapier3d::prelude::{
+    BroadPhaseBvh, CCDSolver, CoefficientCombineRule, ColliderBuilder, ColliderSet, FrictionModel,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsPipeline,
+    Pose, Real, RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SharedShape, SoftBodySet,
+};
+use std::fmt;
+
+/// Speed limit that rapier3d would enforce silently; a body that fast is caught as diverged instead.
+const NO_SPEED_LIMIT: Real = Real::MAX;
+
+/// Bodies moved by rapier3d: dynamic, fixed and kinematic.
+///
+/// One step is one rapier3d step with the default four solver sub-steps: a free body follows
+/// `v += g h; x += v h` with `h = dt / 4`. Gyroscopic forces are on, sleeping and contact recycling are off, and
+/// lengths are scaled to the thinnest dynamic body, because rapier3d's defaults (contacts predicted 2 cm
+/// ahead) are made for bodies of a metre.
+pub struct RapierEngine {
+    gravity: Vec3,
+    names: Vec<String>,
+    kinds: Vec<BodyKind>,
+    handles: Vec<RigidBodyHandle>,
+    /// For fixed and kinematic bodies.
+    scripts: Vec<Option<Script>>,
+    states: Vec<BodyState>,
+    time: f64,
+    parameters: IntegrationParameters,
+    islands: IslandManager,
+    broad_phase: BroadPhaseBvh,
+    narrow_phase: NarrowPhase,
+    bodies: RigidBodySet,
+    colliders: ColliderSet,
+    continuous: CCDSolver,
+    pipeline: PhysicsPipeline,
+}
+
+impl RapierEngine {
+    /// Builds the bodies, in the order given, at time zero, in `gravity` \[m/s²\].
+    ///
+    /// `container` holds the lowest and the highest corner \[m\] of a box with fixed walls around all bodies; an
+    /// infinite bound leaves that side open. The walls have no friction or restitution of their own.
+    ///
+    /// # Errors
+    /// A value out of its range, a key that does not fit the kind of the body, an unusable hull, a container
+    /// without inside, or a dynamic body that starts with its centre outside it.
+    pub fn new(
+        gravity: Vec3,
+        container: Option<(Vec3, Vec3)>,
+        bodies: &[BodySetup],
+    ) -> Result<Self, RigidError> {
+        if !gravity.is_finite() {
+            return Err(RigidError::Gravity {
+                value: gravity.to_string(),
+            });
+        }
+        let mut engine = Self {
+            gravity,
+            names: bodies.iter().map(|body| body.name.clone()).collect(),
+            kinds: bodies.iter().map(|body| body.kind).collect(),
+            handles: Vec::with_capacity(bodies.len()),
+            scripts: Vec::with_capacity(bodies.len()),
+            states: Vec::with_capacity(bodies.len()),
+            time: 0.0,
+            parameters: parameters(bodies),
+            islands: IslandManager::new(),
+            broad_phase: BroadPhaseBvh::new(),
+            narrow_phase: NarrowPhase::new(),
+            bodies: RigidBodySet::new(),
+            colliders: ColliderSet::new(),
+            continuous: CCDSolver::new(),
+            pipeline: PhysicsPipeline::new(),
+        };
+        if let Some(container) = container {
+            check_container(container, bodies)?;
+            engine.add_walls(container);
+        }
+        for body in bodies {
+            engine.add(body)?;
+        }
+        Ok(engine)
+    }
+
+    /// Time since the start \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn add_walls(&mut self, (low, high): (Vec3, Vec3)) {
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            for (bound, normal) in [(low.dot(axis), axis), (high.dot(axis), -axis)] {
+                // An open side: the product of an infinite bound with a zero component is NaN.
+                if !bound.is_finite() {
+                    continue;
+                }
+                // One times the body's coefficient is the body's own.
+                let wall = ColliderBuilder::new(SharedShape::halfspace(normal))
+                    .translation(axis * bound)
+                    .friction(1.0)
+                    .restitution(1.0)
+                    .friction_combine_rule(CoefficientCombineRule::Multiply)
+                    .restitution_combine_rule(CoefficientCombineRule::Multiply);
+                self.colliders.insert(wall);
+            }
+        }
+    }
+
+    fn add(&mut self, body: &BodySetup) -> Result<(), RigidError> {
+        let state = checked_state(body)?;
+        let shape = collision_shape(body)?;
+        let mass = rapier_mass(body)?;
+        let builder = match body.kind {
+            BodyKind::Dynamic => RigidBodyBuilder::dynamic()
+                .linvel(state.linear_velocity)
+                .angvel(state.angular_velocity)
+                .gyroscopic_forces_enabled(true)
+                .ccd_enabled(true),
+            BodyKind::Fixed => RigidBodyBuilder::fixed(),
+            BodyKind::Kinematic => RigidBodyBuilder::kinematic_position_based(),
+        };
+        let script = match body.kind {
+            BodyKind::Dynamic => None,
+            BodyKind::Fixed | BodyKind::Kinematic => Some(Script::new(state, &body.motions)),
+        };
+        let state = script.as_ref().map_or(state, |script| script.state(0.0));
+        let handle = self.bodies.insert(builder.pose(pose(&state)).can_sleep(false));
+        let collider = ColliderBuilder::new(shape)
+            .mass_properties(mass)
+            .friction(body.friction)
+            .restitution(body.restitution);
+        let collider = self
+            .colliders
+            .insert_with_parent(collider, handle, &mut self.bodies);
+        // The inverse inertia has to be right before the first step too.
+        self.bodies[handle].recompute_mass_properties_from_colliders(&self.colliders);
+        debug_assert!(self.colliders.contains(collider));
+        self.handles.push(handle);
+        self.scripts.push(script);
+        self.states.push(state);
+        Ok(())
+    }
+
+    /// Refuses a wrench that would leave the range of `f32`, before anything has changed.
+    fn check_velocities(&self, wrenches: &[Wrench]) -> Result<(), RigidError> {
+        for (index, wrench) in wrenches.iter().enumerate() {
+            let linear = wrench.impulse.as_vec3() * self.inverse_mass(index);
+            let angular = self.inverse_inertia(index) * wrench.angular_impulse.as_vec3();
+            let state = &self.states[index];
+            for (quantity, velocity, value) in [
+                ("impulse", state.linear_velocity + linear, wrench.impulse),
+                (
+                    "angular_impulse",
+                    state.angular_velocity + angular,
+                    wrench.angular_impulse,
+                ),
+            ] {
+                if !velocity.is_finite() {
+                    let body = self.names[index].clone();
+                    return Err(RigidError::Wrench {
+                        body,
+                        index,
+                        quantity,
+                        value: value.to_string(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, wrenches: &[Wrench]) {
+        for (&handle, wrench) in self.handles.iter().zip(wrenches) {
+            let body = &mut self.bodies[handle];
+            body.apply_impulse(wrench.impulse.as_vec3(), true);
+            body.apply_torque_impulse(wrench.angular_impulse.as_vec3(), true);
+        }
+    }
+
+    fn advance(&mut self) {
+        self.pipeline.step(
+            self.gravity,
+            &self.parameters,
+            &mut self.islands,
+            &mut self.broad_phase,
+            &mut self.narrow_phase,
+            &mut self.bodies,
+            &mut self.colliders,
+            // Joints and soft bodies are not used: empty sets cost nothing to build.
+            &mut ImpulseJointSet::new(),
+            &mut MultibodyJointSet::new(),
+            &mut SoftBodySet::new(),
+            &mut self.continuous,
+            &(),
+            &(),
+        );
+    }
+
+    fn read_back(&mut self) -> Result<(), RigidError> {
+        for (index, &handle) in self.handles.iter().enumerate() {
+            let state = match &self.scripts[index] {
+                Some(script) => script.state(self.time),
+                None => {
+                    let body = &self.bodies[handle];
+                    BodyState {
+                        position: body.translation(),
+                        rotation: *body.rotation(),
+                        linear_velocity: body.linvel(),
+                        angular_velocity: body.angvel(),
+                    }
+                }
+            };
+            // rapier3d disables a body whose state is no longer finite.
+            if !is_finite(&state) || !self.bodies[handle].is_enabled() {
+                let body = self.names[index].clone();
+                return Err(RigidError::Diverged {
+                    body,
+                    index,
+                    time: self.time,
+                });
+            }
+            self.states[index] = state;
+        }
+        Ok(())
+    }
+}
+
+impl RigidEngine for RapierEngine {
+    fn body_count(&self) -> usize {
+        self.kinds.len()
+    }
+
+    fn kind(&self, index: usize) -> BodyKind {
+        self.kinds[index]
+    }
+
+    fn state(&self, index: usize) -> BodyState {
+        self.states[index]
+    }
+
+    fn inverse_mass(&self, index: usize) -> f32 {
+        self.bodies[self.handles[index]]
+            .mass_properties()
+            .effective_inv_mass
+            .x
+    }
+
+    fn inverse_inertia(&self, index: usize) -> Mat3 {
+        let m = self.bodies[self.handles[index]]
+            .mass_properties()
+            .effective_world_inv_inertia;
+        Mat3::from_cols_array(&[m.m11, m.m12, m.m13, m.m12, m.m22, m.m23, m.m13, m.m23, m.m33])
+    }
+
+    fn step(&mut self, dt: f32, wrenches: &[Wrench]) -> Result<(), RigidError> {
+        check_step(dt, wrenches, &self.names)?;
+        self.check_velocities(wrenches)?;
+        self.time += f64::from(dt);
+        self.parameters.dt = dt;
+        self.push(wrenches);
+        for (index, script) in self.scripts.iter().enumerate() {
+            if let (BodyKind::Kinematic, Some(script)) = (self.kinds[index], script) {
+                let target = pose(&script.state(self.time));
+                self.bodies[self.handles[index]].set_next_kinematic_position(target);
+            }
+        }
+        self.advance();
+        self.read_back()
+    }
+
+    fn boxed_clone(&self) -> Box<dyn RigidEngine> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for RapierEngine {
+    fn clone(&self) -> Self {
+        Self {
+            gravity: self.gravity,
+            names: self.names.clone(),
+            kinds: self.kinds.clone(),
+            handles: self.handles.clone(),
+            scripts: self.scripts.clone(),
+            states: self.states.clone(),
+            time: self.time,
+            parameters: self.parameters,
+            islands: self.islands.clone(),
+            broad_phase: self.broad_phase.clone(),
+            narrow_phase: self.narrow_phase.clone(),
+            bodies: self.bodies.clone(),
+            colliders: self.colliders.clone(),
+            continuous: self.continuous.clone(),
+            // A work space: rapier3d leaves it out of its own snapshots as well.
+            pipeline: PhysicsPipeline::new(),
+        }
+    }
+}
+
+impl fmt::Debug for RapierEngine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RapierEngine")
+            .field("gravity", &self.gravity)
+            .field("time", &self.time)
+            .field("names", &self.names)
+            .field("kinds", &self.kinds)
+            .field("states", &self.states)
+            .finish_non_exhaustive()
+    }
+}
+
+fn parameters(bodies: &[BodySetup]) -> IntegrationParameters {
+    let dynamic = bodies.iter().filter(|body| body.kind == BodyKind::Dynamic);
+    let thinnest = dynamic.map(|body| thickness(&body.shape)).fold(1.0, f32::min);
+    IntegrationParameters {
+        length_unit: thinnest.max(1e-3),
+        normalized_max_linear_velocity: NO_SPEED_LIMIT,
+        contact_recycling: false,
+        friction_model: FrictionModel::Coulomb,
+        ..IntegrationParameters::default()
+    }
+}
+
+/// Roughly the smallest extent \[m\].
+fn thickness(shape: &Shape) -> f32 {
+    match shape {
+        Shape::Plane => f32::INFINITY,
+        Shape::Sphere { radius } | Shape::Capsule { radius, .. } => 2.0 * radius,
+        Shape::Cuboid { half_extents } => 2.0 * half_extents.min_element(),
+        Shape::Hull { planes, .. } => planes
+            .iter()
+            .map(|&(_, offset)| 2.0 * offset)
+            .fold(f32::INFINITY, f32::min),
+    }
+}
+
+fn check_container((low, high): (Vec3, Vec3), bodies: &[BodySetup]) -> Result<(), RigidError> {
+    let container = format!("{low} to {high}");
+    // A bound that is not a number fails this comparison.
+    if !low.cmplt(high).all() {
+        return Err(RigidError::Container { value: container });
+    }
+    for body in bodies.iter().filter(|body| body.kind == BodyKind::Dynamic) {
+        let position = body.state.position;
+        if position.is_finite() && !(position.cmpge(low) & position.cmple(high)).all() {
+            let (body, value) = (body.name.clone(), position.to_string());
+            return Err(RigidError::OutsideContainer {
+                body,
+                value,
+                container,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn collision_shape(body: &BodySetup) -> Result<SharedShape, RigidError> {
+    let shape = match &body.shape {
+        Shape::Plane => SharedShape::halfspace(Vec3::Y),
+        Shape::Sphere { radius } => SharedShape::ball(*radius),
+        Shape::Cuboid { half_extents } => SharedShape::cuboid(half_extents.x, half_extents.y, half_extents.z),
+        Shape::Capsule { half_height, radius } => SharedShape::capsule_y(*half_height, *radius),
+        Shape::Hull {
+            planes,
+            vertices,
+            triangles,
+        } => {
+            let refused = |source| RigidError::Hull {
+                body: body.name.clone(),
+                source,
+            };
+            check_hull(planes, vertices, triangles).map_err(refused)?;
+            SharedShape::convex_mesh(vertices.clone(), triangles)
+                .ok_or(HullError::NotClosed)
+                .map_err(refused)?
+        }
+    };
+    Ok(shape)
+}
+
+/// Mass properties with the centre of mass exactly at the origin of the body's frame.
+fn rapier_mass(body: &BodySetup) -> Result<RapierMass, RigidError> {
+    if body.kind != BodyKind::Dynamic {
+        return Ok(RapierMass::default());
+    }
+    let Some(solid) = MassProperties::new(&body.shape, body.density) else {
+        return Ok(RapierMass::default());
+    };
+    let (moments, frame) = principal_moments(solid.inertia);
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rapier3d calculates in f32; the range is checked below"
+    )]
+    let mass = solid.mass as f32;
+    let moments = moments.as_vec3();
+    let in_range = |value: f32| value.is_finite() && (1.0 / value).is_finite();
+    if !(in_range(mass) && moments.to_array().into_iter().all(in_range)) {
+        let value = format!("{} kg, moments {moments} kg m²", solid.mass);
+        return Err(body.bad_value("mass", value, "mass and inertia within the range of f32"));
+    }
+    Ok(RapierMass::with_principal_inertia_frame(
+        Vec3::ZERO,
+        mass,
+        moments,
+        frame.as_quat(),
+    ))
+}
+
+fn pose(state: &BodyState) -> Pose {
+    Pose::from_parts(state.position, state.rotation)
+}
+
+fn is_finite(state: &BodyState) -> bool {
+    state.position.is_finite()
+        && state.rotation.is_finite()
+        && state.linear_velocity.is_finite()
+        && state.angular_velocity.is_finite()
+}

@@ -1,0 +1,80 @@
+use super::script::Script;
+use super::setup::{check_step, checked_state};
+use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Wrench};
+use glam::Mat3;
+
+/// Fixed and kinematic bodies only; needs no physics engine.
+#[derive(Clone, Debug)]
+pub struct ScriptedEngine {
+    names: Vec<String>,
+    kinds: Vec<BodyKind>,
+    scripts: Vec<Script>,
+    states: Vec<BodyState>,
+    time: f64,
+}
+
+impl ScriptedEngine {
+    /// Builds the bodies, in the order given, at time zero.
+    ///
+    /// # Errors
+    /// A dynamic body, a value out of its range, or a key that does not fit the kind of the body.
+    pub fn new(bodies: &[BodySetup]) -> Result<Self, RigidError> {
+        let mut scripts = Vec::with_capacity(bodies.len());
+        for body in bodies {
+            if body.kind == BodyKind::Dynamic {
+                return Err(RigidError::DynamicUnsupported {
+                    body: body.name.clone(),
+                });
+            }
+            scripts.push(Script::new(checked_state(body)?, &body.motions));
+        }
+        Ok(Self {
+            names: bodies.iter().map(|body| body.name.clone()).collect(),
+            kinds: bodies.iter().map(|body| body.kind).collect(),
+            states: scripts.iter().map(|script| script.state(0.0)).collect(),
+            scripts,
+            time: 0.0,
+        })
+    }
+
+    /// Time since the start \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+}
+
+impl RigidEngine for ScriptedEngine {
+    fn body_count(&self) -> usize {
+        self.kinds.len()
+    }
+
+    fn kind(&self, index: usize) -> BodyKind {
+        self.kinds[index]
+    }
+
+    fn state(&self, index: usize) -> BodyState {
+        self.states[index]
+    }
+
+    fn inverse_mass(&self, _index: usize) -> f32 {
+        0.0
+    }
+
+    fn inverse_inertia(&self, _index: usize) -> Mat3 {
+        Mat3::ZERO
+    }
+
+    fn step(&mut self, dt: f32, wrenches: &[Wrench]) -> Result<(), RigidError> {
+        check_step(dt, wrenches, &self.names)?;
+        self.time += f64::from(dt);
+        for (state, script) in self.states.iter_mut().zip(&self.scripts) {
+            *state = script.state(self.time);
+        }
+        Ok(())
+    }
+
+    fn boxed_clone(&self) -> Box<dyn RigidEngine> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,237 @@
+//! Rigid bodies of a scene.
+
+use glam::{Quat, Vec3};
+
+use super::{BodyKind, Motion, Shape};
+
+/// A rigid body.
+///
+/// The default is a dynamic ball of 3 cm.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Body {
+    /// Name, unique among sponges and bodies: letters, digits, `_` and `-`, starting with a letter. Required in files.
+    pub name: String,
+    /// Geometry. Required in files.
+    pub shape: ShapeKind,
+    /// Who moves it: forces (`dynamic`), nobody (`fixed`) or its `motions` (`kinematic`); default `dynamic`.
+    #[cfg_attr(feature = "serde", serde(with = "KindKey"), schemars(with = "KindKey"))]
+    pub kind: BodyKind,
+    /// Density of a dynamic body. Range 1 to 100000 kg/m^3; default 1000.
+    pub density: f32,
+    /// Centre of mass (plane: a point of the surface). Range -1000 to 1000 m; default (0, 0, 0).
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub position: Vec3,
+    /// Orientation at time zero; default unturned.
+    pub rotation: Rotation,
+    /// Velocity of a dynamic body at time zero. Range -100 to 100 m/s; default (0, 0, 0).
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub linear_velocity: Vec3,
+    /// Angular velocity of a dynamic body at time zero. Range -1000 to 1000 rad/s; default (0, 0, 0).
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub angular_velocity: Vec3,
+    /// Coulomb friction. Range 0 to 10; default 0.5.
+    pub friction: f32,
+    /// Share of the approach speed that a bounce gives back. Range 0 to 1; default 0.1.
+    pub restitution: f32,
+    /// Scripted motions of a kinematic body; default none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub motions: Vec<Motion>,
+    /// Whether a fixed or kinematic body holds the sponge nodes that are inside it at time zero; default false.
+    pub grip: bool,
+}
+
+impl Default for Body {
+    fn default() -> Self {
+        Self {
+            name: "body".to_owned(),
+            shape: ShapeKind::Sphere { radius: 0.03 },
+            kind: BodyKind::Dynamic,
+            density: 1000.0,
+            position: Vec3::ZERO,
+            rotation: Rotation::default(),
+            linear_velocity: Vec3::ZERO,
+            angular_velocity: Vec3::ZERO,
+            friction: 0.5,
+            restitution: 0.1,
+            motions: Vec::new(),
+            grip: false,
+        }
+    }
+}
+
+impl Body {
+    /// Dynamic body.
+    #[must_use]
+    pub fn dynamic(name: &str, shape: ShapeKind, position: Vec3, density: f32) -> Self {
+        Self {
+            name: name.to_owned(),
+            shape,
+            position,
+            density,
+            ..Self::default()
+        }
+    }
+
+    /// Body that never moves.
+    #[must_use]
+    pub fn fixed(name: &str, shape: ShapeKind, position: Vec3) -> Self {
+        Self {
+            name: name.to_owned(),
+            shape,
+            position,
+            kind: BodyKind::Fixed,
+            ..Self::default()
+        }
+    }
+
+    /// Body that follows a script.
+    #[must_use]
+    pub fn kinematic(name: &str, shape: ShapeKind, position: Vec3, motions: Vec<Motion>) -> Self {
+        Self {
+            name: name.to_owned(),
+            shape,
+            position,
+            kind: BodyKind::Kinematic,
+            motions,
+            ..Self::default()
+        }
+    }
+}
+
+// The type itself belongs to a crate without serde, so its keys in files are declared here.
+/// Who moves a body.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(remote = "BodyKind", rename_all = "snake_case")]
+#[schemars(rename = "BodyKind")]
+enum KindKey {
+    /// Moved by forces.
+    Dynamic,
+    /// Never moves.
+    Fixed,
+    /// Moved by its `motions` only.
+    Kinematic,
+}
+
+/// Geometry of a body, in its own frame, centre of mass at the origin.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(
+    feature = "serde",
+    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
+)]
+pub enum ShapeKind {
+    /// Solid half-space below the local plane y = 0. Fixed or kinematic bodies only.
+    Plane,
+    /// Ball.
+    Sphere {
+        /// Radius. Range 1e-4 to 100 m.
+        radius: f32,
+    },
+    /// Box with faces at plus and minus the half extents.
+    Cuboid {
+        /// Half of the edge lengths. Range 1e-4 to 100 m.
+        #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+        half_extents: Vec3,
+    },
+    /// Capsule along local y: a segment, swept by a ball.
+    Capsule {
+        /// Half of the segment's length. Range 0 to 100 m.
+        half_height: f32,
+        /// Radius of the ball. Range 1e-4 to 100 m.
+        radius: f32,
+    },
+    /// Convex hull of at least four points that are not all in one plane.
+    Hull {
+        /// The points, about the body's position. Range -100 to 100 m.
+        #[cfg_attr(feature = "serde", schemars(with = "Vec<[f32; 3]>"))]
+        vertices: Vec<Vec3>,
+    },
+}
+
+impl ShapeKind {
+    /// The solver's shape, or `None` for a hull, whose faces must be computed first.
+    #[must_use]
+    pub fn primitive(&self) -> Option<Shape> {
+        match *self {
+            Self::Plane => Some(Shape::Plane),
+            Self::Sphere { radius } => Some(Shape::Sphere { radius }),
+            Self::Cuboid { half_extents } => Some(Shape::Cuboid { half_extents }),
+            Self::Capsule { half_height, radius } => Some(Shape::Capsule { half_height, radius }),
+            Self::Hull { .. } => None,
+        }
+    }
+
+    /// Largest distance of the shape from its origin \[m\]; `None` for a plane, which is unbounded.
+    #[must_use]
+    pub fn reach(&self) -> Option<f32> {
+        match self {
+            Self::Plane => None,
+            Self::Sphere { radius } => Some(*radius),
+            Self::Cuboid { half_extents } => Some(half_extents.length()),
+            Self::Capsule { half_height, radius } => Some(half_height + radius),
+            Self::Hull { vertices } => {
+                Some(vertices.iter().map(|vertex| vertex.length()).fold(0.0, f32::max))
+            }
+        }
+    }
+}
+
+/// Orientation as an axis and an angle; the default is unturned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Rotation {
+    /// Axis of the turn, of any length but zero. Range -1000 to 1000; default (0, 1, 0).
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub axis: Vec3,
+    /// Angle, counter-clockwise seen from the tip of the axis. Range -3600 to 3600 degrees; default 0.
+    pub degrees: f32,
+}
+
+impl Default for Rotation {
+    fn default() -> Self {
+        Self {
+            axis: Vec3::Y,
+            degrees: 0.0,
+        }
+    }
+}
+
+impl Rotation {
+    /// Turn of some degrees about an axis.
+    #[must_use]
+    pub fn new(axis: Vec3, degrees: f32) -> Self {
+        Self { axis, degrees }
+    }
+
+    /// The unit quaternion, with the same bits on every platform; a zero axis gives the identity.
+    #[must_use]
+    pub fn quaternion(self) -> Quat {
+        turn(self.axis, f64::from(self.degrees).to_radians())
+    }
+}
+
+/// Unit quaternion of a turn by an angle \[rad\] about an axis of any length.
+///
+/// In f64 and through the portable `libm`, since the platform's sine differs from machine to machine.
+pub(super) fn turn(axis: Vec3, angle: f64) -> Quat {
+    let Some(unit) = axis.as_dvec3().try_normalize() else {
+        return Quat::IDENTITY;
+    };
+    let imaginary = (unit * libm::sin(0.5 * angle)).as_vec3();
+    #[expect(clippy::cast_possible_truncation, reason = "rounds a cosine to f32")]
+    let real = libm::cos(0.5 * angle) as f32;
+    Quat::from_xyzw(imaginary.x, imaginary.y, imaginary.z, real)
+}

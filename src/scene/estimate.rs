@@ -1,0 +1,90 @@
+//! How big a scene is, before anything is allocated.
+
+use glam::Vec3;
+
+use super::{FluidBlock, Scene, Sponge};
+
+/// Most fluid particles that a scene may have.
+pub const MAXIMUM_PARTICLES: u64 = 50_000_000;
+
+/// Most sponge nodes that a scene may have.
+pub const MAXIMUM_NODES: u64 = 10_000_000;
+
+/// Approximate sizes of a scene; exact for whole blocks that touch nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Estimate {
+    /// Fluid particles in blocks and in saturated sponges.
+    pub particles: u64,
+    /// Sponge nodes.
+    pub nodes: u64,
+    /// Sponge tets.
+    pub tets: u64,
+}
+
+impl Scene {
+    /// Estimates the numbers of particles, nodes and tets. Cheap: looks at sizes only.
+    #[must_use]
+    pub fn estimate(&self) -> Estimate {
+        let nodes = self.sponges.iter().map(nodes).sum::<f64>();
+        let tets = self.sponges.iter().map(tets).sum::<f64>();
+        let particles = self.fluid.as_ref().map_or(0.0, |fluid| {
+            let particle = f64::from(fluid.spacing).powi(3);
+            let free = fluid.blocks.iter().map(|block| {
+                let count: f64 = block
+                    .counts(fluid.spacing)
+                    .iter()
+                    .map(|&n| f64::from(n))
+                    .product();
+                let displaced: f64 = self.sponges.iter().map(|sponge| overlap(block, sponge)).sum();
+                (count - displaced / particle).max(0.0)
+            });
+            let soaked = self.sponges.iter().map(|sponge| water(sponge) / particle);
+            free.sum::<f64>() + soaked.sum::<f64>()
+        });
+        Estimate {
+            particles: whole(particles),
+            nodes: whole(nodes),
+            tets: whole(tets),
+        }
+    }
+}
+
+/// Nodes of a sponge: two interleaved grids, without the 8 corners, which no tet touches.
+fn nodes(sponge: &Sponge) -> f64 {
+    let [x, y, z] = sponge.cells.to_array().map(f64::from);
+    let block = (x + 1.0) * (y + 1.0) * (z + 1.0) + x * y * z - 8.0;
+    block * sponge.shape.fraction()
+}
+
+/// Tets of a sponge: four around every face between two cells.
+fn tets(sponge: &Sponge) -> f64 {
+    let [x, y, z] = sponge.cells.to_array().map(f64::from);
+    let faces = (x - 1.0) * y * z + x * (y - 1.0) * z + x * y * (z - 1.0);
+    4.0 * faces * sponge.shape.fraction()
+}
+
+/// Water in a sponge at time zero \[m^3\]; twelve tets fill the volume of a cell.
+fn water(sponge: &Sponge) -> f64 {
+    let volume = tets(sponge) / 12.0 * f64::from(sponge.edge).powi(3);
+    volume * f64::from(sponge.porosity) * f64::from(sponge.saturation)
+}
+
+/// Volume of a block that a sponge occupies \[m^3\].
+fn overlap(block: &FluidBlock, sponge: &Sponge) -> f64 {
+    let low = block.minimum.max(sponge.position);
+    let high = block.maximum.min(sponge.maximum());
+    let size = (high - low).max(Vec3::ZERO).as_dvec3();
+    size.x * size.y * size.z * sponge.shape.fraction()
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the cast saturates, and a count that large is refused"
+)]
+#[expect(
+    clippy::cast_sign_loss,
+    reason = "negative counts of degenerate sponges become zero"
+)]
+fn whole(count: f64) -> u64 {
+    count.round() as u64
+}

@@ -1,0 +1,70 @@
+//! Declarative scenes: what the world contains at time zero, in SI units, Y up.
+//!
+//! A [`Scene`] is plain data. Build one in code with struct update syntax, or read a TOML or JSON file with the
+//! feature `serde`. Every number has a documented range; one table ([`limits`](fn@limits)) feeds the validation, the
+//! JSON schema and a test of these docs.
+//!
+//! ```
+//! use glam::Vec3;
+//! use sorb::scene::{Fluid, FluidBlock, Scene, Sponge};
+//!
+//! let scene = Scene::new("bath")
+//!     .in_box(Vec3::new(-0.1, 0.0, -0.1), Vec3::new(0.1, 0.2, 0.1))
+//!     .with_fluid(Fluid {
+//!         blocks: vec![FluidBlock::new(Vec3::new(-0.1, 0.0, -0.1), Vec3::new(0.1, 0.02, 0.1))],
+//!         ..Fluid::default()
+//!     })
+//!     .with_sponge(Sponge { permeability: 4e-9, ..Sponge::new("sponge", Vec3::new(-0.04, 0.0, -0.04)) });
+//! scene.validate()?;
+//! # Ok::<(), sorb::scene::SceneError>(())
+//! ```
+
+use crate::body::{BodyKind, BodyState, Shape};
+
+mod bodies;
+mod body_rules;
+mod camera;
+mod error;
+mod estimate;
+mod fluid;
+mod limits;
+mod motion;
+mod number;
+mod scaled;
+mod sponge;
+mod top;
+mod validate;
+
+#[cfg(feature = "serde")]
+mod check;
+#[cfg(feature = "serde")]
+mod json;
+#[cfg(feature = "serde")]
+mod key;
+#[cfg(feature = "serde")]
+mod locate;
+#[cfg(feature = "serde")]
+mod overrides;
+#[cfg(feature = "serde")]
+mod presets;
+#[cfg(feature = "serde")]
+mod schema;
+#[cfg(feature = "serde")]
+mod text;
+
+#[cfg(test)]
+mod tests;
+
+pub use bodies::{Body, Rotation, ShapeKind};
+pub use camera::Camera;
+pub use error::{Defect, Problem, SceneError};
+pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
+pub use fluid::{EquationOfState, Fluid, FluidBlock};
+pub use limits::{Limit, limits};
+pub use motion::Motion;
+#[cfg(feature = "serde")]
+pub use presets::{Preset, preset, presets};
+#[cfg(feature = "serde")]
+pub use schema::schema;
+pub use sponge::{Axis, Sponge, SpongeShape};
+pub use top::{Domain, Scene, Time, VERSION};

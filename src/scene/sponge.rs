@@ -1,0 +1,182 @@
+//! Sponges: blocks of a body-centred cubic lattice, or shapes cut out of one.
+
+use glam::{UVec3, Vec3};
+
+/// A coordinate axis; Y is up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Axis {
+    /// The first axis.
+    X,
+    /// The upward axis.
+    #[default]
+    Y,
+    /// The third axis.
+    Z,
+}
+
+/// What is kept of the lattice block.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(
+    feature = "serde",
+    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
+)]
+pub enum SpongeShape {
+    /// The whole block.
+    #[default]
+    Block,
+    /// The ellipsoid that touches all six faces.
+    Ellipsoid,
+    /// The (elliptic) cylinder that touches four faces.
+    Cylinder {
+        /// Direction of the cylinder.
+        axis: Axis,
+    },
+}
+
+impl SpongeShape {
+    /// Volume of the ideal shape over that of its block \[1\].
+    #[must_use]
+    pub fn fraction(self) -> f64 {
+        match self {
+            Self::Block => 1.0,
+            Self::Ellipsoid => std::f64::consts::PI / 6.0,
+            Self::Cylinder { .. } => std::f64::consts::PI / 4.0,
+        }
+    }
+}
+
+/// A sponge: geometry, pores and elasticity.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Sponge {
+    /// Name, unique among sponges and bodies: letters, digits, `_` and `-`, starting with a letter. Required in files.
+    pub name: String,
+    /// Edge of a lattice cell. Range 1e-4 to 1 m; default 0.01.
+    ///
+    /// 2 to 3 times the fluid's `spacing` works best; outside 1 to 8 times the scene is refused.
+    pub edge: f32,
+    /// Lattice cells along each axis. Range 2 to 1024; default (8, 8, 8).
+    ///
+    /// Fewer than 4 are too stiff in bending to look like a sponge.
+    #[cfg_attr(feature = "serde", schemars(with = "[u32; 3]"))]
+    pub cells: UVec3,
+    /// Lowest corner of the lattice block. Range -1000 to 1000 m; default (0, 0, 0).
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub position: Vec3,
+    /// What is kept of the block; default all of it.
+    pub shape: SpongeShape,
+    /// Velocity at time zero. Range -100 to 100 m/s; default (0, 0, 0).
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub velocity: Vec3,
+    /// Mass of the dry sponge over its volume, pores included. Range 1 to 5000 kg/m^3; default 50.
+    ///
+    /// Below 10 the lattice is so light that the water's pressure noise shakes it.
+    pub density: f32,
+    /// Share of the volume that is pores. Range 0.05 to 0.99; default 0.9.
+    pub porosity: f32,
+    /// Permeability of the pores: lower lets water in and out more slowly. Range 1e-14 to 1e-5 m^2;
+    /// default 1e-9.
+    pub permeability: f32,
+    /// Capillary pressure of the saturated sponge; water climbs to about this over (density * gravity). Range 0 to
+    /// 100000 Pa; default 500.
+    ///
+    /// Above 2000 the sponge pulls a coat of water around itself.
+    pub entry_pressure: f32,
+    /// Reach of a node's suction, in `edge`s. Range 1 to 2.5; default 1.5.
+    ///
+    /// Below 1 there are spots that no node reaches.
+    pub suction_radius: f32,
+    /// How much stronger a dry sponge sucks than a saturated one. Range 0 to 5; default 1.
+    ///
+    /// Control pressure = `-entry_pressure * (1 + saturation_gain * (1 - saturation))`.
+    pub saturation_gain: f32,
+    /// Stiffness of the zero-distance constraint that returns the suction to the sponge, in units of the exact
+    /// reaction. Range 0 to 2; default 1.
+    ///
+    /// At 1 momentum is conserved and a sponge standing in water stays where it is.
+    pub reaction: f32,
+    /// Stiffness against stretching. Range 10 to 1e9 Pa; default 20000.
+    pub stretch_modulus: f32,
+    /// Stiffness against shearing. Range 10 to 1e9 Pa; default 10000.
+    pub shear_modulus: f32,
+    /// Stiffness against changes of volume. Range 10 to 1e9 Pa; default 20000.
+    pub volume_modulus: f32,
+    /// Time in which internal vibration fades. Range 0 to 10 s; default 0.002.
+    pub damping_time: f32,
+    /// Solver sweeps per step. Range 1 to 64; default 1.
+    ///
+    /// More sweeps are stiffer under load; cost grows in proportion.
+    pub iterations: u32,
+    /// Coulomb friction against bodies and walls. Range 0 to 10; default 0.5.
+    pub friction: f32,
+    /// Share of the pores filled with water at time zero. Range 0 to 1; default 0.
+    pub saturation: f32,
+    /// Contact radius of a node. Range 1e-5 to 1 m; default derived from `edge`.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub node_radius: Option<f32>,
+}
+
+impl Default for Sponge {
+    fn default() -> Self {
+        Self {
+            name: "sponge".to_owned(),
+            edge: 0.01,
+            cells: UVec3::splat(8),
+            position: Vec3::ZERO,
+            shape: SpongeShape::Block,
+            velocity: Vec3::ZERO,
+            density: 50.0,
+            porosity: 0.9,
+            permeability: 1e-9,
+            entry_pressure: 500.0,
+            suction_radius: 1.5,
+            saturation_gain: 1.0,
+            reaction: 1.0,
+            stretch_modulus: 2e4,
+            shear_modulus: 1e4,
+            volume_modulus: 2e4,
+            damping_time: 0.002,
+            iterations: 1,
+            friction: 0.5,
+            saturation: 0.0,
+            node_radius: None,
+        }
+    }
+}
+
+impl Sponge {
+    /// Cube of 8 x 8 x 8 cells of 1 cm with its lowest corner at a position \[m\].
+    #[must_use]
+    pub fn new(name: &str, position: Vec3) -> Self {
+        Self {
+            name: name.to_owned(),
+            position,
+            ..Self::default()
+        }
+    }
+
+    /// Size of the lattice block \[m\].
+    #[must_use]
+    pub fn size(&self) -> Vec3 {
+        self.edge * self.cells.as_vec3()
+    }
+
+    /// Highest corner of the lattice block \[m\].
+    #[must_use]
+    pub fn maximum(&self) -> Vec3 {
+        self.position + self.size()
+    }
+}

@@ -1,0 +1,185 @@
+//! The scene as a whole: gravity, time, container.
+
+use glam::Vec3;
+
+use super::{Body, Camera, Fluid, Sponge};
+
+/// Version of the scene format that this library reads and writes.
+pub const VERSION: u32 = 1;
+
+/// A complete scene: everything that exists at time zero, in SI units, Y up.
+///
+/// The default is an empty, unbounded scene.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Scene {
+    /// Version of the format. Required in files; always 1. A file of another version is refused.
+    pub version: u32,
+    /// Short name: letters, digits, `_` and `-`, starting with a letter; default "scene".
+    pub name: String,
+    /// One line for lists and window titles; default empty.
+    pub title: String,
+    /// What the scene shows, in sentences; default empty.
+    pub description: String,
+    /// Acceleration of gravity. Range -100 to 100 m/s^2; default (0, -9.81, 0).
+    ///
+    /// Stronger gravity needs a higher speed of sound, hence shorter steps.
+    #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+    pub gravity: Vec3,
+    /// Frames and steps.
+    pub time: Time,
+    /// The container; default open.
+    pub domain: Domain,
+    /// The water; absent in a dry scene, which then pays nothing for water.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub fluid: Option<Fluid>,
+    /// Sponges; default none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub sponges: Vec<Sponge>,
+    /// Rigid bodies; default none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub bodies: Vec<Body>,
+    /// Point of view for pictures; by default one that sees the whole scene, see [`Scene::viewpoint`].
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub camera: Option<Camera>,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            version: VERSION,
+            name: "scene".to_owned(),
+            title: String::new(),
+            description: String::new(),
+            gravity: Vec3::new(0.0, -9.81, 0.0),
+            time: Time::default(),
+            domain: Domain::default(),
+            fluid: None,
+            sponges: Vec::new(),
+            bodies: Vec::new(),
+            camera: None,
+        }
+    }
+}
+
+impl Scene {
+    /// Empty, unbounded scene with standard gravity.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            ..Self::default()
+        }
+    }
+
+    /// Puts the scene into a box with elastic walls, from corner to corner \[m\].
+    #[must_use]
+    pub fn in_box(self, minimum: Vec3, maximum: Vec3) -> Self {
+        Self {
+            domain: Domain::Box { minimum, maximum },
+            ..self
+        }
+    }
+
+    /// Sets the water.
+    #[must_use]
+    pub fn with_fluid(self, fluid: Fluid) -> Self {
+        Self {
+            fluid: Some(fluid),
+            ..self
+        }
+    }
+
+    /// Adds a sponge.
+    #[must_use]
+    pub fn with_sponge(mut self, sponge: Sponge) -> Self {
+        self.sponges.push(sponge);
+        self
+    }
+
+    /// Adds a rigid body.
+    #[must_use]
+    pub fn with_body(mut self, body: Body) -> Self {
+        self.bodies.push(body);
+        self
+    }
+
+    /// Sets the point of view.
+    #[must_use]
+    pub fn with_camera(self, camera: Camera) -> Self {
+        Self {
+            camera: Some(camera),
+            ..self
+        }
+    }
+}
+
+/// Frames and the bounds of the time step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Time {
+    /// Frames per second. Range 1 to 10000 1/s; default 60.
+    ///
+    /// A frame is filled with as many steps as stability asks for, so this changes what is shown, not how well.
+    pub frame_rate: f32,
+    /// Length of a run when the caller names none. Range 0 to 100000 s; default 10.
+    pub duration: f32,
+    /// Longest step. Range 1e-6 to 0.1 s; default 0.002.
+    ///
+    /// Above about 0.005 the sponge's contacts become soft.
+    pub maximum_step: f32,
+    /// Shortest step; when stability asks for less, the run stops with an error. Range 1e-9 to 0.1 s; default
+    /// 1e-6. Not above `maximum_step`.
+    pub minimum_step: f32,
+    /// Factor on support radius / (speed of sound + speed) that bounds the step. Range 0.01 to 1; default 0.25.
+    ///
+    /// Above 0.4 violent scenes may blow up.
+    pub courant: f32,
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self {
+            frame_rate: 60.0,
+            duration: 10.0,
+            maximum_step: 0.002,
+            minimum_step: 1e-6,
+            courant: 0.25,
+        }
+    }
+}
+
+/// The container.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
+)]
+#[cfg_attr(
+    feature = "serde",
+    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
+)]
+pub enum Domain {
+    /// Axis-aligned box with elastic walls: the cheapest container.
+    Box {
+        /// Lowest corner. Range -1000 to 1000 m.
+        ///
+        /// Far from the origin f32 positions get coarse: keep the scene within a few metres of it.
+        #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+        minimum: Vec3,
+        /// Highest corner, above `minimum` on every axis. Range -1000 to 1000 m.
+        #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
+        maximum: Vec3,
+    },
+    /// Unbounded; a body of shape `plane` may be the floor, otherwise everything falls for ever.
+    #[default]
+    Open,
+}

@@ -1,0 +1,314 @@
+//! Validation: every number in its range, and the rules between them.
+
+use glam::Vec3;
+
+use super::body_rules::body_rules;
+use super::error::{Defect, Problem};
+use super::limits::{self, Row};
+use super::number::{number_text, vector_text};
+use super::{
+    Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Sponge, SpongeShape, VERSION,
+};
+
+/// Range of `edge / spacing`: outside it either water slips between the nodes or nodes find no water.
+const EDGE_OVER_SPACING: (f32, f32) = (1.0, 8.0);
+
+impl Scene {
+    /// Checks every range and rule.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with all problems. Rules between values are checked only once all values are in their
+    /// ranges, so that no problem is the echo of another.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        let problems = self.problems();
+        if problems.is_empty() {
+            return Ok(());
+        }
+        Err(SceneError::Invalid {
+            file: format!("scene {}", self.name),
+            problems,
+        })
+    }
+
+    /// Everything that is wrong with the scene; empty for a valid one.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        ranges(self, &mut problems);
+        if problems.is_empty() {
+            rules(self, &mut problems);
+        }
+        problems
+    }
+}
+
+fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
+    if scene.version != VERSION {
+        let defect = Defect::Version { supported: VERSION };
+        problems.push(Problem::new("version", scene.version.to_string(), defect));
+    }
+    check(scene, limits::SCENE, "", problems);
+    check(&scene.time, limits::TIME, "time.", problems);
+    check(&scene.domain, limits::DOMAIN, "domain.", problems);
+    if let Some(fluid) = &scene.fluid {
+        check(fluid, limits::FLUID, "fluid.", problems);
+        for (index, block) in fluid.blocks.iter().enumerate() {
+            check(
+                block,
+                limits::FLUID_BLOCK,
+                &format!("fluid.blocks[{index}]."),
+                problems,
+            );
+        }
+    }
+    for (index, sponge) in scene.sponges.iter().enumerate() {
+        check(sponge, limits::SPONGE, &format!("sponges[{index}]."), problems);
+    }
+    for (index, body) in scene.bodies.iter().enumerate() {
+        check(body, limits::BODY, &format!("bodies[{index}]."), problems);
+        check(
+            &body.shape,
+            limits::SHAPE,
+            &format!("bodies[{index}].shape."),
+            problems,
+        );
+        check(
+            &body.rotation,
+            limits::ROTATION,
+            &format!("bodies[{index}].rotation."),
+            problems,
+        );
+        for (motion_index, motion) in body.motions.iter().enumerate() {
+            let table = format!("bodies[{index}].motions[{motion_index}].");
+            check(motion, limits::MOTION, &table, problems);
+        }
+    }
+    if let Some(camera) = &scene.camera {
+        check(camera, limits::CAMERA, "camera.", problems);
+    }
+}
+
+/// Compares every number of one table with its range.
+fn check<T>(owner: &T, rows: &[Row<T>], table: &str, problems: &mut Vec<Problem>) {
+    for Row { limit, field } in rows {
+        let Some(numbers) = field(owner) else { continue };
+        numbers.numbers(&format!("{table}{}", limit.field()), &mut |key, value| {
+            if !limit.contains(value) {
+                let (minimum, maximum, unit) = (limit.minimum, limit.maximum, limit.unit);
+                let defect = Defect::OutOfRange {
+                    minimum,
+                    maximum,
+                    unit,
+                };
+                problems.push(Problem::new(key, number_text(value), defect));
+            }
+        });
+    }
+}
+
+fn rules(scene: &Scene, problems: &mut Vec<Problem>) {
+    names(scene, problems);
+    let time = &scene.time;
+    if time.minimum_step > time.maximum_step {
+        let rule = format!(
+            "must not be above `time.maximum_step` = {}",
+            number_text(time.maximum_step)
+        );
+        problems.push(Problem::rule(
+            "time.minimum_step",
+            number_text(time.minimum_step),
+            rule,
+        ));
+    }
+    if let Domain::Box { minimum, maximum } = scene.domain {
+        ordered("domain", minimum, maximum, problems);
+    }
+    if let Some(fluid) = &scene.fluid {
+        water(fluid, scene, problems);
+    }
+    sponges(scene, problems);
+    for (index, body) in scene.bodies.iter().enumerate() {
+        body_rules(body, &format!("bodies[{index}]"), scene, problems);
+    }
+    if let Some(camera) = scene.camera.filter(|camera| camera.eye == camera.target) {
+        problems.push(Problem::rule(
+            "camera.eye",
+            vector_text(camera.eye),
+            "must not be `camera.target`",
+        ));
+    }
+    sizes(scene, problems);
+}
+
+fn names(scene: &Scene, problems: &mut Vec<Problem>) {
+    let mut seen: Vec<(&str, String)> = Vec::new();
+    named("name", &scene.name, problems);
+    let sponges = scene
+        .sponges
+        .iter()
+        .enumerate()
+        .map(|(i, s)| (format!("sponges[{i}].name"), &s.name));
+    let bodies = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .map(|(i, b)| (format!("bodies[{i}].name"), &b.name));
+    for (key, name) in sponges.chain(bodies) {
+        named(&key, name, problems);
+        if let Some((_, first)) = seen.iter().find(|(other, _)| other == name) {
+            problems.push(Problem::rule(
+                &key,
+                format!("{name:?}"),
+                format!("already the name of `{first}`"),
+            ));
+        }
+        seen.push((name, key));
+    }
+}
+
+/// Names must be usable as parts of keys and of file names.
+fn named(key: &str, name: &str, problems: &mut Vec<Problem>) {
+    let mut letters = name.chars();
+    let starts = letters.next().is_some_and(|first| first.is_ascii_alphabetic());
+    if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-') || name.len() > 64 {
+        let rule = "a name starts with a letter, goes on with letters, digits, `_` or `-`, and has at most 64 of them";
+        problems.push(Problem::rule(key, format!("{name:?}"), rule));
+    }
+}
+
+/// The lowest corner must be below the highest on every axis.
+fn ordered(table: &str, minimum: Vec3, maximum: Vec3, problems: &mut Vec<Problem>) {
+    if !minimum.cmplt(maximum).all() {
+        let rule = format!(
+            "must be below `{table}.maximum` = {} on every axis",
+            vector_text(maximum)
+        );
+        problems.push(Problem::rule(
+            format!("{table}.minimum"),
+            vector_text(minimum),
+            rule,
+        ));
+    }
+}
+
+/// Something from corner to corner must be inside the container.
+pub(super) fn inside(
+    key: &str,
+    low: Vec3,
+    high: Vec3,
+    slack: f32,
+    scene: &Scene,
+    problems: &mut Vec<Problem>,
+) {
+    let Domain::Box { minimum, maximum } = scene.domain else {
+        return;
+    };
+    let slack = Vec3::splat(slack);
+    if low.cmplt(minimum - slack).any() || high.cmpgt(maximum + slack).any() {
+        let extent = format!("(from {} to {})", vector_text(low), vector_text(high));
+        let container = format!("{} to {}", vector_text(minimum), vector_text(maximum));
+        problems.push(Problem::rule(
+            key,
+            extent,
+            format!("must be inside the container {container}"),
+        ));
+    }
+}
+
+fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
+    // Corners are written in decimals, which f32 rounds: a thousandth of the spacing forgives that.
+    let slack = 1e-3 * fluid.spacing;
+    for (index, block) in fluid.blocks.iter().enumerate() {
+        let key = format!("fluid.blocks[{index}]");
+        ordered(&key, block.minimum, block.maximum, problems);
+        inside(&key, block.minimum, block.maximum, slack, scene, problems);
+        for (other_index, other) in fluid.blocks.iter().enumerate().take(index) {
+            if overlap(
+                (block.minimum, block.maximum),
+                (other.minimum, other.maximum),
+                slack,
+            ) {
+                let rule =
+                    format!("overlaps `fluid.blocks[{other_index}]`; the water would start compressed");
+                let corner = format!("{key}.minimum");
+                problems.push(Problem::rule(corner, vector_text(block.minimum), rule));
+            }
+        }
+    }
+}
+
+/// Whether two boxes share volume.
+fn overlap(a: (Vec3, Vec3), b: (Vec3, Vec3), slack: f32) -> bool {
+    let slack = Vec3::splat(slack);
+    (a.0 + slack).cmplt(b.1).all() && (b.0 + slack).cmplt(a.1).all()
+}
+
+fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
+    for (index, sponge) in scene.sponges.iter().enumerate() {
+        let table = format!("sponges[{index}]");
+        let slack = 1e-3 * sponge.edge;
+        inside(&table, sponge.position, sponge.maximum(), slack, scene, problems);
+        match &scene.fluid {
+            Some(fluid) => lattice_fits(sponge, fluid, &table, problems),
+            None if sponge.saturation > 0.0 => {
+                let rule = "a scene without `fluid` has no water to fill the pores";
+                problems.push(Problem::rule(
+                    format!("{table}.saturation"),
+                    number_text(sponge.saturation),
+                    rule,
+                ));
+            }
+            None => {}
+        }
+        for (other_index, other) in scene.sponges.iter().enumerate().take(index) {
+            let whole = sponge.shape == SpongeShape::Block && other.shape == SpongeShape::Block;
+            let (a, b) = (
+                (sponge.position, sponge.maximum()),
+                (other.position, other.maximum()),
+            );
+            if whole && overlap(a, b, slack) {
+                let rule = format!("overlaps `sponges[{other_index}]`");
+                problems.push(Problem::rule(
+                    format!("{table}.position"),
+                    vector_text(sponge.position),
+                    rule,
+                ));
+            }
+        }
+    }
+}
+
+fn lattice_fits(sponge: &Sponge, fluid: &Fluid, table: &str, problems: &mut Vec<Problem>) {
+    let (least, most) = EDGE_OVER_SPACING;
+    let ratio = sponge.edge / fluid.spacing;
+    // A thousandth forgives the rounding of decimals.
+    if !(0.999 * least..=1.001 * most).contains(&ratio) {
+        let spacing = number_text(fluid.spacing);
+        let rule = format!("must be {least} to {most} times `fluid.spacing` = {spacing}");
+        problems.push(Problem::rule(
+            format!("{table}.edge"),
+            number_text(sponge.edge),
+            rule,
+        ));
+    }
+}
+
+fn sizes(scene: &Scene, problems: &mut Vec<Problem>) {
+    let estimate = scene.estimate();
+    if estimate.particles > MAXIMUM_PARTICLES {
+        let spacing = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.spacing);
+        let rule = format!(
+            "gives about {} particles; at most {MAXIMUM_PARTICLES}",
+            estimate.particles
+        );
+        problems.push(Problem::rule("fluid.spacing", number_text(spacing), rule));
+    }
+    if estimate.nodes > MAXIMUM_NODES {
+        let rule = format!("have about {} nodes; at most {MAXIMUM_NODES}", estimate.nodes);
+        problems.push(Problem::rule(
+            "sponges",
+            format!("({} sponges)", scene.sponges.len()),
+            rule,
+        ));
+    }
+}

@@ -1,0 +1,221 @@
+//! The plan: the step without what this scene lacks or nobody reads, checked.
+
+use std::fmt;
+
+use sorb_kernels::{
+    columns::{Column, Life},
+    kernel::Kernel,
+};
+
+use super::step::{HostPhase, Phase, RIGID_NEEDS, Times, is_met};
+
+/// What a scene contains, as far as phases depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Content {
+    /// Fluid particles.
+    pub fluid: bool,
+    /// Sponges.
+    pub sponge: bool,
+    /// Walls of a container.
+    pub walls: bool,
+    /// Rigid bodies.
+    pub bodies: bool,
+    /// Surface tension above zero.
+    pub surface_tension: bool,
+    /// Most solver iterations that a sponge asks for.
+    pub iterations: u32,
+}
+
+/// What becomes of a phase.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It runs.
+    Runs,
+    /// It does not, for this reason.
+    Skipped(&'static str),
+}
+
+/// One line of a plan.
+#[derive(Clone, Debug)]
+pub struct PlanLine {
+    /// `family::name`.
+    pub name: &'static str,
+    /// Whether it runs.
+    pub verdict: Verdict,
+    /// Repetitions, by the group that it is repeated in.
+    pub repeat: Option<(usize, u32)>,
+    pub(super) work: Work,
+}
+
+/// What a line runs.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Work {
+    Kernel(&'static Kernel),
+    Host(&'static HostPhase),
+}
+
+/// Why a step cannot be planned: a mistake in the step or in a declaration, not in a scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{kernel} reads {column}, which is rebuilt in every step and was not written before it")]
+pub struct PlanError {
+    /// The reader.
+    pub kernel: &'static str,
+    /// What it reads.
+    pub column: &'static str,
+}
+
+/// The phases of a step for one scene.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    lines: Vec<PlanLine>,
+}
+
+impl Plan {
+    /// Plans `step` for a scene. `observed` columns are kept up to date although no phase reads them.
+    ///
+    /// # Errors
+    /// A phase reads a scratch column that no phase before it has written.
+    pub fn new(step: &[Phase], content: Content, observed: &[Column]) -> Result<Self, PlanError> {
+        let mut plan = Self { lines: Vec::new() };
+        plan.collect(step, content, None, &mut 0);
+        plan.drop_dead(observed);
+        plan.check()?;
+        Ok(plan)
+    }
+
+    /// All lines, in the order of the step.
+    #[must_use]
+    pub fn lines(&self) -> &[PlanLine] {
+        &self.lines
+    }
+
+    fn collect(
+        &mut self,
+        phases: &[Phase],
+        content: Content,
+        repeat: Option<(usize, u32)>,
+        groups: &mut usize,
+    ) {
+        for phase in phases {
+            match phase {
+                Phase::Run(kernel) => {
+                    let missing = kernel.needs.iter().find(|need| !is_met(**need, content));
+                    let verdict = missing.map_or(Verdict::Runs, |need| Verdict::Skipped(need.missing()));
+                    let work = Work::Kernel(kernel);
+                    self.lines.push(PlanLine {
+                        name: kernel.name,
+                        verdict,
+                        repeat,
+                        work,
+                    });
+                }
+                Phase::Repeat { times, phases } => {
+                    *groups += 1;
+                    let times = match times {
+                        Times::SolverIterations => content.iterations,
+                        Times::Fixed(times) => *times,
+                    };
+                    self.collect(phases, content, Some((*groups, times)), groups);
+                }
+                Phase::Host(host) => {
+                    let verdict = if content.bodies {
+                        Verdict::Runs
+                    } else {
+                        Verdict::Skipped(RIGID_NEEDS)
+                    };
+                    self.lines.push(PlanLine {
+                        name: host.name,
+                        verdict,
+                        repeat,
+                        work: Work::Host(host),
+                    });
+                }
+            }
+        }
+    }
+
+    /// Walks backwards and skips what no state and no later phase depends on.
+    fn drop_dead(&mut self, observed: &[Column]) {
+        let mut live: Vec<Column> = Column::ALL
+            .iter()
+            .copied()
+            .filter(|column| column.life() == Life::State)
+            .collect();
+        live.extend_from_slice(observed);
+        for line in self
+            .lines
+            .iter_mut()
+            .rev()
+            .filter(|line| line.verdict == Verdict::Runs)
+        {
+            if line.writes().iter().any(|column| live.contains(column)) {
+                live.extend_from_slice(line.reads());
+            } else {
+                line.verdict = Verdict::Skipped("nobody reads what it writes");
+            }
+        }
+    }
+
+    fn check(&self) -> Result<(), PlanError> {
+        let mut written: Vec<Column> = Vec::new();
+        for line in self.lines.iter().filter(|line| line.verdict == Verdict::Runs) {
+            if let Work::Kernel(kernel) = line.work {
+                let early = kernel
+                    .reads
+                    .iter()
+                    .find(|column| column.life() == Life::Scratch && !written.contains(column));
+                if let Some(column) = early {
+                    return Err(PlanError {
+                        kernel: kernel.name,
+                        column: column.name(),
+                    });
+                }
+            }
+            written.extend_from_slice(line.writes());
+        }
+        Ok(())
+    }
+}
+
+impl PlanLine {
+    fn reads(&self) -> &'static [Column] {
+        match self.work {
+            Work::Kernel(kernel) => kernel.reads,
+            Work::Host(host) => host.reads,
+        }
+    }
+
+    fn writes(&self) -> &'static [Column] {
+        match self.work {
+            Work::Kernel(kernel) => kernel.writes,
+            Work::Host(host) => host.writes,
+        }
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in &self.lines {
+            let repeat = match line.repeat {
+                Some((_, times)) => format!("{times} x "),
+                None => String::new(),
+            };
+            match line.verdict {
+                Verdict::Runs => {
+                    let names = |columns: &[Column]| {
+                        columns
+                            .iter()
+                            .map(|column| column.name())
+                            .collect::<Vec<_>>()
+                            .join(", ")
+                    };
+                    writeln!(formatter, "run   {repeat}{}", line.name)?;
+                    writeln!(formatter, "      reads  {}", names(line.reads()))?;
+                    writeln!(formatter, "      writes {}", names(line.writes()))?;
+                }
+                Verdict::Skipped(reason) => writeln!(formatter, "skip  {repeat}{}: {reason}", line.name)?,
+            }
+        }
+        Ok(())
+    }
+}

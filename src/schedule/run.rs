@@ -1,0 +1,133 @@
+//! Runs a plan on the CPU, and takes the time of every phase.
+
+use std::time::Instant;
+
+use sorb_kernels::{columns::Columns, cpu::Cpu, params::Params};
+
+use super::plan::{Plan, Verdict, Work};
+
+/// Times of a phase that are kept for its median.
+const RECENT: usize = 512;
+
+/// Time spent in a phase.
+#[derive(Clone, Debug)]
+pub struct PhaseTime {
+    /// `family::name`.
+    pub name: &'static str,
+    /// Calls so far.
+    pub calls: u64,
+    /// Time of all calls [s].
+    pub total_s: f64,
+    recent_ms: Vec<f32>,
+}
+
+impl PhaseTime {
+    /// Median over the last calls [ms]; 0 if there were none.
+    #[must_use]
+    pub fn median_ms(&self) -> f32 {
+        let mut sorted = self.recent_ms.clone();
+        sorted.sort_by(f32::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    fn record(&mut self, start: Instant) {
+        let seconds = start.elapsed().as_secs_f64();
+        let slot = self.calls as usize % RECENT;
+        self.calls += 1;
+        self.total_s += seconds;
+        let milliseconds = (seconds * 1e3) as f32;
+        match self.recent_ms.get_mut(slot) {
+            Some(recent) => *recent = milliseconds,
+            None => self.recent_ms.push(milliseconds),
+        }
+    }
+}
+
+/// A plan, flattened to what is left of it.
+#[derive(Clone, Debug)]
+pub struct Runner {
+    kernels: Vec<(Work, usize)>,
+    /// (first, last, times) of consecutive kernels.
+    groups: Vec<(usize, usize, u32)>,
+    times: Vec<PhaseTime>,
+}
+
+impl Runner {
+    /// The runner of a plan.
+    #[must_use]
+    pub fn new(plan: &Plan) -> Self {
+        let mut runner = Self {
+            kernels: Vec::new(),
+            groups: Vec::new(),
+            times: Vec::new(),
+        };
+        let mut group = None;
+        for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
+            let time = runner
+                .times
+                .iter()
+                .position(|time| time.name == line.name)
+                .unwrap_or_else(|| {
+                    let recent_ms = Vec::with_capacity(RECENT);
+                    runner.times.push(PhaseTime {
+                        name: line.name,
+                        calls: 0,
+                        total_s: 0.0,
+                        recent_ms,
+                    });
+                    runner.times.len() - 1
+                });
+            let at = runner.kernels.len();
+            match (runner.groups.last_mut(), line.repeat) {
+                (Some(last), Some((index, _))) if group == Some(index) => last.1 = at + 1,
+                (_, repeat) => runner
+                    .groups
+                    .push((at, at + 1, repeat.map_or(1, |(_, times)| times))),
+            }
+            group = line.repeat.map(|(index, _)| index);
+            runner.kernels.push((line.work, time));
+        }
+        runner
+    }
+
+    /// Runs all phases in order; `host` does the host phases.
+    pub(crate) fn run(
+        &mut self,
+        cpu: &Cpu,
+        params: &Params,
+        columns: &mut Columns,
+        mut host: impl FnMut(&mut Columns) + Send,
+    ) {
+        let Self {
+            kernels,
+            groups,
+            times,
+        } = self;
+        cpu.enter(|| {
+            for (first, last, repeat) in &*groups {
+                for _ in 0..*repeat {
+                    for (work, time) in &kernels[*first..*last] {
+                        let start = Instant::now();
+                        match work {
+                            Work::Kernel(kernel) => (kernel.cpu)(cpu, params, columns),
+                            Work::Host(_) => host(columns),
+                        }
+                        times[*time].record(start);
+                    }
+                }
+            }
+        });
+    }
+
+    /// Time spent in every phase that runs, in the order of the step.
+    #[must_use]
+    pub fn times(&self) -> &[PhaseTime] {
+        &self.times
+    }
+
+    /// Whether there is nothing to run.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.kernels.is_empty()
+    }
+}

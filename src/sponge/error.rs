@@ -1,0 +1,74 @@
+//! What can be wrong with a list of sponges.
+
+use glam::Vec3;
+
+use super::limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
+
+/// Why a list of sponges could not be turned into a lattice; `sponge` is the index in that list.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum LatticeError {
+    /// The edge is not a number or outside its range.
+    #[error("sponge {sponge}: edge = {value} m is outside [{MIN_EDGE}, {MAX_EDGE}] m")]
+    Edge {
+        /// Index of the sponge.
+        sponge: usize,
+        /// The edge as given \[m\].
+        value: f32,
+    },
+    /// A number of cells is zero.
+    #[error("sponge {sponge}: cells = {value:?}: each must be at least 1")]
+    NoCells {
+        /// Index of the sponge.
+        sponge: usize,
+        /// The numbers of cells as given.
+        value: [u32; 3],
+    },
+    /// The blocks of all sponges together have too many cells.
+    #[error(
+        "sponge {sponge}: cells = {value:?} brings all sponges to {total} cells; at most {MAX_CELLS} are allowed"
+    )]
+    TooManyCells {
+        /// Index of the first sponge that does not fit.
+        sponge: usize,
+        /// The numbers of cells as given.
+        value: [u32; 3],
+        /// Cells of all sponges up to this one.
+        total: u64,
+    },
+    /// A coordinate of the origin is infinite or not a number.
+    #[error("sponge {sponge}: origin = {value} m must be finite")]
+    Origin {
+        /// Index of the sponge.
+        sponge: usize,
+        /// The origin as given \[m\].
+        value: Vec3,
+    },
+    /// The block lies so far out that single precision would distort its tets.
+    #[error(
+        "sponge {sponge}: origin: the block reaches {reach} m from the world's origin, where single precision \
+         cannot resolve edge = {edge} m; the reach must be at most {limit} m"
+    )]
+    Reach {
+        /// Index of the sponge.
+        sponge: usize,
+        /// Largest coordinate of the block \[m\].
+        reach: f64,
+        /// The edge as given \[m\].
+        edge: f32,
+        /// Largest reach for this edge \[m\].
+        limit: f64,
+    },
+    /// No tet is left, because the block is too small or the mask keeps nothing.
+    #[error(
+        "sponge {sponge}: the mask keeps none of the {candidates} tets of cells = {cells:?} (a block of one cell has \
+         none)"
+    )]
+    Empty {
+        /// Index of the sponge.
+        sponge: usize,
+        /// The numbers of cells as given.
+        cells: [u32; 3],
+        /// Tets wholly inside the block, before the mask.
+        candidates: u32,
+    },
+}

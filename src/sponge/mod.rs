@@ -1,0 +1,41 @@
+//! Set-up of sponges: tetragonal disphenoids on a body-centred cubic lattice.
+//!
+//! A block of `[nx, ny, nz]` cubic cells of edge `a` has sublattice A on the cell corners, `A(i,j,k)` with
+//! `0 <= i <= nx`, and sublattice B on the cell centres, `B(i,j,k)` with `0 <= i < nx`. Every tet has one long
+//! edge A-A and one long edge B-B, both of length `a` and perpendicular to each other, so all tets are congruent
+//! with volume `a^3/12`. A block keeps the tets that lie wholly inside it: every boundary square is then a
+//! pyramid pit of depth `a/2`, and the block holds less than its box (`1 - 1/n` of it for `n^3` cells).
+//! [`SpongeSummary::rest_volume`] is the volume of the true tets; mass and porosity must use it.
+//!
+//! [`Lattice::new`] packs any number of sponges into one set of rows in an order that the sweeps rely on:
+//!
+//! - nodes by vertex colour (A even, A odd, B even, B odd; parity of `i + j + k`), then sponge, then `k`, `j`, `i`;
+//! - tets by colour (`class * 2 + parity` of their cell), then sponge, then `k`, `j`, `i` of their cell.
+//!
+//! A class has constant offsets from its cell to its four nodes. So in one colour each slot always holds the same
+//! vertex colour ([`SLOT_VERTEX_COLOR`]) and the node indices of each slot strictly increase from tet to tet: any
+//! range of tets of one colour touches four node ranges, one in each vertex colour, which no other tet of that
+//! colour outside the range touches. [`chunks`] cuts such ranges.
+
+mod chunk;
+mod class;
+mod error;
+mod grid;
+mod lattice;
+mod limits;
+mod mask;
+mod pieces;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use chunk::{TetChunk, chunks};
+pub use class::{
+    CLASS_FRAME, CLASS_OFFSET, COLOR_COUNT, SLOT_VERTEX_COLOR, TET_CLASS_COUNT, VERTEX_COLOR_COUNT,
+    VERTEX_COLOR_SLOT,
+};
+pub use error::LatticeError;
+pub use lattice::{Lattice, LatticeSponge, SpongeSummary};
+pub use limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
+pub use mask::{Axis, block, cylinder, ellipsoid};
+pub use pieces::{Pieces, pieces};

@@ -1,0 +1,473 @@
+//! The world: the one object that a host builds, steps and looks at.
+
+use glam::Vec3;
+use sorb_kernels::{
+    SimdLevel,
+    body::Body,
+    columns::{Column, Columns},
+    cpu::{Cpu, CpuError},
+    params::Params,
+};
+
+use crate::{
+    clock::{Bound, Clock, Steps},
+    digest,
+    measure::Measures,
+    rigid::{RigidEngine, RigidError},
+    scene::{Scene, SceneError},
+    schedule::{Content, PhaseTime, Plan, PlanError, Runner, STEP},
+    setup::Setup,
+    sponge::{Lattice, LatticeError},
+};
+
+/// Why a world could not be built.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WorldError {
+    /// The scene has values out of range, or that do not fit together.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The lattice of a sponge cannot be made.
+    #[error(transparent)]
+    Lattice(#[from] LatticeError),
+    /// The corners of a hull do not span a volume.
+    #[cfg(feature = "rigid")]
+    #[error("body `{body}`: {source}")]
+    Hull {
+        /// Name of the body.
+        body: String,
+        /// What is wrong.
+        source: crate::rigid::HullError,
+    },
+    /// A body needs rapier3d.
+    #[error("body `{body}`: convex hulls need the feature `rigid`")]
+    NeedsRigid {
+        /// Name of the body.
+        body: String,
+    },
+    /// A body has bad values.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+    /// Threads or SIMD level.
+    #[error(transparent)]
+    Cpu(#[from] CpuError),
+    /// The step contradicts a kernel's declaration.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+}
+
+/// Why a step failed. The world keeps the state it had after the step and refuses to go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A particle's position or velocity is not a finite number.
+    #[error("step {step} at {time:.6} s: particle {id} is no longer finite after `sph::advect`")]
+    Particle {
+        /// Identity of the particle.
+        id: u32,
+        /// Steps taken.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+    },
+    /// A node's position is not a finite number.
+    #[error("step {step} at {time:.6} s: node {node} is no longer finite after `pbd::velocity`")]
+    Node {
+        /// Row of the node.
+        node: u32,
+        /// Steps taken.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+    },
+    /// Stability asks for a step below `time.minimum_step`.
+    #[error(
+        "step {step} at {time:.6} s: `{}` asks for a step of {needed:e} s, below time.minimum_step = {minimum:e} s",
+        .bound.name()
+    )]
+    TooSmall {
+        /// What asks for it.
+        bound: Bound,
+        /// The step it asks for [s].
+        needed: f32,
+        /// `time.minimum_step` [s].
+        minimum: f32,
+        /// Steps taken.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+    },
+    /// The engine of the bodies failed.
+    #[error("rigid bodies: {0}")]
+    Rigid(String),
+}
+
+/// What to run on.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Number of threads, 1 to 1024; default: one per core. Has no effect on results.
+    pub threads: Option<usize>,
+    /// SIMD level; default: the best of the machine. Has no effect on results.
+    pub simd: Option<SimdLevel>,
+    /// Columns to keep up to date although no phase reads them.
+    pub observed: Vec<Column>,
+}
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Length of the step [s].
+    pub step: f32,
+    /// What limited it.
+    pub bound: Bound,
+    /// Time after the step [s].
+    pub time: f64,
+    /// Largest speed of particles and nodes after the step [m/s].
+    pub maximum_speed: f32,
+}
+
+/// What the steps of a frame did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameReport {
+    /// Time after the frame [s].
+    pub time: f64,
+    /// Steps of the frame.
+    pub steps: u32,
+    /// Shortest step of the frame [s].
+    pub shortest_step: f32,
+    /// What limited most of the steps.
+    pub bound: Bound,
+    /// Largest speed of particles and nodes in the frame [m/s].
+    pub maximum_speed: f32,
+}
+
+/// A scene in motion.
+///
+/// A clone continues with the same bits: keep one to go back to it.
+#[derive(Clone, Debug)]
+pub struct World {
+    scene: Scene,
+    cpu: Cpu,
+    params: Params,
+    columns: Columns,
+    lattice: Lattice,
+    engine: Box<dyn RigidEngine>,
+    plan: Plan,
+    runner: Runner,
+    steps: Steps,
+    clock: Clock,
+    failed: Option<StepError>,
+}
+
+impl World {
+    /// Builds a scene, on all cores at the machine's best SIMD level.
+    ///
+    /// # Errors
+    /// The scene has values that are out of range or do not fit together; the message names the key.
+    pub fn new(scene: &Scene) -> Result<Self, WorldError> {
+        Self::with_options(scene, &Options::default())
+    }
+
+    /// Builds a scene.
+    ///
+    /// # Errors
+    /// As [`Self::new`], or the machine lacks what the options ask for.
+    pub fn with_options(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
+        let level = options.simd.unwrap_or_else(SimdLevel::best);
+        let threads = options.threads.unwrap_or_else(default_threads);
+        Self::on(scene, Cpu::with_threads(level, threads)?, &options.observed)
+    }
+
+    /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn on(scene: &Scene, cpu: Cpu, observed: &[Column]) -> Result<Self, WorldError> {
+        scene.validate()?;
+        let Setup {
+            params,
+            columns,
+            lattice,
+            engine,
+        } = Setup::new(scene, &cpu)?;
+        let content = Content {
+            fluid: columns.rows.fluid > 0,
+            sponge: columns.rows.nodes > 0,
+            walls: params.walls.is_some(),
+            bodies: columns.rows.bodies > 0,
+            surface_tension: params.fluid.surface_tension > 0.0,
+            iterations: params
+                .sponges
+                .iter()
+                .map(|sponge| sponge.iterations)
+                .max()
+                .unwrap_or(0),
+        };
+        let plan = Plan::new(STEP, content, observed)?;
+        let mut world = Self {
+            runner: Runner::new(&plan),
+            steps: Steps::new(scene, &params),
+            scene: scene.clone(),
+            cpu,
+            params,
+            columns,
+            lattice,
+            engine,
+            plan,
+            clock: Clock::default(),
+            failed: None,
+        };
+        world.clock.fluid_speed = fastest(&world.columns.fluid.velocity[..world.columns.rows.fluid]);
+        world.clock.fluid_acceleration = scene.gravity.length();
+        world.clock.node_speed = fastest(&world.columns.nodes.velocity[..world.columns.rows.nodes]);
+        Ok(world)
+    }
+
+    /// Takes one step, as long as stability allows.
+    ///
+    /// # Errors
+    /// The state is no longer finite, or would need steps below `time.minimum_step`. The world stays as it is,
+    /// and every further step gives the same error.
+    pub fn step(&mut self) -> Result<StepReport, StepError> {
+        self.step_within(f64::INFINITY)
+    }
+
+    /// Takes as many steps as fill a frame of `1 / time.frame_rate` seconds.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn advance_frame(&mut self) -> Result<FrameReport, StepError> {
+        let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
+        let mut report = FrameReport {
+            time: self.clock.time,
+            steps: 0,
+            shortest_step: f32::INFINITY,
+            bound: Bound::Frame,
+            maximum_speed: 0.0,
+        };
+        let mut bounds: Vec<(Bound, u32)> = Vec::new();
+        // The end is reached exactly: the last step is cut to what is left, and time is summed in f64.
+        while end - self.clock.time > 1e-9 {
+            let step = self.step_within(end - self.clock.time)?;
+            report.steps += 1;
+            report.shortest_step = report.shortest_step.min(step.step);
+            report.maximum_speed = report.maximum_speed.max(step.maximum_speed);
+            match bounds.iter_mut().find(|(bound, _)| *bound == step.bound) {
+                Some((_, count)) => *count += 1,
+                None => bounds.push((step.bound, 1)),
+            }
+        }
+        self.clock.frames += 1;
+        report.time = self.clock.time;
+        report.bound = bounds
+            .iter()
+            .rev()
+            .max_by_key(|(_, count)| *count)
+            .map_or(Bound::Frame, |best| best.0);
+        Ok(report)
+    }
+
+    fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {
+        if let Some(error) = &self.failed {
+            return Err(error.clone());
+        }
+        self.try_step(left)
+            .inspect_err(|error| self.failed = Some(error.clone()))
+    }
+
+    fn try_step(&mut self, left: f64) -> Result<StepReport, StepError> {
+        let (step, bound) = self.steps.next(&self.params, &self.clock, left);
+        let (minimum, time) = (self.steps.minimum(), self.clock.time);
+        if step < minimum && bound != Bound::Frame {
+            return Err(StepError::TooSmall {
+                bound,
+                needed: step,
+                minimum,
+                step: self.clock.steps,
+                time,
+            });
+        }
+        self.params.step = step;
+        let Self {
+            runner,
+            cpu,
+            params,
+            columns,
+            engine,
+            ..
+        } = self;
+        let mut rigid = Ok(());
+        runner.run(cpu, params, columns, |columns| {
+            rigid = move_bodies(engine.as_mut(), columns, step)
+        });
+        rigid.map_err(|error| StepError::Rigid(error.to_string()))?;
+        self.clock.time += f64::from(step);
+        self.clock.steps += 1;
+        self.check()?;
+        let maximum_speed = self.clock.fluid_speed.max(self.clock.node_speed);
+        Ok(StepReport {
+            step,
+            bound,
+            time: self.clock.time,
+            maximum_speed,
+        })
+    }
+
+    /// Takes over the extremes of the step, and refuses what is not finite.
+    fn check(&mut self) -> Result<(), StepError> {
+        let (fluid, nodes) = (
+            self.columns.fluid.extremes.total(),
+            self.columns.nodes.extremes.total(),
+        );
+        let (step, time) = (self.clock.steps, self.clock.time);
+        if let Some(row) = fluid.not_finite.checked_sub(1) {
+            let id = self.columns.fluid.id.get(row as usize).copied().unwrap_or(row);
+            return Err(StepError::Particle { id, step, time });
+        }
+        if let Some(node) = nodes.not_finite.checked_sub(1) {
+            return Err(StepError::Node { node, step, time });
+        }
+        self.clock.fluid_speed = fluid.speed_squared.sqrt();
+        self.clock.fluid_acceleration = fluid.acceleration_squared.sqrt();
+        self.clock.node_speed = nodes.speed_squared.sqrt();
+        Ok(())
+    }
+
+    /// The scene that the world was built from.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What runs in a step, and what is skipped and why.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Time spent in every phase that runs.
+    #[must_use]
+    pub fn phase_times(&self) -> &[PhaseTime] {
+        self.runner.times()
+    }
+
+    /// Threads and SIMD level.
+    #[must_use]
+    pub fn cpu(&self) -> &Cpu {
+        &self.cpu
+    }
+
+    /// Simulated time, steps and frames.
+    #[must_use]
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Parameters of the last step.
+    #[must_use]
+    pub fn params(&self) -> &Params {
+        &self.params
+    }
+
+    /// All columns, read only. Rows of the fluid change their order from step to step.
+    #[must_use]
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// Positions of the particles [m], in the order of their cells; w: pressure over squared density.
+    #[must_use]
+    pub fn particle_positions(&self) -> &[[f32; 4]] {
+        &self.columns.fluid.position[..self.columns.rows.fluid]
+    }
+
+    /// Velocities of the particles [m/s]; w: volume [m^3].
+    #[must_use]
+    pub fn particle_velocities(&self) -> &[[f32; 4]] {
+        &self.columns.fluid.velocity[..self.columns.rows.fluid]
+    }
+
+    /// Identities of the particles: `ids[row]` is the same particle for ever.
+    #[must_use]
+    pub fn particle_ids(&self) -> &[u32] {
+        &self.columns.fluid.id[..self.columns.rows.fluid]
+    }
+
+    /// Positions of the sponge nodes [m], of all sponges; w: inverse mass [1/kg].
+    #[must_use]
+    pub fn node_positions(&self) -> &[[f32; 4]] {
+        &self.columns.nodes.position[..self.columns.rows.nodes]
+    }
+
+    /// Velocities of the sponge nodes [m/s].
+    #[must_use]
+    pub fn node_velocities(&self) -> &[[f32; 4]] {
+        &self.columns.nodes.velocity[..self.columns.rows.nodes]
+    }
+
+    /// Saturation of the sponge nodes [1], about 0 to 1; empty before the first step or without fluid.
+    #[must_use]
+    pub fn node_saturations(&self) -> &[f32] {
+        let saturation = &self.columns.nodes.saturation;
+        &saturation[..saturation.len().min(self.columns.rows.nodes)]
+    }
+
+    /// The lattice: tets, outer surface, which node belongs to which sponge.
+    #[must_use]
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// Shapes and poses of the bodies, in the order of the scene.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.columns.bodies.states.0
+    }
+
+    /// The engine that moves the bodies.
+    #[must_use]
+    pub fn rigid_engine(&self) -> &dyn RigidEngine {
+        &*self.engine
+    }
+
+    /// Masses, momenta, energies and errors of the present state.
+    #[must_use]
+    pub fn measures(&self) -> Measures {
+        Measures::of(self)
+    }
+
+    /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        digest::digest(&self.columns, &self.clock)
+    }
+}
+
+/// One thread per core.
+fn default_threads() -> usize {
+    if cfg!(feature = "threads") {
+        std::thread::available_parallelism()
+            .map_or(1, usize::from)
+            .min(1024)
+    } else {
+        1
+    }
+}
+
+fn fastest(velocities: &[[f32; 4]]) -> f32 {
+    velocities
+        .iter()
+        .map(|v| Vec3::new(v[0], v[1], v[2]).length())
+        .fold(0.0, f32::max)
+}
+
+fn move_bodies(engine: &mut dyn RigidEngine, columns: &mut Columns, step: f32) -> Result<(), RigidError> {
+    let store = &mut columns.bodies;
+    let count = store.states.0.len();
+    let wrenches: Vec<_> = (0..count).map(|body| store.wrenches.total(body, count)).collect();
+    engine.step(step, &wrenches)?;
+    for (index, body) in store.states.0.iter_mut().enumerate() {
+        body.state = engine.state(index);
+    }
+    Ok(())
+}
