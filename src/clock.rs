@@ -88,16 +88,8 @@ impl Steps {
             }
         }
         let constant = smallest(&bounds);
-        let edge = params
-            .sponges
-            .iter()
-            .map(|sponge| sponge.edge)
-            .fold(f32::INFINITY, f32::min);
-        Self {
-            time: scene.time,
-            constant,
-            edge,
-        }
+        let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
+        Self { time: scene.time, constant, edge }
     }
 
     /// Longest stable step after the last one, not beyond the time that is left of a frame.
@@ -106,10 +98,7 @@ impl Steps {
         let fluid = &params.fluid;
         let h = fluid.smoothing.support_radius;
         if fluid.particle_mass > 0.0 {
-            bounds.push((
-                self.time.courant * h / (fluid.sound_speed + clock.fluid_speed),
-                Bound::Courant,
-            ));
+            bounds.push((self.time.courant * h / (fluid.sound_speed + clock.fluid_speed), Bound::Courant));
             bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
         }
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
@@ -118,11 +107,7 @@ impl Steps {
             return (left as f32, Bound::Frame);
         }
         // Two equal steps instead of a whole one and a sliver.
-        if f64::from(step) * 2.0 > left {
-            ((left * 0.5) as f32, Bound::Frame)
-        } else {
-            (step, bound)
-        }
+        if f64::from(step) * 2.0 > left { ((left * 0.5) as f32, Bound::Frame) } else { (step, bound) }
     }
 
     /// Shortest step that is allowed [s].
@@ -148,11 +133,7 @@ mod tests {
 
     #[test]
     fn the_smallest_bound_wins_and_not_a_number_never_does() {
-        let bounds = [
-            (2.0, Bound::Maximum),
-            (f32::NAN, Bound::Suction),
-            (1.0, Bound::Courant),
-        ];
+        let bounds = [(2.0, Bound::Maximum), (f32::NAN, Bound::Suction), (1.0, Bound::Courant)];
         assert_eq!(smallest(&bounds), (1.0, Bound::Courant));
         assert_eq!(smallest(&bounds[..2]), (2.0, Bound::Maximum));
     }

@@ -14,9 +14,7 @@ pub(crate) fn digest(columns: &Columns, clock: &Clock) -> u64 {
     for column in Column::ALL.iter().filter(|column| column.life() == Life::State) {
         buffer.clear();
         let rows = columns.rows.of(column.store());
-        columns
-            .data(*column)
-            .visit_words(rows, &mut |word| buffer.extend_from_slice(&word.to_le_bytes()));
+        columns.data(*column).visit_words(rows, &mut |word| buffer.extend_from_slice(&word.to_le_bytes()));
         hasher.update(&buffer);
     }
     hasher.digest()

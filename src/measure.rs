@@ -44,10 +44,7 @@ pub struct Measures {
 
 impl Measures {
     pub(crate) fn of(world: &World) -> Self {
-        let mut measures = Self {
-            time: world.clock().time,
-            ..Self::default()
-        };
+        let mut measures = Self { time: world.clock().time, ..Self::default() };
         measures.add_water(world);
         measures.add_sponges(world);
         for body in 0..world.bodies().len() {
@@ -71,22 +68,15 @@ impl Measures {
 
     fn add_water(&mut self, world: &World) {
         let fluid = &world.columns().fluid;
-        let (mass, gravity) = (
-            f64::from(world.params().fluid.particle_mass),
-            world.params().gravity.as_dvec3(),
-        );
+        let (mass, gravity) =
+            (f64::from(world.params().fluid.particle_mass), world.params().gravity.as_dvec3());
         let rest_density = f64::from(world.params().fluid.rest_density);
         let count = world.particle_positions().len();
         for (position, velocity) in world.particle_positions().iter().zip(world.particle_velocities()) {
             self.add_point(mass, vector(position), vector(velocity), gravity);
         }
         self.water_mass = mass * count as f64;
-        let inside = fluid
-            .interior
-            .iter()
-            .take(count)
-            .filter(|interior| **interior > INSIDE)
-            .count();
+        let inside = fluid.interior.iter().take(count).filter(|interior| **interior > INSIDE).count();
         self.absorbed_mass = mass * inside as f64;
         for density in fluid.density.iter().take(count) {
             let error = (f64::from(*density) / rest_density - 1.0).max(0.0);
@@ -104,12 +94,7 @@ impl Measures {
             let node_volume = f64::from(lattice.node_volume[node]);
             let node_mass = node_volume * f64::from(sponge.density);
             let position = vector(position);
-            self.add_point(
-                node_mass,
-                position,
-                vector(&world.node_velocities()[node]),
-                gravity,
-            );
+            self.add_point(node_mass, position, vector(&world.node_velocities()[node]), gravity);
             self.sponge_centre += position * node_mass;
             mass += node_mass;
             lowest = lowest.min(position.y);
@@ -141,10 +126,7 @@ impl Measures {
             let (d, e, f) = ((p1 - p0) / edge, (p2 - p3) / edge, (p2 + p3 - p0 - p1) / edge);
             let ratio = d.dot(e.cross(f));
             let rest = edge.powi(3) / 12.0;
-            let stretch: f64 = [d, e, f]
-                .iter()
-                .map(|column| (column.length() - 1.0).powi(2))
-                .sum();
+            let stretch: f64 = [d, e, f].iter().map(|column| (column.length() - 1.0).powi(2)).sum();
             let shear = d.dot(e).powi(2) + d.dot(f).powi(2) + e.dot(f).powi(2);
             self.sponge_volume += rest * ratio;
             self.elastic_energy += 0.5

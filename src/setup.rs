@@ -38,11 +38,7 @@ impl Setup {
     pub(crate) fn new(scene: &Scene, cpu: &Cpu) -> Result<Self, WorldError> {
         let params = params(scene);
         let mut columns = Columns::default();
-        let setups = scene
-            .bodies
-            .iter()
-            .map(body_setup)
-            .collect::<Result<Vec<_>, _>>()?;
+        let setups = scene.bodies.iter().map(body_setup).collect::<Result<Vec<_>, _>>()?;
         let engine = engine(scene, &setups)?;
         place_bodies(scene, &setups, &*engine, &mut columns);
         let lattice = lattice(scene)?;
@@ -51,12 +47,7 @@ impl Setup {
             columns.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &columns));
         }
         seed_fluid(scene, &params, &mut columns);
-        Ok(Self {
-            params,
-            columns,
-            lattice,
-            engine,
-        })
+        Ok(Self { params, columns, lattice, engine })
     }
 }
 
@@ -67,22 +58,14 @@ fn params(scene: &Scene) -> Params {
         }
         scene::Domain::Open => (Domain::Unbounded, None),
     };
-    let radius = scene
-        .sponges
-        .iter()
-        .map(|sponge| sponge.suction_radius * sponge.edge)
-        .fold(0.0, f32::max);
+    let radius = scene.sponges.iter().map(|sponge| sponge.suction_radius * sponge.edge).fold(0.0, f32::max);
     Params {
         step: scene.time.maximum_step,
         gravity: scene.gravity,
         domain,
         walls,
         fluid: fluid_params(scene),
-        sponges: scene
-            .sponges
-            .iter()
-            .map(|sponge| sponge_params(scene, sponge))
-            .collect(),
+        sponges: scene.sponges.iter().map(|sponge| sponge_params(scene, sponge)).collect(),
         coupling: Wendland::new(if radius > 0.0 { radius } else { 1.0 }),
     }
 }
@@ -133,10 +116,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
 }
 
 fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
-    let (viscosity, density) = scene
-        .fluid
-        .as_ref()
-        .map_or((0.0, 1.0), |fluid| (fluid.viscosity, fluid.rest_density));
+    let (viscosity, density) =
+        scene.fluid.as_ref().map_or((0.0, 1.0), |fluid| (fluid.viscosity, fluid.rest_density));
     SpongeParams {
         edge: sponge.edge,
         stretch_modulus: sponge.stretch_modulus,
@@ -172,19 +153,15 @@ fn body_setup(body: &scene::Body) -> Result<BodySetup, WorldError> {
     match &body.shape {
         #[cfg(feature = "rigid")]
         scene::ShapeKind::Hull { vertices } => {
-            let hull = crate::rigid::convex_hull(vertices).map_err(|error| WorldError::Hull {
-                body: body.name.clone(),
-                source: error,
-            })?;
+            let hull = crate::rigid::convex_hull(vertices)
+                .map_err(|error| WorldError::Hull { body: body.name.clone(), source: error })?;
             setup.shape = hull.shape;
             setup.state.position += setup.state.rotation * hull.offset;
         }
         shape => match shape.primitive() {
             Some(shape) => setup.shape = shape,
             None => {
-                return Err(WorldError::NeedsRigid {
-                    body: body.name.clone(),
-                });
+                return Err(WorldError::NeedsRigid { body: body.name.clone() });
             }
         },
     }
@@ -193,36 +170,25 @@ fn body_setup(body: &scene::Body) -> Result<BodySetup, WorldError> {
 
 fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, WorldError> {
     #[cfg(feature = "rigid")]
-    if setups
-        .iter()
-        .any(|setup| setup.kind == sorb_kernels::body::BodyKind::Dynamic)
-    {
+    if setups.iter().any(|setup| setup.kind == sorb_kernels::body::BodyKind::Dynamic) {
         let container = match scene.domain {
             scene::Domain::Box { minimum, maximum } => Some((minimum, maximum)),
             scene::Domain::Open => None,
         };
-        return Ok(Box::new(crate::rigid::RapierEngine::new(
-            scene.gravity,
-            container,
-            setups,
-        )?));
+        return Ok(Box::new(crate::rigid::RapierEngine::new(scene.gravity, container, setups)?));
     }
     let _ = scene;
     Ok(Box::new(crate::rigid::ScriptedEngine::new(setups)?))
 }
 
 fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, columns: &mut Columns) {
-    let bodies = setups
-        .iter()
-        .zip(&scene.bodies)
-        .enumerate()
-        .map(|(index, (setup, body))| Body {
-            shape: setup.shape.clone(),
-            kind: setup.kind,
-            state: engine.state(index),
-            friction: body.friction,
-            touches_nodes: !body.grip,
-        });
+    let bodies = setups.iter().zip(&scene.bodies).enumerate().map(|(index, (setup, body))| Body {
+        shape: setup.shape.clone(),
+        kind: setup.kind,
+        state: engine.state(index),
+        friction: body.friction,
+        touches_nodes: !body.grip,
+    });
     columns.bodies.states = Bodies(bodies.collect());
     columns.rows.bodies = setups.len();
 }
@@ -257,11 +223,7 @@ fn lattice(scene: &Scene) -> Result<Lattice, WorldError> {
 
 fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut Columns) {
     let count = lattice.node_count();
-    columns.rows = RowCounts {
-        nodes: count,
-        tets: lattice.tet_count(),
-        ..columns.rows
-    };
+    columns.rows = RowCounts { nodes: count, tets: lattice.tet_count(), ..columns.rows };
     if count == 0 {
         return;
     }
@@ -270,11 +232,7 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     nodes.position.clone_from(&lattice.position);
     nodes.volume.clone_from(&lattice.node_volume);
     nodes.sponge.clone_from(&lattice.node_sponge);
-    nodes.suction = lattice
-        .node_surface
-        .iter()
-        .map(|surface| if *surface { 0.0 } else { 1.0 })
-        .collect();
+    nodes.suction = lattice.node_surface.iter().map(|surface| if *surface { 0.0 } else { 1.0 }).collect();
     nodes.velocity = lattice
         .node_sponge
         .iter()
@@ -312,11 +270,7 @@ fn topology(lattice: &Lattice) -> Topology {
     let chunks = sponge::chunks(lattice, TETS_PER_CHUNK).map(|chunks| {
         chunks
             .into_iter()
-            .map(|chunk| TetChunk {
-                tets: chunk.tets,
-                nodes: chunk.nodes,
-                sponge: chunk.sponge,
-            })
+            .map(|chunk| TetChunk { tets: chunk.tets, nodes: chunk.nodes, sponge: chunk.sponge })
             .collect()
     });
     Topology {
@@ -330,28 +284,15 @@ fn topology(lattice: &Lattice) -> Topology {
 fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
     let Some(fluid) = &scene.fluid else { return };
     let spacing = fluid.spacing;
-    let mut seeds = Seeds {
-        columns,
-        clearance: CLEARANCE * spacing,
-        jitter: JITTER * spacing,
-    };
+    let mut seeds = Seeds { columns, clearance: CLEARANCE * spacing, jitter: JITTER * spacing };
     for block in &fluid.blocks {
         let counts = block.counts(spacing);
-        let dry = |point: Vec3| {
-            !scene
-                .sponges
-                .iter()
-                .any(|sponge| sponge.saturation > 0.0 && holds(sponge, point))
-        };
+        let dry =
+            |point: Vec3| !scene.sponges.iter().any(|sponge| sponge.saturation > 0.0 && holds(sponge, point));
         seeds.fill(block.minimum, [spacing; 3], counts, block.velocity, dry);
     }
     let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
-    for (index, sponge) in scene
-        .sponges
-        .iter()
-        .enumerate()
-        .filter(|(_, sponge)| sponge.saturation > 0.0)
-    {
+    for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| sponge.saturation > 0.0) {
         // As many particles as fill the pores, evenly over the inside of the true tets: boundary squares are pits
         // of half an edge, a sixth of an edge on average.
         let inset = Vec3::splat(sponge.edge / 6.0);
@@ -419,9 +360,7 @@ impl Seeds<'_> {
 
 /// A displacement in [-1, 1]^3 that is a function of the index alone (splitmix64).
 fn jitter(index: u64) -> Vec3 {
-    let mut bits = index
-        .wrapping_mul(0x9e37_79b9_7f4a_7c15)
-        .wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut bits = index.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     bits ^= bits >> 31;

@@ -184,24 +184,14 @@ impl World {
     /// As [`Self::new`].
     pub fn on(scene: &Scene, cpu: Cpu, observed: &[Column]) -> Result<Self, WorldError> {
         scene.validate()?;
-        let Setup {
-            params,
-            columns,
-            lattice,
-            engine,
-        } = Setup::new(scene, &cpu)?;
+        let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu)?;
         let content = Content {
             fluid: columns.rows.fluid > 0,
             sponge: columns.rows.nodes > 0,
             walls: params.walls.is_some(),
             bodies: columns.rows.bodies > 0,
             surface_tension: params.fluid.surface_tension > 0.0,
-            iterations: params
-                .sponges
-                .iter()
-                .map(|sponge| sponge.iterations)
-                .max()
-                .unwrap_or(0),
+            iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };
         let plan = Plan::new(STEP, content, observed)?;
         let mut world = Self {
@@ -259,11 +249,8 @@ impl World {
         }
         self.clock.frames += 1;
         report.time = self.clock.time;
-        report.bound = bounds
-            .iter()
-            .rev()
-            .max_by_key(|(_, count)| *count)
-            .map_or(Bound::Frame, |best| best.0);
+        report.bound =
+            bounds.iter().rev().max_by_key(|(_, count)| *count).map_or(Bound::Frame, |best| best.0);
         Ok(report)
     }
 
@@ -271,54 +258,30 @@ impl World {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
-        self.try_step(left)
-            .inspect_err(|error| self.failed = Some(error.clone()))
+        self.try_step(left).inspect_err(|error| self.failed = Some(error.clone()))
     }
 
     fn try_step(&mut self, left: f64) -> Result<StepReport, StepError> {
         let (step, bound) = self.steps.next(&self.params, &self.clock, left);
         let (minimum, time) = (self.steps.minimum(), self.clock.time);
         if step < minimum && bound != Bound::Frame {
-            return Err(StepError::TooSmall {
-                bound,
-                needed: step,
-                minimum,
-                step: self.clock.steps,
-                time,
-            });
+            return Err(StepError::TooSmall { bound, needed: step, minimum, step: self.clock.steps, time });
         }
         self.params.step = step;
-        let Self {
-            runner,
-            cpu,
-            params,
-            columns,
-            engine,
-            ..
-        } = self;
+        let Self { runner, cpu, params, columns, engine, .. } = self;
         let mut rigid = Ok(());
-        runner.run(cpu, params, columns, |columns| {
-            rigid = move_bodies(engine.as_mut(), columns, step)
-        });
+        runner.run(cpu, params, columns, |columns| rigid = move_bodies(engine.as_mut(), columns, step));
         rigid.map_err(|error| StepError::Rigid(error.to_string()))?;
         self.clock.time += f64::from(step);
         self.clock.steps += 1;
         self.check()?;
         let maximum_speed = self.clock.fluid_speed.max(self.clock.node_speed);
-        Ok(StepReport {
-            step,
-            bound,
-            time: self.clock.time,
-            maximum_speed,
-        })
+        Ok(StepReport { step, bound, time: self.clock.time, maximum_speed })
     }
 
     /// Takes over the extremes of the step, and refuses what is not finite.
     fn check(&mut self) -> Result<(), StepError> {
-        let (fluid, nodes) = (
-            self.columns.fluid.extremes.total(),
-            self.columns.nodes.extremes.total(),
-        );
+        let (fluid, nodes) = (self.columns.fluid.extremes.total(), self.columns.nodes.extremes.total());
         let (step, time) = (self.clock.steps, self.clock.time);
         if let Some(row) = fluid.not_finite.checked_sub(1) {
             let id = self.columns.fluid.id.get(row as usize).copied().unwrap_or(row);
@@ -446,19 +409,14 @@ impl World {
 /// One thread per core.
 fn default_threads() -> usize {
     if cfg!(feature = "threads") {
-        std::thread::available_parallelism()
-            .map_or(1, usize::from)
-            .min(1024)
+        std::thread::available_parallelism().map_or(1, usize::from).min(1024)
     } else {
         1
     }
 }
 
 fn fastest(velocities: &[[f32; 4]]) -> f32 {
-    velocities
-        .iter()
-        .map(|v| Vec3::new(v[0], v[1], v[2]).length())
-        .fold(0.0, f32::max)
+    velocities.iter().map(|v| Vec3::new(v[0], v[1], v[2]).length()).fold(0.0, f32::max)
 }
 
 fn move_bodies(engine: &mut dyn RigidEngine, columns: &mut Columns, step: f32) -> Result<(), RigidError> {

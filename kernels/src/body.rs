@@ -128,28 +128,11 @@ pub struct Bodies(pub Vec<Body>);
 impl ColumnData for Bodies {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
         for body in &self.0 {
-            let BodyState {
-                position,
-                rotation,
-                linear_velocity,
-                angular_velocity,
-            } = body.state;
-            position
-                .to_array()
-                .into_iter()
-                .for_each(|value| visit(value.to_bits()));
-            rotation
-                .to_array()
-                .into_iter()
-                .for_each(|value| visit(value.to_bits()));
-            linear_velocity
-                .to_array()
-                .into_iter()
-                .for_each(|value| visit(value.to_bits()));
-            angular_velocity
-                .to_array()
-                .into_iter()
-                .for_each(|value| visit(value.to_bits()));
+            let BodyState { position, rotation, linear_velocity, angular_velocity } = body.state;
+            position.to_array().into_iter().for_each(|value| visit(value.to_bits()));
+            rotation.to_array().into_iter().for_each(|value| visit(value.to_bits()));
+            linear_velocity.to_array().into_iter().for_each(|value| visit(value.to_bits()));
+            angular_velocity.to_array().into_iter().for_each(|value| visit(value.to_bits()));
         }
     }
     fn poison(&mut self) {
@@ -169,11 +152,7 @@ pub(crate) fn dot<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> f32x8<S> {
 /// Cross product, lane by lane.
 #[inline(always)]
 pub(crate) fn cross<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> Vec3x8<S> {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// A body placed in the world, ready to be asked for distances.
@@ -299,13 +278,7 @@ mod tests {
             linear_velocity: Vec3::X,
             angular_velocity: Vec3::new(0.0, 0.0, 2.0),
         };
-        Body {
-            shape,
-            kind: BodyKind::Fixed,
-            state,
-            friction: 0.5,
-            touches_nodes: true,
-        }
+        Body { shape, kind: BodyKind::Fixed, state, friction: 0.5, touches_nodes: true }
     }
 
     /// Distance and normal at one world point, the same on every level.
@@ -328,16 +301,8 @@ mod tests {
     #[track_caller]
     fn assert_probe(shape: Shape, point: [f32; 3], distance: f32, normal: Vec3) {
         let found = probe(shape, point);
-        assert!(
-            (found.0 - distance).abs() < 1e-5,
-            "distance {} instead of {distance}",
-            found.0
-        );
-        assert!(
-            found.1.distance(normal) < 1e-5,
-            "normal {} instead of {normal}",
-            found.1
-        );
+        assert!((found.0 - distance).abs() < 1e-5, "distance {} instead of {distance}", found.0);
+        assert!(found.1.distance(normal) < 1e-5, "normal {} instead of {normal}", found.1);
     }
 
     #[test]
@@ -345,26 +310,15 @@ mod tests {
         // The body's y axis points along -x of the world, its x axis along +y.
         assert_probe(Shape::Plane, [0.5, 0.0, 0.0], 0.5, -Vec3::X);
         assert_probe(Shape::Sphere { radius: 0.5 }, [1.0, 4.0, 3.0], 1.5, Vec3::Y);
-        let capsule = Shape::Capsule {
-            half_height: 2.0,
-            radius: 0.25,
-        };
+        let capsule = Shape::Capsule { half_height: 2.0, radius: 0.25 };
         assert_probe(capsule.clone(), [-0.5, 3.0, 3.0], 0.75, Vec3::Y);
         assert_probe(capsule, [-2.0, 2.0, 3.0], 0.75, -Vec3::X);
-        let cuboid = Shape::Cuboid {
-            half_extents: Vec3::new(1.0, 0.5, 0.25),
-        };
+        let cuboid = Shape::Cuboid { half_extents: Vec3::new(1.0, 0.5, 0.25) };
         assert_probe(cuboid.clone(), [1.0, 3.5, 3.0], 0.5, Vec3::Y);
         assert_probe(cuboid.clone(), [1.0, 2.0, 3.2], -0.05, Vec3::Z);
         assert_probe(cuboid, [2.0, 2.0, 3.0], 0.5, Vec3::X);
-        let planes = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z]
-            .map(|n| (n, 0.5))
-            .to_vec();
-        let hull = Shape::Hull {
-            planes,
-            vertices: vec![Vec3::splat(0.5)],
-            triangles: Vec::new(),
-        };
+        let planes = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z].map(|n| (n, 0.5)).to_vec();
+        let hull = Shape::Hull { planes, vertices: vec![Vec3::splat(0.5)], triangles: Vec::new() };
         assert_probe(hull, [1.0, 2.75, 3.1], 0.25, Vec3::Y);
     }
 

@@ -57,10 +57,7 @@ impl ColumnData for Vec<f32> {
 
 impl ColumnData for Vec<[f32; 4]> {
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
-        self.iter()
-            .take(rows)
-            .flatten()
-            .for_each(|value| visit(value.to_bits()));
+        self.iter().take(rows).flatten().for_each(|value| visit(value.to_bits()));
     }
     fn poison(&mut self) {
         self.fill([f32::NAN; 4]);

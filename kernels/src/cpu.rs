@@ -45,11 +45,7 @@ pub struct Cpu {
 
 impl fmt::Debug for Cpu {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .debug_struct("Cpu")
-            .field("level", &self.level)
-            .field("threads", &self.threads)
-            .finish()
+        formatter.debug_struct("Cpu").field("level", &self.level).field("threads", &self.threads).finish()
     }
 }
 
@@ -68,12 +64,7 @@ impl Cpu {
                 .collect::<Vec<_>>()
                 .join(", "),
         })?;
-        Ok(Self {
-            level,
-            token,
-            threads: 1,
-            pool: None,
-        })
+        Ok(Self { level, token, threads: 1, pool: None })
     }
 
     /// A pool of its own with `threads` threads (1 to 1024) at the given level.
@@ -86,10 +77,7 @@ impl Cpu {
             return Ok(cpu);
         }
         if !(1..=1024).contains(&threads) {
-            return Err(CpuError::Threads {
-                threads,
-                reason: "the range is 1 to 1024".to_owned(),
-            });
+            return Err(CpuError::Threads { threads, reason: "the range is 1 to 1024".to_owned() });
         }
         #[cfg(feature = "threads")]
         {
@@ -97,17 +85,11 @@ impl Cpu {
                 .num_threads(threads)
                 .thread_name(|index| format!("sorb-{index}"))
                 .build()
-                .map_err(|error| CpuError::Threads {
-                    threads,
-                    reason: error.to_string(),
-                })?;
+                .map_err(|error| CpuError::Threads { threads, reason: error.to_string() })?;
             Ok(cpu.with_pool(Arc::new(pool)))
         }
         #[cfg(not(feature = "threads"))]
-        Err(CpuError::Threads {
-            threads,
-            reason: "built without the feature `threads`".to_owned(),
-        })
+        Err(CpuError::Threads { threads, reason: "built without the feature `threads`".to_owned() })
     }
 
     /// The same level on a pool that the host owns.
@@ -270,18 +252,11 @@ mod tests {
                 cpu.enter(|| {
                     cpu.for_chunks((&mut seen[..], PerChunk(&mut chunk)), |first, (seen, chunk)| {
                         chunk.0[0] = first;
-                        seen.iter_mut()
-                            .enumerate()
-                            .for_each(|(row, seen)| *seen += first + row);
+                        seen.iter_mut().enumerate().for_each(|(row, seen)| *seen += first + row);
                     });
                 });
                 assert!(seen.iter().enumerate().all(|(row, seen)| *seen == row));
-                assert!(
-                    chunk
-                        .iter()
-                        .enumerate()
-                        .all(|(index, first)| *first == index * CHUNK)
-                );
+                assert!(chunk.iter().enumerate().all(|(index, first)| *first == index * CHUNK));
             }
         }
     }
@@ -290,15 +265,8 @@ mod tests {
     fn bad_requests_are_errors() {
         assert!(Cpu::with_threads(SimdLevel::Fallback, 0).is_err());
         assert!(Cpu::with_threads(SimdLevel::Fallback, 1025).is_err());
-        let missing = SimdLevel::ALL
-            .into_iter()
-            .find(|level| !level.is_supported())
-            .expect("no machine has all");
-        assert!(
-            Cpu::serial(missing)
-                .expect_err("missing")
-                .to_string()
-                .contains("fallback")
-        );
+        let missing =
+            SimdLevel::ALL.into_iter().find(|level| !level.is_supported()).expect("no machine has all");
+        assert!(Cpu::serial(missing).expect_err("missing").to_string().contains("fallback"));
     }
 }

@@ -32,14 +32,8 @@ pub enum SimdLevel {
 
 impl SimdLevel {
     /// Every level, worst first.
-    pub const ALL: [Self; 6] = [
-        Self::Fallback,
-        Self::Sse2,
-        Self::Sse42,
-        Self::Avx2,
-        Self::Avx512,
-        Self::Neon,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Fallback, Self::Sse2, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon];
 
     /// The best level of this machine.
     #[must_use]
@@ -147,12 +141,7 @@ pub(crate) fn select<S: Simd>(
 fn transpose_four<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
     let (ac_low, ac_high) = (a.zip_low(c), a.zip_high(c));
     let (bd_low, bd_high) = (b.zip_low(d), b.zip_high(d));
-    [
-        ac_low.zip_low(bd_low),
-        ac_low.zip_high(bd_low),
-        ac_high.zip_low(bd_high),
-        ac_high.zip_high(bd_high),
-    ]
+    [ac_low.zip_low(bd_low), ac_low.zip_high(bd_low), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
 }
 
 /// Transposes eight rows of four into four vectors.
@@ -161,20 +150,13 @@ fn transpose<S: Simd>(simd: S, rows: [&[f32; 4]; LANES]) -> [f32x8<S>; 4] {
     let row = |lane: usize| f32x4::load_array_ref(simd, rows[lane]);
     let low = transpose_four([row(0), row(1), row(2), row(3)]);
     let high = transpose_four([row(4), row(5), row(6), row(7)]);
-    [
-        low[0].combine(high[0]),
-        low[1].combine(high[1]),
-        low[2].combine(high[2]),
-        low[3].combine(high[3]),
-    ]
+    [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
 }
 
 /// Rows `start..start + 8` as vectors of x, y, z and w.
 #[inline(always)]
 pub(crate) fn load_rows<S: Simd>(simd: S, rows: &[[f32; 4]], start: usize) -> [f32x8<S>; 4] {
-    let rows: &[[f32; 4]; LANES] = rows[start..start + LANES]
-        .try_into()
-        .expect("the slice has eight rows");
+    let rows: &[[f32; 4]; LANES] = rows[start..start + LANES].try_into().expect("the slice has eight rows");
     transpose(simd, rows.each_ref())
 }
 
@@ -195,29 +177,14 @@ pub(crate) fn store_rows<S: Simd>(rows: &mut [[f32; 4]], start: usize, vectors: 
 #[inline(always)]
 pub(crate) fn gather_rows<S: Simd>(simd: S, rows: &[[f32; 4]], index: &[u32; LANES]) -> [f32x8<S>; 4] {
     let row = |lane: usize| &rows[index[lane] as usize];
-    transpose(
-        simd,
-        [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)],
-    )
+    transpose(simd, [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
 }
 
 /// Eight values by index.
 #[inline(always)]
 pub(crate) fn gather<S: Simd>(simd: S, values: &[f32], index: &[u32; LANES]) -> f32x8<S> {
     let value = |lane: usize| values[index[lane] as usize];
-    f32x8::load_array(
-        simd,
-        [
-            value(0),
-            value(1),
-            value(2),
-            value(3),
-            value(4),
-            value(5),
-            value(6),
-            value(7),
-        ],
-    )
+    f32x8::load_array(simd, [value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7)])
 }
 
 /// Runs an expression that is generic over the SIMD token at the level of the CPU context.
@@ -244,9 +211,8 @@ mod tests {
 
     #[test]
     fn gathered_rows_are_transposed_on_every_level() {
-        let rows: Vec<[f32; 4]> = (0..20)
-            .map(|i| [i as f32, i as f32 + 0.25, i as f32 + 0.5, -(i as f32)])
-            .collect();
+        let rows: Vec<[f32; 4]> =
+            (0..20).map(|i| [i as f32, i as f32 + 0.25, i as f32 + 0.5, -(i as f32)]).collect();
         let index = [3, 19, 0, 7, 7, 12, 1, 5];
         for level in SimdLevel::ALL {
             let Some(token) = level.token() else { continue };
@@ -255,11 +221,7 @@ mod tests {
                 (x.to_array(), w.to_array())
             });
             for lane in 0..LANES {
-                assert_eq!(
-                    (x[lane], w[lane]),
-                    (index[lane] as f32, -(index[lane] as f32)),
-                    "{level}"
-                );
+                assert_eq!((x[lane], w[lane]), (index[lane] as f32, -(index[lane] as f32)), "{level}");
             }
         }
     }

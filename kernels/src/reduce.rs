@@ -26,11 +26,7 @@ impl Extremes {
         self.0.iter().fold(Extreme::default(), |total, chunk| Extreme {
             speed_squared: total.speed_squared.max(chunk.speed_squared),
             acceleration_squared: total.acceleration_squared.max(chunk.acceleration_squared),
-            not_finite: if total.not_finite > 0 {
-                total.not_finite
-            } else {
-                chunk.not_finite
-            },
+            not_finite: if total.not_finite > 0 { total.not_finite } else { chunk.not_finite },
         })
     }
 }
@@ -79,22 +75,14 @@ impl Wrenches {
 impl ColumnData for Wrenches {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
         for wrench in self.fluid.iter().chain(&self.nodes) {
-            for value in wrench
-                .impulse
-                .to_array()
-                .into_iter()
-                .chain(wrench.angular_impulse.to_array())
-            {
+            for value in wrench.impulse.to_array().into_iter().chain(wrench.angular_impulse.to_array()) {
                 visit(value.to_bits() as u32);
                 visit((value.to_bits() >> 32) as u32);
             }
         }
     }
     fn poison(&mut self) {
-        let nan = Wrench {
-            impulse: DVec3::NAN,
-            angular_impulse: DVec3::NAN,
-        };
+        let nan = Wrench { impulse: DVec3::NAN, angular_impulse: DVec3::NAN };
         self.fluid.fill(nan);
         self.nodes.fill(nan);
     }

@@ -54,11 +54,7 @@ impl Wendland {
     #[must_use]
     pub fn gradient_f64(support_radius: f64, distance: f64) -> f64 {
         let q = distance / support_radius;
-        if q < 1.0 {
-            210.0 / (PI * support_radius.powi(5)) * (1.0 - q).powi(3)
-        } else {
-            0.0
-        }
+        if q < 1.0 { 210.0 / (PI * support_radius.powi(5)) * (1.0 - q).powi(3) } else { 0.0 }
     }
 
     /// Sum of `spacing^3 W` over a cubic lattice with a particle at the origin: 1 for a perfect kernel.

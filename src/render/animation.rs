@@ -46,10 +46,8 @@ impl Animation {
     ) -> Result<Self, RenderError> {
         let path = path.as_ref();
         check_size(path, width, height)?;
-        let delay = delay(frames_per_second).ok_or_else(|| RenderError::FrameRate {
-            path: path.to_owned(),
-            value: frames_per_second,
-        })?;
+        let delay = delay(frames_per_second)
+            .ok_or_else(|| RenderError::FrameRate { path: path.to_owned(), value: frames_per_second })?;
         let file = File::create(path).map_err(|source| RenderError::write(path, source))?;
         let mut animation = Self {
             path: path.to_owned(),
@@ -63,9 +61,7 @@ impl Animation {
             canvas: Vec::new(),
             finished: false,
         };
-        animation
-            .header()
-            .map_err(|source| RenderError::write(path, source))?;
+        animation.header().map_err(|source| RenderError::write(path, source))?;
         Ok(animation)
     }
 
@@ -88,16 +84,9 @@ impl Animation {
             });
         }
         image.check(&self.path)?;
-        let patch = if self.frames == 0 {
-            Patch::whole(image)
-        } else {
-            Patch::changes(image, &self.canvas)
-        };
-        let data = patch
-            .compress()
-            .map_err(|source| RenderError::encode(&self.path, source))?;
-        self.frame(&patch, &data)
-            .map_err(|source| RenderError::write(&self.path, source))?;
+        let patch = if self.frames == 0 { Patch::whole(image) } else { Patch::changes(image, &self.canvas) };
+        let data = patch.compress().map_err(|source| RenderError::encode(&self.path, source))?;
+        self.frame(&patch, &data).map_err(|source| RenderError::write(&self.path, source))?;
         if self.frames == 0 {
             self.canvas.clone_from(&image.pixels);
         } else {
@@ -119,12 +108,9 @@ impl Animation {
     fn complete(&mut self) -> Result<(), RenderError> {
         self.finished = true;
         if self.frames == 0 {
-            return Err(RenderError::NoFrames {
-                path: self.path.clone(),
-            });
+            return Err(RenderError::NoFrames { path: self.path.clone() });
         }
-        self.trailer()
-            .map_err(|source| RenderError::write(&self.path, source))
+        self.trailer().map_err(|source| RenderError::write(&self.path, source))
     }
 
     fn header(&mut self) -> std::io::Result<()> {
@@ -191,20 +177,8 @@ struct Patch {
 
 impl Patch {
     fn whole(image: &Image) -> Self {
-        let pixels = image
-            .pixels
-            .as_chunks::<3>()
-            .0
-            .iter()
-            .flat_map(|&[r, g, b]| [r, g, b, 255])
-            .collect();
-        Self {
-            x: 0,
-            y: 0,
-            width: image.width,
-            height: image.height,
-            pixels,
-        }
+        let pixels = image.pixels.as_chunks::<3>().0.iter().flat_map(|&[r, g, b]| [r, g, b, 255]).collect();
+        Self { x: 0, y: 0, width: image.width, height: image.height, pixels }
     }
 
     fn changes(image: &Image, canvas: &[u8]) -> Self {
@@ -235,13 +209,7 @@ impl Patch {
                 pixels.extend(if changed(i) { [r, g, b, 255] } else { [0; 4] });
             }
         }
-        Self {
-            x: left,
-            y: top,
-            width,
-            height,
-            pixels,
-        }
+        Self { x: left, y: top, width, height, pixels }
     }
 
     /// Brings the copy of the screen up to date.
@@ -294,10 +262,7 @@ fn delay(frames_per_second: f32) -> Option<(u16, u16)> {
     if !(0.02..=1000.0).contains(&frames_per_second) {
         return None;
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the range was checked; the value is at most 1e6"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "the range was checked; the value is at most 1e6")]
     let rate = (f64::from(frames_per_second) * 1000.0).round() as u32;
     let (numerator, denominator) = (1000, rate);
     let divisor = greatest_common_divisor(numerator, denominator);
@@ -310,11 +275,7 @@ fn delay(frames_per_second: f32) -> Option<(u16, u16)> {
 }
 
 fn greatest_common_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 {
-        a
-    } else {
-        greatest_common_divisor(b, a % b)
-    }
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
 fn chunk(writer: &mut impl Write, kind: [u8; 4], data: &[u8]) -> std::io::Result<()> {
@@ -335,11 +296,7 @@ fn checksum<'a>(bytes: impl Iterator<Item = &'a u8>) -> u32 {
             let mut value = seed;
             let mut bit = 0;
             while bit < 8 {
-                value = if value & 1 == 1 {
-                    0xEDB8_8320 ^ (value >> 1)
-                } else {
-                    value >> 1
-                };
+                value = if value & 1 == 1 { 0xEDB8_8320 ^ (value >> 1) } else { value >> 1 };
                 bit += 1;
             }
             table[i] = value;
@@ -348,7 +305,5 @@ fn checksum<'a>(bytes: impl Iterator<Item = &'a u8>) -> u32 {
         }
         table
     };
-    !bytes.fold(u32::MAX, |crc, &byte| {
-        TABLE[usize::from(crc.to_le_bytes()[0] ^ byte)] ^ (crc >> 8)
-    })
+    !bytes.fold(u32::MAX, |crc, &byte| TABLE[usize::from(crc.to_le_bytes()[0] ^ byte)] ^ (crc >> 8))
 }

@@ -22,11 +22,7 @@ impl Camera {
     pub fn framing(minimum: Vec3, maximum: Vec3) -> Self {
         let field_of_view = 0.56_f32;
         let (low, high) = (minimum.min(maximum), minimum.max(maximum));
-        let (low, high) = if (high - low).is_finite() {
-            (low, high)
-        } else {
-            (Vec3::ZERO, Vec3::ONE)
-        };
+        let (low, high) = if (high - low).is_finite() { (low, high) } else { (Vec3::ZERO, Vec3::ONE) };
         let half = ((high - low) * 0.5).max(Vec3::splat(1e-4));
         let centre = (low + high) * 0.5;
         let towards_eye = Vec3::new(0.52, 0.50, 1.0).normalize();
@@ -55,12 +51,7 @@ impl Camera {
             shift += 0.5 * (bottom + top) * distance;
         }
         let target = centre + up * shift;
-        Self {
-            eye: target + towards_eye * distance,
-            target,
-            up: Vec3::Y,
-            field_of_view,
-        }
+        Self { eye: target + towards_eye * distance, target, up: Vec3::Y, field_of_view }
     }
 }
 
@@ -81,11 +72,7 @@ pub(super) struct View {
 
 impl View {
     pub(super) fn new(camera: &Camera, width: usize, height: usize) -> Self {
-        let eye = if camera.eye.is_finite() {
-            camera.eye
-        } else {
-            Vec3::new(1.0, 1.0, 2.0)
-        };
+        let eye = if camera.eye.is_finite() { camera.eye } else { Vec3::new(1.0, 1.0, 2.0) };
         let sight = camera.target - eye;
         let forward = sight.try_normalize().unwrap_or(Vec3::NEG_Z);
         let right = forward
@@ -93,17 +80,9 @@ impl View {
             .try_normalize()
             .filter(|right| right.is_finite())
             .unwrap_or_else(|| forward.any_orthonormal_vector());
-        let angle = if camera.field_of_view.is_finite() {
-            camera.field_of_view
-        } else {
-            0.56
-        };
+        let angle = if camera.field_of_view.is_finite() { camera.field_of_view } else { 0.56 };
         let slope = (angle.clamp(1e-3, 3.1) * 0.5).tan();
-        let distance = if sight.is_finite() {
-            sight.length().max(1e-6)
-        } else {
-            1.0
-        };
+        let distance = if sight.is_finite() { sight.length().max(1e-6) } else { 1.0 };
         Self {
             eye,
             right,
@@ -126,10 +105,7 @@ impl View {
     /// Sample coordinates of a point in front of the eye.
     pub(super) fn project(&self, local: Vec3) -> (f32, f32) {
         let scale = self.focal / local.z;
-        (
-            0.5 * self.width as f32 + local.x * scale,
-            0.5 * self.height as f32 - local.y * scale,
-        )
+        (0.5 * self.width as f32 + local.x * scale, 0.5 * self.height as f32 - local.y * scale)
     }
 
     /// Slopes to the right and up of the ray through a sample's centre.

@@ -15,11 +15,7 @@ impl Encoder {
         let table = (0..=STEPS)
             .map(|step| {
                 let x = step as f32 / STEPS as f32;
-                let value = if x <= 0.003_130_8 {
-                    12.92 * x
-                } else {
-                    1.055 * x.powf(1.0 / 2.4) - 0.055
-                };
+                let value = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
                 byte(value * 255.0 + 0.5)
             })
             .collect();
@@ -29,16 +25,11 @@ impl Encoder {
     /// Bytes of a colour; channels are cut to 0..=1.
     pub(super) fn encode(&self, colour: Vec3) -> [u8; 3] {
         let scaled = colour.clamp(Vec3::ZERO, Vec3::ONE) * STEPS as f32 + 0.5;
-        scaled
-            .to_array()
-            .map(|channel| self.table[index(channel).min(STEPS)])
+        scaled.to_array().map(|channel| self.table[index(channel).min(STEPS)])
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "`as` saturates, which is what a channel should do"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "`as` saturates, which is what a channel should do")]
 fn byte(value: f32) -> u8 {
     value as u8
 }
@@ -53,10 +44,7 @@ pub(super) fn index(value: f32) -> usize {
 }
 
 /// Largest whole number not above `value`, cut to what an `i32` holds.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "`as` saturates; callers clip to the picture"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "`as` saturates; callers clip to the picture")]
 pub(super) fn floor(value: f32) -> i32 {
     value.floor() as i32
 }

@@ -32,11 +32,7 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
         (samples, depth) = surface::pour(&stage, &shadows, &samples, depth);
     }
     overlays(&stage, &depth, &mut samples);
-    Image {
-        width,
-        height,
-        pixels: develop(&samples, columns),
-    }
+    Image { width, height, pixels: develop(&samples, columns) }
 }
 
 /// The particles in sight, their radius scaled.
@@ -69,11 +65,7 @@ fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, firs
                     light,
                 )
             };
-            let colours = if one {
-                [colour(places[0]); 4]
-            } else {
-                places.map(colour)
-            };
+            let colours = if one { [colour(places[0]); 4] } else { places.map(colour) };
             for ((x, y), colour) in places.into_iter().zip(colours) {
                 band[(y - first) * columns + x] = colour;
             }
@@ -84,15 +76,10 @@ fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, firs
 /// Translucent bodies from far to near, then the container's edges.
 fn overlays(stage: &Stage<'_>, depth: &[f32], samples: &mut [Vec3]) {
     let view = &stage.view;
-    let mut order: Vec<usize> = (0..stage.solids.len())
-        .filter(|&i| stage.solids[i].translucent)
-        .collect();
+    let mut order: Vec<usize> = (0..stage.solids.len()).filter(|&i| stage.solids[i].translucent).collect();
     let distance = |i: &usize| stage.solids[*i].position.distance(view.eye);
     order.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
-    let frames: Vec<_> = order
-        .iter()
-        .map(|&i| (i, layer::frame(view, &stage.solids[i])))
-        .collect();
+    let frames: Vec<_> = order.iter().map(|&i| (i, layer::frame(view, &stage.solids[i]))).collect();
     let wires = wires(stage);
     bands::each_band(samples, view.width, BAND, |first, band| {
         let rows = band.len() / view.width;
@@ -149,11 +136,7 @@ fn wires(stage: &Stage<'_>) -> Vec<Wire> {
             if a.z < view.near {
                 a = a.lerp(b, (view.near - a.z) / (b.z - a.z)).with_z(view.near);
             }
-            wires.push(Wire {
-                from: view.project(a),
-                to: view.project(b),
-                inverse: (1.0 / a.z, 1.0 / b.z),
-            });
+            wires.push(Wire { from: view.project(a), to: view.project(b), inverse: (1.0 / a.z, 1.0 / b.z) });
         }
     }
     wires

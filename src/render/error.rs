@@ -68,19 +68,13 @@ pub enum RenderError {
 
 impl RenderError {
     pub(super) fn write(path: &Path, source: std::io::Error) -> Self {
-        Self::Write {
-            path: path.to_owned(),
-            source,
-        }
+        Self::Write { path: path.to_owned(), source }
     }
 
     pub(super) fn encode(path: &Path, source: png::EncodingError) -> Self {
         match source {
             png::EncodingError::IoError(source) => Self::write(path, source),
-            source => Self::Encode {
-                path: path.to_owned(),
-                source,
-            },
+            source => Self::Encode { path: path.to_owned(), source },
         }
     }
 }

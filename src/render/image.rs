@@ -42,11 +42,7 @@ impl Image {
         check_size(path, self.width, self.height)?;
         let expected = self.width as usize * self.height as usize * 3;
         if self.pixels.len() != expected {
-            return Err(RenderError::Pixels {
-                path: path.to_owned(),
-                expected,
-                found: self.pixels.len(),
-            });
+            return Err(RenderError::Pixels { path: path.to_owned(), expected, found: self.pixels.len() });
         }
         Ok(())
     }
@@ -58,10 +54,6 @@ pub(super) fn check_size(path: &Path, width: u32, height: u32) -> Result<(), Ren
     if fits(width) && fits(height) {
         Ok(())
     } else {
-        Err(RenderError::Size {
-            path: path.to_owned(),
-            width,
-            height,
-        })
+        Err(RenderError::Size { path: path.to_owned(), width, height })
     }
 }

@@ -102,11 +102,7 @@ impl Ball {
             if discriminant > 0.0 {
                 let root = discriminant.sqrt();
                 let inverse = 1.0 / a;
-                put(
-                    x,
-                    (dx * c.x + dy * c.y + c.z - root) * inverse,
-                    2.0 * root * inverse,
-                );
+                put(x, (dx * c.x + dy * c.y + c.z - root) * inverse, 2.0 * root * inverse);
             }
         }
     }
@@ -120,18 +116,12 @@ fn bounds(view: &View, local: Vec3, radius: f32) -> Option<(Range<usize>, Range<
     let extent = |side: f32| {
         let root = (side * side + (local.z - radius) * (local.z + radius)).sqrt();
         let scale = view.focal / ((local.z - radius) * (local.z + radius));
-        (
-            (side * local.z - radius * root) * scale,
-            (side * local.z + radius * root) * scale,
-        )
+        ((side * local.z - radius * root) * scale, (side * local.z + radius * root) * scale)
     };
     let (left, right) = extent(local.x);
     let (bottom, top) = extent(local.y);
     let (cx, cy) = (0.5 * view.width as f32, 0.5 * view.height as f32);
-    Some((
-        range(cx + left, cx + right, view.width),
-        range(cy - top, cy - bottom, view.height),
-    ))
+    Some((range(cx + left, cx + right, view.width), range(cy - top, cy - bottom, view.height)))
 }
 
 /// Samples from `low` to `high`, cut to 0..`limit`.
@@ -226,10 +216,7 @@ impl Layer {
     /// Nothing anywhere.
     fn empty(view: &View) -> Self {
         let samples = view.width * view.height;
-        Self {
-            depth: vec![f32::INFINITY; samples],
-            code: vec![0; samples],
-        }
+        Self { depth: vec![f32::INFINITY; samples], code: vec![0; samples] }
     }
 
     fn bands(&mut self, width: usize) -> Vec<Band<'_>> {
@@ -237,12 +224,7 @@ impl Layer {
         depth
             .zip(self.code.chunks_mut(width * BAND))
             .enumerate()
-            .map(|(index, (depth, code))| Band {
-                first: index * BAND,
-                width,
-                depth,
-                code,
-            })
+            .map(|(index, (depth, code))| Band { first: index * BAND, width, depth, code })
             .collect()
     }
 
@@ -295,16 +277,10 @@ fn flats(stage: &Stage<'_>) -> Vec<(usize, Flat)> {
     let flat = |corners: [usize; 3]| {
         let [a, b, c] = corners.map(project);
         let (a, b, c) = (a?, b?, c?);
-        Some(Flat {
-            x: [a.0.0, b.0.0, c.0.0],
-            y: [a.0.1, b.0.1, c.0.1],
-            value: [a.1, b.1, c.1],
-        })
+        Some(Flat { x: [a.0.0, b.0.0, c.0.0], y: [a.0.1, b.0.1, c.0.1], value: [a.1, b.1, c.1] })
     };
     let triangles = stage.sponge.triangles.iter().enumerate();
-    triangles
-        .filter_map(|(i, &(_, corners))| Some((i, flat(corners)?)))
-        .collect()
+    triangles.filter_map(|(i, &(_, corners))| Some((i, flat(corners)?))).collect()
 }
 
 impl Band<'_> {
@@ -331,9 +307,7 @@ impl Band<'_> {
         let code = item.code();
         for y in overlap(&flat.rows(view.height), self.first, self.rows()) {
             let start = (y - self.first) * self.width;
-            flat.row(y, self.width, |x, inverse| {
-                self.put(start + x, 1.0 / inverse, code)
-            });
+            flat.row(y, self.width, |x, inverse| self.put(start + x, 1.0 / inverse, code));
         }
     }
 
@@ -345,11 +319,7 @@ impl Band<'_> {
         stage: &Stage<'_>,
     ) {
         let view = &stage.view;
-        let reach = if solid.is_plane() {
-            stage.fade_end()
-        } else {
-            f32::INFINITY
-        };
+        let reach = if solid.is_plane() { stage.fade_end() } else { f32::INFINITY };
         for y in overlap(&frame.1, self.first, self.rows()) {
             for x in frame.0.clone() {
                 let ray = view.ray(x, y);

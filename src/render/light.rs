@@ -75,28 +75,11 @@ impl Shadows {
     fn cast(&self, stage: &Stage<'_>) -> Vec<f32> {
         let disc = |centre: Vec3, radius: f32| {
             let (c, r) = (self.locate(centre), radius / self.texel);
-            Disc {
-                centre: c,
-                columns: range(c.x - r, c.x + r, SIDE),
-                rows: range(c.y - r, c.y + r, SIDE),
-            }
+            Disc { centre: c, columns: range(c.x - r, c.x + r, SIDE), rows: range(c.y - r, c.y + r, SIDE) }
         };
-        let balls: Vec<Disc> = stage
-            .particles
-            .iter()
-            .map(|&(_, p)| disc(p, stage.radius))
-            .collect();
-        let flats: Vec<Flat> = stage
-            .sponge
-            .triangles
-            .iter()
-            .map(|&(_, c)| self.flat(stage, c))
-            .collect();
-        let casters: Vec<_> = stage
-            .solids
-            .iter()
-            .filter(|s| !s.translucent && !s.is_plane())
-            .collect();
+        let balls: Vec<Disc> = stage.particles.iter().map(|&(_, p)| disc(p, stage.radius)).collect();
+        let flats: Vec<Flat> = stage.sponge.triangles.iter().map(|&(_, c)| self.flat(stage, c)).collect();
+        let casters: Vec<_> = stage.solids.iter().filter(|s| !s.translucent && !s.is_plane()).collect();
         let frames: Vec<Disc> = casters.iter().map(|s| disc(s.position, s.radius)).collect();
         let ball_bins = bin(balls.iter().map(|b| b.rows.clone()), SIDE);
         let flat_bins = bin(flats.iter().map(|f| f.rows(SIDE)), SIDE);
@@ -112,12 +95,7 @@ impl Shadows {
             }
             for &i in &ball_bins[index] {
                 for y in overlap(&balls[i].rows, first, rows) {
-                    self.ball(
-                        &balls[i],
-                        stage.radius,
-                        y,
-                        &mut band[(y - first) * SIDE..][..SIDE],
-                    );
+                    self.ball(&balls[i], stage.radius, y, &mut band[(y - first) * SIDE..][..SIDE]);
                 }
             }
             for &i in &solid_bins[index] {
@@ -145,11 +123,7 @@ impl Shadows {
 
     fn flat(&self, stage: &Stage<'_>, corners: [usize; 3]) -> Flat {
         let [a, b, c] = corners.map(|i| self.locate(stage.sponge.positions[i]));
-        Flat {
-            x: [a.x, b.x, c.x],
-            y: [a.y, b.y, c.y],
-            value: [a.z, b.z, c.z],
-        }
+        Flat { x: [a.x, b.x, c.x], y: [a.y, b.y, c.y], value: [a.z, b.z, c.z] }
     }
 
     fn ball(&self, disc: &Disc, radius: f32, y: usize, row: &mut [f32]) {
@@ -189,10 +163,7 @@ impl Shadows {
         let here = self.locate(point + normal * (1.5 * self.texel));
         let spot = |k: usize, radius: f32| {
             let [x, y] = SPIRAL[k];
-            (
-                here.x + radius * (x * cosine - y * sine),
-                here.y + radius * (x * sine + y * cosine),
-            )
+            (here.x + radius * (x * cosine - y * sine), here.y + radius * (x * sine + y * cosine))
         };
         // First how far what casts the shadow is on average, then a disc as wide as the penumbra there.
         if !self.any_above(here.x, here.y, here.z + self.texel * 2.0) {
@@ -238,9 +209,7 @@ fn blocks(height: &[f32]) -> Vec<f32> {
     }
     let widest = |i: usize| i.saturating_sub(1)..(i + 2).min(COUNT);
     let around = |x: usize, y: usize| {
-        let values = widest(y)
-            .flat_map(|y| widest(x).map(move |x| (x, y)))
-            .map(|(x, y)| own[y * COUNT + x]);
+        let values = widest(y).flat_map(|y| widest(x).map(move |x| (x, y))).map(|(x, y)| own[y * COUNT + x]);
         values.fold(f32::NEG_INFINITY, f32::max)
     };
     (0..COUNT * COUNT).map(|i| around(i % COUNT, i / COUNT)).collect()

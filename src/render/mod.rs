@@ -81,11 +81,7 @@ pub struct Picture<'a> {
 #[must_use]
 pub fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> Image {
     if width == 0 || height == 0 {
-        return Image {
-            width,
-            height,
-            pixels: Vec::new(),
-        };
+        return Image { width, height, pixels: Vec::new() };
     }
     compose::draw(picture, camera, width, height)
 }

@@ -24,15 +24,10 @@ pub(super) struct Patch {
 /// Pits of two sizes at barycentric coordinates `at`; `pores` coarse ones fit along a side, and detail below `blur`
 /// (in triangle sides per pixel) is left out.
 pub(super) fn pit(patch: &Patch, at: [f32; 3], pores: f32, blur: f32) -> Pit {
-    let mut pit = Pit {
-        openness: 1.0,
-        tilt: Vec3::ZERO,
-    };
-    for (layer, count, depth, chance) in [
-        (0, pores, 0.78, 0.55),
-        (1, pores * 2.0, 0.62, 0.6),
-        (2, pores * 5.0, 0.42, 0.7),
-    ] {
+    let mut pit = Pit { openness: 1.0, tilt: Vec3::ZERO };
+    for (layer, count, depth, chance) in
+        [(0, pores, 0.78, 0.55), (1, pores * 2.0, 0.62, 0.6), (2, pores * 5.0, 0.42, 0.7)]
+    {
         // A pit is about half a grid cell wide: fade it out from three pixels to one.
         let visible = smooth(0.9, 0.3, count * blur);
         if visible > 0.0 {

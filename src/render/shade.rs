@@ -57,15 +57,9 @@ pub(super) fn normal(stage: &Stage<'_>, item: Item, point: Vec3, ray: Vec3) -> V
             let [u, v, w] = barycentric(corners.map(|c| stage.sponge.positions[c]), point);
             let [a, b, c] = corners.map(|c| stage.sponge.normals[c]);
             let normal = (a * u + b * v + c * w).normalize_or(-ray.normalize());
-            if normal.dot(ray) > 0.35 * ray.length() {
-                -normal
-            } else {
-                normal
-            }
+            if normal.dot(ray) > 0.35 * ray.length() { -normal } else { normal }
         }
-        Item::Body(i) => stage.solids[i]
-            .span(stage.view.eye, ray)
-            .map_or(Vec3::Y, |span| span.normal),
+        Item::Body(i) => stage.solids[i].span(stage.view.eye, ray).map_or(Vec3::Y, |span| span.normal),
     }
 }
 
@@ -87,10 +81,9 @@ pub(super) fn colour(stage: &Stage<'_>, item: Item, point: Vec3, ray: Vec3, ligh
             }
         }
         Item::Floor | Item::Nothing => match &stage.floor {
-            Some(floor) => ground(
-                tiles(floor, point, stage.view.focal / (point - stage.view.eye).length()),
-                base,
-            ),
+            Some(floor) => {
+                ground(tiles(floor, point, stage.view.focal / (point - stage.view.eye).length()), base)
+            }
             None => ground(Vec3::splat(0.51), base),
         },
     };
@@ -129,41 +122,21 @@ pub(super) fn answer(matter: &Matter, ray: Vec3, light: Light) -> Vec3 {
 
 fn droplet(stage: &Stage<'_>, particle: usize, normal: Vec3) -> Matter {
     let speed = stage.speed(particle);
-    let colour = DEEP
-        .lerp(Vec3::new(0.07, 0.33, 0.62), smooth(0.0, 0.5, speed))
-        .lerp(FOAM, smooth(0.35, 1.0, speed));
+    let colour =
+        DEEP.lerp(Vec3::new(0.07, 0.33, 0.62), smooth(0.0, 0.5, speed)).lerp(FOAM, smooth(0.35, 1.0, speed));
     // Light that entered on the lit side leaves on the far side, as in a real drop.
     let through = (-normal.dot(light::direction())).max(0.0);
-    Matter {
-        colour: colour * (1.0 + 0.9 * through),
-        normal,
-        gloss: (0.8, 56),
-        mirror: 0.6,
-    }
+    Matter { colour: colour * (1.0 + 0.9 * through), normal, gloss: (0.8, 56), mirror: 0.6 }
 }
 
 fn paint(index: usize, mark: f32, normal: Vec3) -> Matter {
     let colour = BODIES[index % BODIES.len()];
-    let colour = if mark > 1.0 {
-        colour.lerp(Vec3::splat(0.85), 0.75)
-    } else {
-        colour
-    };
-    Matter {
-        colour,
-        normal,
-        gloss: (0.22, 40),
-        mirror: 0.35,
-    }
+    let colour = if mark > 1.0 { colour.lerp(Vec3::splat(0.85), 0.75) } else { colour };
+    Matter { colour, normal, gloss: (0.22, 40), mirror: 0.35 }
 }
 
 fn ground(colour: Vec3, normal: Vec3) -> Matter {
-    Matter {
-        colour,
-        normal,
-        gloss: (0.0, 1),
-        mirror: 0.0,
-    }
+    Matter { colour, normal, gloss: (0.0, 1), mirror: 0.0 }
 }
 
 /// The floor's checks and grid lines, evened out where they get smaller than a pixel (`scale` samples a metre).
@@ -176,10 +149,7 @@ fn tiles(floor: &Floor, point: Vec3, scale: f32) -> Vec3 {
     if !inside {
         return base;
     }
-    let (u, v) = (
-        (point.x - floor.low.x) / floor.pitch,
-        (point.z - floor.low.z) / floor.pitch,
-    );
+    let (u, v) = ((point.x - floor.low.x) / floor.pitch, (point.z - floor.low.z) / floor.pitch);
     let odd = (u.floor() + v.floor()).rem_euclid(2.0) > 0.5;
     let clear = smooth(2.0, 10.0, floor.pitch * scale);
     let check = if odd { 1.05 } else { 0.95 };
@@ -197,15 +167,8 @@ fn skin(stage: &Stage<'_>, triangle: usize, point: Vec3, normal: Vec3) -> Matter
     let [u, v, w] = at;
     let [a, b, c] = corners.map(|c| sponge.wetness[c]);
     let wet = a * u + b * v + c * w;
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a key for a hash; the low bits are enough"
-    )]
-    let patch = Patch {
-        corners: positions,
-        nodes: corners.map(|c| c as u32),
-        key: index as u32,
-    };
+    #[expect(clippy::cast_possible_truncation, reason = "a key for a hash; the low bits are enough")]
+    let patch = Patch { corners: positions, nodes: corners.map(|c| c as u32), key: index as u32 };
     let side = (positions[1] - positions[0]).length() + (positions[2] - positions[0]).length();
     let samples = 0.5 * side * stage.view.focal / (point - stage.view.eye).length();
     let pit = pores::pit(&patch, at, sponge.pores, 2.0 / samples.max(1e-3));
@@ -216,12 +179,7 @@ fn skin(stage: &Stage<'_>, triangle: usize, point: Vec3, normal: Vec3) -> Matter
     let stain = Vec3::new(1.0 - 0.72 * depth, 1.0 - 0.86 * depth, 1.0 - 0.93 * depth);
     let colour = DRY.lerp(WET, smooth(0.0, 1.0, wet)) * tint * stain;
     let gloss = (0.16 * smooth(0.35, 1.0, wet) * pit.openness, 24);
-    Matter {
-        colour,
-        normal: (normal + pit.tilt).normalize_or(normal),
-        gloss,
-        mirror: 0.0,
-    }
+    Matter { colour, normal: (normal + pit.tilt).normalize_or(normal), gloss, mirror: 0.0 }
 }
 
 /// Barycentric coordinates of a point in the plane of a triangle.
@@ -240,28 +198,17 @@ fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> [f32; 3] {
 /// Colour and opacity of a translucent body where a ray meets it.
 pub(super) fn glass(stage: &Stage<'_>, solid: usize, ray: Vec3, depth: f32) -> Option<(Vec3, f32)> {
     let (view, solid) = (&stage.view, &stage.solids[solid]);
-    let span = solid
-        .span(view.eye, ray)
-        .filter(|span| span.enter > view.near && span.enter < depth)?;
+    let span = solid.span(view.eye, ray).filter(|span| span.enter > view.near && span.enter < depth)?;
     let tint = BODIES[solid.index % BODIES.len()].lerp(Vec3::splat(0.75), 0.72);
     let clear = Light::clear();
-    let matter = Matter {
-        colour: tint,
-        normal: span.normal,
-        gloss: (0.3, 60),
-        mirror: 0.6,
-    };
+    let matter = Matter { colour: tint, normal: span.normal, gloss: (0.3, 60), mirror: 0.6 };
     let facing = span.normal.dot(-ray.normalize_or_zero()).clamp(0.0, 1.0);
     let rim = |t: f32| {
         let width = (0.004 * stage.size).max(1.6 * t / view.focal);
         1.0 - smooth(0.4 * width, width, solid.edge_distance(view.eye + ray * t))
     };
     let near_rim = rim(span.enter);
-    let far_rim = if span.exit < depth {
-        0.45 * rim(span.exit)
-    } else {
-        0.0
-    };
+    let far_rim = if span.exit < depth { 0.45 * rim(span.exit) } else { 0.0 };
     let opacity = 0.20 + 0.30 * (1.0 - facing).powi(3) + 0.45 * near_rim.max(far_rim);
     Some((answer(&matter, ray, clear), opacity.min(0.9)))
 }

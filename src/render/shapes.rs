@@ -83,9 +83,7 @@ impl<'a> Solid<'a> {
         let Shape::Cuboid { half_extents } = self.shape else {
             return f32::INFINITY;
         };
-        let inside = (*half_extents - self.local(point).abs())
-            .max(Vec3::ZERO)
-            .to_array();
+        let inside = (*half_extents - self.local(point).abs()).max(Vec3::ZERO).to_array();
         // The smallest of the three is the face the point lies on; the next one is the way to an edge.
         let [a, b, c] = inside;
         a.max(b).min(a.max(c)).min(b.max(c))
@@ -122,21 +120,11 @@ fn ball(o: Vec3, d: Vec3, radius: f32) -> Option<Span> {
     }
     let root = discriminant.sqrt();
     let (enter, exit) = ((b - root) / a, (b + root) / a);
-    Some(Span {
-        enter,
-        exit,
-        normal: (o + d * enter) / radius,
-        exit_normal: (o + d * exit) / radius,
-    })
+    Some(Span { enter, exit, normal: (o + d * enter) / radius, exit_normal: (o + d * exit) / radius })
 }
 
 fn cuboid(o: Vec3, d: Vec3, half: Vec3) -> Option<Span> {
-    let mut span = Span {
-        enter: f32::MIN,
-        exit: f32::MAX,
-        normal: Vec3::ZERO,
-        exit_normal: Vec3::ZERO,
-    };
+    let mut span = Span { enter: f32::MIN, exit: f32::MAX, normal: Vec3::ZERO, exit_normal: Vec3::ZERO };
     for axis in 0..3 {
         let outward = Vec3::AXES[axis];
         clip(&mut span, outward, half[axis], o, d)?;
@@ -146,12 +134,7 @@ fn cuboid(o: Vec3, d: Vec3, half: Vec3) -> Option<Span> {
 }
 
 fn hull(o: Vec3, d: Vec3, planes: &[(Vec3, f32)]) -> Option<Span> {
-    let mut span = Span {
-        enter: f32::MIN,
-        exit: f32::MAX,
-        normal: Vec3::ZERO,
-        exit_normal: Vec3::ZERO,
-    };
+    let mut span = Span { enter: f32::MIN, exit: f32::MAX, normal: Vec3::ZERO, exit_normal: Vec3::ZERO };
     for &(normal, offset) in planes {
         clip(&mut span, normal, offset, o, d)?;
     }
@@ -185,11 +168,7 @@ fn capsule(o: Vec3, d: Vec3, half_height: f32, radius: f32) -> Option<Span> {
             Some(old) => {
                 let first = if span.enter < old.enter { span } else { old };
                 let last = if span.exit > old.exit { span } else { old };
-                Span {
-                    exit: last.exit,
-                    exit_normal: last.exit_normal,
-                    ..first
-                }
+                Span { exit: last.exit, exit_normal: last.exit_normal, ..first }
             }
         });
     };
@@ -207,16 +186,8 @@ fn capsule(o: Vec3, d: Vec3, half_height: f32, radius: f32) -> Option<Span> {
             let within = |t: f32| (o.y + d.y * t).abs() <= half_height;
             match (within(span.enter), within(span.exit)) {
                 (true, true) => keep(span),
-                (true, false) => keep(Span {
-                    exit: span.enter,
-                    exit_normal: span.normal,
-                    ..span
-                }),
-                (false, true) => keep(Span {
-                    enter: span.exit,
-                    normal: span.exit_normal,
-                    ..span
-                }),
+                (true, false) => keep(Span { exit: span.enter, exit_normal: span.normal, ..span }),
+                (false, true) => keep(Span { enter: span.exit, normal: span.exit_normal, ..span }),
                 (false, false) => {}
             }
         }

@@ -19,11 +19,7 @@ pub(super) struct Surface {
 
 impl Surface {
     pub(super) fn new(picture: &Picture<'_>) -> Self {
-        let mut positions: Vec<Vec3> = picture
-            .nodes
-            .iter()
-            .map(|&[x, y, z, _]| Vec3::new(x, y, z))
-            .collect();
+        let mut positions: Vec<Vec3> = picture.nodes.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
         let corner = |i: u32| Some(i as usize).filter(|&i| positions.get(i).is_some_and(|p| p.is_finite()));
         let triangles: Vec<(usize, [usize; 3])> = picture
             .triangles
@@ -42,17 +38,8 @@ impl Surface {
             .map(|w| if w.is_finite() { w.clamp(0.0, 1.0) } else { 0.0 })
             .collect();
         // From the count alone, so that the pores stay where they are while the sponge deforms.
-        let pores = (9000.0 / triangles.len().max(1) as f32)
-            .sqrt()
-            .round()
-            .clamp(1.0, 12.0);
-        Self {
-            triangles,
-            positions,
-            normals,
-            wetness,
-            pores,
-        }
+        let pores = (9000.0 / triangles.len().max(1) as f32).sqrt().round().clamp(1.0, 12.0);
+        Self { triangles, positions, normals, wetness, pores }
     }
 }
 

@@ -46,36 +46,18 @@ impl<'a> Stage<'a> {
         let solid = |(index, body): (usize, &DrawnBody<'a>)| Solid::new(index, body);
         let solids: Vec<Solid<'a>> = picture.bodies.iter().enumerate().filter_map(solid).collect();
         let sponge = Surface::new(picture);
-        let container = picture
-            .container
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .filter(|(a, b)| (*b - *a).is_finite());
+        let container =
+            picture.container.map(|(a, b)| (a.min(b), a.max(b))).filter(|(a, b)| (*b - *a).is_finite());
         let (low, high) = extent(&particles, radius, &solids, &sponge, container);
         let height_scale = container.map_or(40.0 * radius, |(a, b)| b.y - a.y).max(1e-6);
         let floor = container.map(|(low, high)| {
             let side = (high - low).max_element().max(1e-6);
-            Floor {
-                height: low.y,
-                low,
-                high,
-                pitch: round_pitch(side / 10.0),
-            }
+            Floor { height: low.y, low, high, pitch: round_pitch(side / 10.0) }
         });
         let view = View::new(camera, width, height);
         let (centre, size) = ((low + high) * 0.5, (high - low).length());
         let fast = 0.75 * (2.0 * 9.81 * height_scale).sqrt();
-        Self {
-            picture,
-            view,
-            particles,
-            radius,
-            solids,
-            sponge,
-            floor,
-            centre,
-            size,
-            fast,
-        }
+        Self { picture, view, particles, radius, solids, sponge, floor, centre, size, fast }
     }
 
     /// Distance from the scene's centre where the ground starts to melt into the sky.
@@ -124,11 +106,7 @@ fn extent(
     }
     let Some((a, b)) = container else {
         let usable = low.is_finite() && high.is_finite();
-        return if usable {
-            (low, high.max(low + 1e-6))
-        } else {
-            (Vec3::splat(-0.5), Vec3::splat(0.5))
-        };
+        return if usable { (low, high.max(low + 1e-6)) } else { (Vec3::splat(-0.5), Vec3::splat(0.5)) };
     };
     // Strays do not stretch the box beyond one container on each side, and it grows in steps of a quarter.
     let side = (b - a).max(Vec3::splat(1e-6));

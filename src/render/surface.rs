@@ -30,13 +30,7 @@ struct Pixel {
     key: f32,
 }
 
-const DRY: Pixel = Pixel {
-    depth: f32::INFINITY,
-    thickness: 0.0,
-    speed: 0.0,
-    normal: Vec3::ZERO,
-    key: 1.0,
-};
+const DRY: Pixel = Pixel { depth: f32::INFINITY, thickness: 0.0, speed: 0.0, normal: Vec3::ZERO, key: 1.0 };
 
 /// Pours the water over samples that show everything else; gives the samples and their new depth.
 pub(super) fn pour(
@@ -116,11 +110,7 @@ fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -
             let (at, limit) = if sideways { (x, width) } else { (y, height) };
             let (mut depth, mut thick, mut speed, mut total) = (0.0, 0.0, 0.0, 0.0);
             for other in at.saturating_sub(taps)..(at + taps + 1).min(limit) {
-                let near = if sideways {
-                    pixels[y * width + other]
-                } else {
-                    pixels[other * width + x]
-                };
+                let near = if sideways { pixels[y * width + other] } else { pixels[other * width + x] };
                 // What is far in front belongs to another sheet of water; what is far behind counts as just behind.
                 if near.depth == f32::INFINITY || near.depth < pixel.depth - apart {
                     continue;
@@ -167,11 +157,7 @@ fn orient(stage: &Stage<'_>, shadows: &Shadows, pixels: &[Pixel], width: usize) 
             let below = (y + 1 < height).then(|| near(x, y + 1)).flatten();
             let towards_eye = (view.eye - here).normalize_or(Vec3::Y);
             pixel.normal = slope(below, above).cross(slope(left, right)).normalize_or_zero();
-            pixel.normal = if pixel.normal.dot(towards_eye) < 0.0 {
-                -pixel.normal
-            } else {
-                pixel.normal
-            };
+            pixel.normal = if pixel.normal.dot(towards_eye) < 0.0 { -pixel.normal } else { pixel.normal };
             if pixel.normal == Vec3::ZERO {
                 pixel.normal = towards_eye;
             }
@@ -203,27 +189,18 @@ fn water(stage: &Stage<'_>, pixel: Pixel, (x, y): (usize, usize), samples: &[Vec
     let thickness = pixel.thickness.max(1.5 * stage.radius);
     let shift = 0.22 * thickness.min(0.1 * stage.size) * view.focal / pixel.depth;
     let bent = |at: usize, by: f32, limit: usize| {
-        usize::try_from(floor(at as f32 + by).max(0))
-            .unwrap_or(0)
-            .min(limit - 1)
+        usize::try_from(floor(at as f32 + by).max(0)).unwrap_or(0).min(limit - 1)
     };
     let bx = bent(x, -normal.dot(view.right) * shift, view.width);
     let by = bent(y, normal.dot(view.up) * shift, view.height);
-    let behind = if depth[by * view.width + bx] > pixel.depth {
-        by * view.width + bx
-    } else {
-        y * view.width + x
-    };
+    let behind =
+        if depth[by * view.width + bx] > pixel.depth { by * view.width + bx } else { y * view.width + x };
     let loss = ABSORPTION * (-10.0 * thickness / stage.size);
     let left = Vec3::new(loss.x.exp(), loss.y.exp(), loss.z.exp());
     let facing = 0.35 + 0.65 * normal.dot(light::direction()).max(0.0);
     let arriving = SKY + KEY * (facing * pixel.key);
     let mut colour = samples[behind] * left + Vec3::new(0.012, 0.085, 0.165) * arriving * (Vec3::ONE - left);
-    let speed = if pixel.thickness > 0.0 {
-        pixel.speed / pixel.thickness
-    } else {
-        0.0
-    };
+    let speed = if pixel.thickness > 0.0 { pixel.speed / pixel.thickness } else { 0.0 };
     let foam = 0.65 * smooth(0.35, 1.0, speed) * smooth(0.0, 4.0, thickness / stage.radius);
     colour = colour.lerp(FOAM * arriving * 0.55, foam);
     let cosine = normal.dot(towards).clamp(0.0, 1.0);

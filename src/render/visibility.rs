@@ -22,11 +22,7 @@ pub(super) struct Light {
 /// Longest way from a pixel to a sample of its surroundings, in heights of the picture.
 const REACH: f32 = 0.08;
 
-const CLEAR: Light = Light {
-    sky: 1.0,
-    key: 1.0,
-    depth: f32::INFINITY,
-};
+const CLEAR: Light = Light { sky: 1.0, key: 1.0, depth: f32::INFINITY };
 
 /// Light of every pixel.
 pub(super) struct Visibility {
@@ -128,10 +124,7 @@ impl Open {
         let open = |i: usize| {
             around(i / columns, rows).all(|y| around(i % columns, columns).all(|x| empty[y * columns + x]))
         };
-        Self {
-            columns,
-            tiles: (0..columns * rows).map(open).collect(),
-        }
+        Self { columns, tiles: (0..columns * rows).map(open).collect() }
     }
 
     fn at(&self, x: usize, y: usize) -> bool {
@@ -150,19 +143,13 @@ fn sky(
 ) -> f32 {
     let view = &stage.view;
     let reach = 0.055 * stage.size;
-    let radius = (reach * view.focal / depth)
-        .min(REACH * view.height as f32)
-        .max(4.0);
+    let radius = (reach * view.focal / depth).min(REACH * view.height as f32).max(4.0);
     let place = |x: f32, y: f32, depth: f32| {
         let (right, up) = view.slopes(x, y);
         Vec3::new(right * depth, up * depth, depth)
     };
     let point = place(2.0 * x as f32, 2.0 * y as f32, depth);
-    let normal = Vec3::new(
-        normal.dot(view.right),
-        normal.dot(view.up),
-        normal.dot(view.forward),
-    );
+    let normal = Vec3::new(normal.dot(view.right), normal.dot(view.up), normal.dot(view.forward));
     let (nearby, softening) = (1.0 / (4.0 * reach * reach), 0.02 * reach);
     let mut hidden = 0.0;
     for [u, v] in SPIRAL {
@@ -200,11 +187,7 @@ fn even_out(light: &[Light], width: usize, sideways: bool) -> Vec<Light> {
                 let (mut sky, mut key, mut count) = (0.0, 0.0, 0.0);
                 let (at, limit) = if sideways { (x, width) } else { (y, height) };
                 for i in at.saturating_sub(2)..(at + 3).min(limit) {
-                    let other = if sideways {
-                        light[y * width + i]
-                    } else {
-                        light[i * width + x]
-                    };
+                    let other = if sideways { light[y * width + i] } else { light[i * width + x] };
                     if (other.depth - pixel.depth).abs() < 0.012 * pixel.depth {
                         // The outermost of the five share one place in the pattern of four.
                         let weight = if i.abs_diff(at) == 2 { 0.5 } else { 1.0 };

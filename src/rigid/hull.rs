@@ -87,13 +87,10 @@ pub fn convex_hull(points: &[Vec3]) -> Result<ConvexHull, HullError> {
         return Err(HullError::TooFewPoints { found: points.len() });
     }
     let length = thickness(&points)?;
-    let (vertices, triangles) = try_convex_hull(&points).map_err(|error| HullError::Failed {
-        message: error.to_string(),
-    })?;
+    let (vertices, triangles) =
+        try_convex_hull(&points).map_err(|error| HullError::Failed { message: error.to_string() })?;
     if vertices.len() > MAX_HULL_VERTICES {
-        return Err(HullError::TooManyVertices {
-            found: vertices.len(),
-        });
+        return Err(HullError::TooManyVertices { found: vertices.len() });
     }
     check_closed(vertices.len(), &triangles)?;
     // Integrals about a corner of the hull keep their digits however far away the world's origin is.
@@ -104,22 +101,12 @@ pub fn convex_hull(points: &[Vec3]) -> Result<ConvexHull, HullError> {
     }
     let centre = base + solid.centroid();
     let offset = centre.as_vec3();
-    let vertices: Vec<Vec3> = vertices
-        .iter()
-        .map(|v| (v.as_dvec3() - centre).as_vec3())
-        .collect();
+    let vertices: Vec<Vec3> = vertices.iter().map(|v| (v.as_dvec3() - centre).as_vec3()).collect();
     let planes = planes(&vertices, &triangles, length);
     if planes.len() < 4 || planes.iter().any(|&(_, offset)| offset <= 0.0) {
         return Err(HullError::Flat);
     }
-    Ok(ConvexHull {
-        shape: Shape::Hull {
-            planes,
-            vertices,
-            triangles,
-        },
-        offset,
-    })
+    Ok(ConvexHull { shape: Shape::Hull { planes, vertices, triangles }, offset })
 }
 
 /// Checks a hull that somebody else has built; vertex numbers and finiteness are checked already.
@@ -129,14 +116,10 @@ pub(super) fn check_hull(
     triangles: &[[u32; 3]],
 ) -> Result<(), HullError> {
     if vertices.len() < 4 {
-        return Err(HullError::TooFewPoints {
-            found: vertices.len(),
-        });
+        return Err(HullError::TooFewPoints { found: vertices.len() });
     }
     if vertices.len() > MAX_HULL_VERTICES {
-        return Err(HullError::TooManyVertices {
-            found: vertices.len(),
-        });
+        return Err(HullError::TooManyVertices { found: vertices.len() });
     }
     check_closed(vertices.len(), triangles)?;
     let length = thickness(vertices)?;
@@ -149,9 +132,7 @@ pub(super) fn check_hull(
     }
     let centre = solid.centroid();
     if centre.length() > CENTRED * length {
-        return Err(HullError::NotCentred {
-            centre: centre.to_string(),
-        });
+        return Err(HullError::NotCentred { centre: centre.to_string() });
     }
     Ok(())
 }
@@ -161,19 +142,13 @@ fn distinct(points: &[Vec3]) -> Result<Vec<Vec3>, HullError> {
     let mut numbered = Vec::with_capacity(points.len());
     for (index, point) in points.iter().enumerate() {
         if !point.is_finite() {
-            return Err(HullError::NotFinite {
-                index,
-                value: point.to_string(),
-            });
+            return Err(HullError::NotFinite { index, value: point.to_string() });
         }
         // Adding zero makes -0 and +0 the same point.
         numbered.push((*point + Vec3::ZERO, index));
     }
     numbered.sort_by(|(a, i), (b, j)| {
-        let coordinates =
-            a.x.total_cmp(&b.x)
-                .then(a.y.total_cmp(&b.y))
-                .then(a.z.total_cmp(&b.z));
+        let coordinates = a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z));
         coordinates.then(i.cmp(j))
     });
     numbered.dedup_by(|(a, _), (b, _)| a == b);
@@ -201,11 +176,7 @@ fn thickness(points: &[Vec3]) -> Result<f64, HullError> {
     let normal = along.cross(across / width);
     let (height, _) = farthest(&|arm| arm.dot(normal).abs());
     // Written so that a length or width of zero fails as well.
-    if width > FLATNESS * length && height > FLATNESS * length {
-        Ok(length)
-    } else {
-        Err(HullError::Flat)
-    }
+    if width > FLATNESS * length && height > FLATNESS * length { Ok(length) } else { Err(HullError::Flat) }
 }
 
 /// Every edge must be run through once in each direction, and every vertex must be used.
@@ -218,9 +189,8 @@ fn check_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> Result<(), HullE
             used[from as usize] = true;
         }
     }
-    let paired = edges
-        .iter()
-        .all(|(&(from, to), &count)| from != to && count == 1 && edges.contains_key(&(to, from)));
+    let paired =
+        edges.iter().all(|(&(from, to), &count)| from != to && count == 1 && edges.contains_key(&(to, from)));
     if paired && !edges.is_empty() && used.iter().all(|&used| used) {
         Ok(())
     } else {
@@ -255,10 +225,7 @@ fn planes(vertices: &[Vec3], triangles: &[[u32; 3]], length: f64) -> Vec<(Vec3, 
     let plane = |&(normal, _): &(DVec3, f64)| {
         let normal = normal.as_vec3();
         // The farthest vertex decides, so that rounding leaves no vertex outside.
-        let offset = vertices
-            .iter()
-            .map(|v| normal.dot(*v))
-            .fold(f32::NEG_INFINITY, f32::max);
+        let offset = vertices.iter().map(|v| normal.dot(*v)).fold(f32::NEG_INFINITY, f32::max);
         (normal, offset)
     };
     faces.iter().map(plane).collect()

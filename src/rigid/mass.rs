@@ -23,20 +23,12 @@ impl MassProperties {
             Shape::Sphere { radius } => sphere(f64::from(*radius)),
             Shape::Cuboid { half_extents } => cuboid(half_extents.as_dvec3()),
             Shape::Capsule { half_height, radius } => capsule(f64::from(*half_height), f64::from(*radius)),
-            Shape::Hull {
-                vertices, triangles, ..
-            } => {
+            Shape::Hull { vertices, triangles, .. } => {
                 let solid = Solid::new(|i| vertices[i as usize].as_dvec3(), triangles);
-                Self {
-                    mass: solid.volume,
-                    inertia: solid.inertia(),
-                }
+                Self { mass: solid.volume, inertia: solid.inertia() }
             }
         };
-        Some(Self {
-            mass: unit.mass * density,
-            inertia: unit.inertia * density,
-        })
+        Some(Self { mass: unit.mass * density, inertia: unit.inertia * density })
     }
 
     /// Inertia about the centre of mass in the world's frame \[kg m²\].
@@ -59,10 +51,7 @@ fn cuboid(half: DVec3) -> MassProperties {
     let volume = 8.0 * half.x * half.y * half.z;
     let square = half * half;
     let diagonal = DVec3::new(square.y + square.z, square.z + square.x, square.x + square.y);
-    MassProperties {
-        mass: volume,
-        inertia: DMat3::from_diagonal(diagonal * (volume / 3.0)),
-    }
+    MassProperties { mass: volume, inertia: DMat3::from_diagonal(diagonal * (volume / 3.0)) }
 }
 
 fn capsule(half_height: f64, radius: f64) -> MassProperties {
@@ -73,10 +62,7 @@ fn capsule(half_height: f64, radius: f64) -> MassProperties {
     // Two half balls, each moved from its own centre of mass (3/8 of the radius above its base).
     let caps_across = 0.4 * square + half_height * half_height + 0.75 * half_height * radius;
     let across = cylinder * (square / 4.0 + half_height * half_height / 3.0) + caps * caps_across;
-    MassProperties {
-        mass: cylinder + caps,
-        inertia: DMat3::from_diagonal(DVec3::new(across, along, across)),
-    }
+    MassProperties { mass: cylinder + caps, inertia: DMat3::from_diagonal(DVec3::new(across, along, across)) }
 }
 
 /// Integrals over the solid inside a closed surface of outward triangles.
@@ -92,11 +78,7 @@ pub(super) struct Solid {
 
 impl Solid {
     pub(super) fn new(vertex: impl Fn(u32) -> DVec3, triangles: &[[u32; 3]]) -> Self {
-        let mut solid = Self {
-            volume: 0.0,
-            first: DVec3::ZERO,
-            second: DMat3::ZERO,
-        };
+        let mut solid = Self { volume: 0.0, first: DVec3::ZERO, second: DMat3::ZERO };
         for &[a, b, c] in triangles {
             let (a, b, c) = (vertex(a), vertex(b), vertex(c));
             let volume = a.dot(b.cross(c)) / 6.0;
@@ -145,20 +127,14 @@ pub(super) fn principal_moments(matrix: DMat3) -> (DVec3, DQuat) {
             let cos = 1.0 / (tan * tan + 1.0).sqrt();
             let sin = tan * cos;
             for column in &mut a {
-                (column[p], column[q]) = (
-                    cos * column[p] - sin * column[q],
-                    sin * column[p] + cos * column[q],
-                );
+                (column[p], column[q]) =
+                    (cos * column[p] - sin * column[q], sin * column[p] + cos * column[q]);
             }
             for row in 0..3 {
-                (a[p][row], a[q][row]) = (
-                    cos * a[p][row] - sin * a[q][row],
-                    sin * a[p][row] + cos * a[q][row],
-                );
-                (axes[p][row], axes[q][row]) = (
-                    cos * axes[p][row] - sin * axes[q][row],
-                    sin * axes[p][row] + cos * axes[q][row],
-                );
+                (a[p][row], a[q][row]) =
+                    (cos * a[p][row] - sin * a[q][row], sin * a[p][row] + cos * a[q][row]);
+                (axes[p][row], axes[q][row]) =
+                    (cos * axes[p][row] - sin * axes[q][row], sin * axes[p][row] + cos * axes[q][row]);
             }
         }
     }

@@ -41,16 +41,7 @@ impl Mechanics {
         if inverse_mass <= 0.0 {
             return None;
         }
-        let inertia = engine
-            .inverse_inertia(index)
-            .as_dmat3()
-            .try_inverse()
-            .unwrap_or(DMat3::ZERO);
-        Some(Self::new(
-            1.0 / inverse_mass,
-            inertia,
-            &engine.state(index),
-            gravity,
-        ))
+        let inertia = engine.inverse_inertia(index).as_dmat3().try_inverse().unwrap_or(DMat3::ZERO);
+        Some(Self::new(1.0 / inverse_mass, inertia, &engine.state(index), gravity))
     }
 }

@@ -45,7 +45,7 @@ use std::fmt;
 /// [`BodyState`] is at the centre of mass, in the world's frame, in SI units.
 ///
 /// The per-body methods may panic if `index` is not less than [`body_count`](Self::body_count).
-pub trait RigidEngine: fmt::Debug + Send {
+pub trait RigidEngine: fmt::Debug + Send + Sync {
     /// Number of bodies.
     fn body_count(&self) -> usize;
 

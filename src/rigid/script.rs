@@ -19,10 +19,7 @@ pub(super) struct Script {
 impl Script {
     /// The motions are expected to be checked, the rotation to be of unit length.
     pub(super) fn new(start: BodyState, motions: &[Motion]) -> Self {
-        Self {
-            start,
-            motions: motions.to_vec(),
-        }
+        Self { start, motions: motions.to_vec() }
     }
 
     /// Pose at `time` \[s\] and the exact derivative of the pose to the right of it.
@@ -45,13 +42,7 @@ impl Script {
                         linear += velocity.as_dvec3();
                     }
                 }
-                Motion::Turn {
-                    axis,
-                    pivot,
-                    rate,
-                    start,
-                    end,
-                } => {
+                Motion::Turn { axis, pivot, rate, start, end } => {
                     let (elapsed, active) = elapsed(time, start, end);
                     let axis = axis.as_dvec3().normalize();
                     let turn = axis_angle(axis, f64::from(rate) * elapsed);

@@ -22,9 +22,7 @@ impl ScriptedEngine {
         let mut scripts = Vec::with_capacity(bodies.len());
         for body in bodies {
             if body.kind == BodyKind::Dynamic {
-                return Err(RigidError::DynamicUnsupported {
-                    body: body.name.clone(),
-                });
+                return Err(RigidError::DynamicUnsupported { body: body.name.clone() });
             }
             scripts.push(Script::new(checked_state(body)?, &body.motions));
         }

@@ -40,21 +40,11 @@ impl BodySetup {
         value: impl fmt::Display,
         range: &'static str,
     ) -> RigidError {
-        RigidError::Value {
-            body: self.name.clone(),
-            key: key.into(),
-            value: value.to_string(),
-            range,
-        }
+        RigidError::Value { body: self.name.clone(), key: key.into(), value: value.to_string(), range }
     }
 
     fn bad_kind(&self, key: &'static str, reason: &'static str) -> RigidError {
-        RigidError::Kind {
-            body: self.name.clone(),
-            key,
-            kind: self.kind,
-            reason,
-        }
+        RigidError::Kind { body: self.name.clone(), key, kind: self.kind, reason }
     }
 
     fn number(
@@ -64,19 +54,11 @@ impl BodySetup {
         good: bool,
         range: &'static str,
     ) -> Result<(), RigidError> {
-        if good {
-            Ok(())
-        } else {
-            Err(self.bad_value(key, value, range))
-        }
+        if good { Ok(()) } else { Err(self.bad_value(key, value, range)) }
     }
 
     fn finite(&self, key: impl Into<String>, value: Vec3) -> Result<(), RigidError> {
-        if value.is_finite() {
-            Ok(())
-        } else {
-            Err(self.bad_value(key, value, FINITE))
-        }
+        if value.is_finite() { Ok(()) } else { Err(self.bad_value(key, value, FINITE)) }
     }
 }
 
@@ -85,26 +67,11 @@ pub(super) fn checked_state(body: &BodySetup) -> Result<BodyState, RigidError> {
     let dynamic = body.kind == BodyKind::Dynamic;
     check_shape(body)?;
     let density = body.density;
-    body.number(
-        "density",
-        density,
-        density.is_finite() && density >= 0.0,
-        NOT_BELOW_ZERO,
-    )?;
+    body.number("density", density, density.is_finite() && density >= 0.0, NOT_BELOW_ZERO)?;
     body.number("density", density, !dynamic || density > 0.0, ABOVE_ZERO)?;
     let friction = body.friction;
-    body.number(
-        "friction",
-        friction,
-        friction.is_finite() && friction >= 0.0,
-        NOT_BELOW_ZERO,
-    )?;
-    body.number(
-        "restitution",
-        body.restitution,
-        (0.0..=1.0).contains(&body.restitution),
-        "0 to 1",
-    )?;
+    body.number("friction", friction, friction.is_finite() && friction >= 0.0, NOT_BELOW_ZERO)?;
+    body.number("restitution", body.restitution, (0.0..=1.0).contains(&body.restitution), "0 to 1")?;
     let state = body.state;
     body.finite("position", state.position)?;
     body.finite("linear_velocity", state.linear_velocity)?;
@@ -126,10 +93,7 @@ pub(super) fn checked_state(body: &BodySetup) -> Result<BodyState, RigidError> {
     for (index, motion) in body.motions.iter().enumerate() {
         check_motion(body, index, motion)?;
     }
-    Ok(BodyState {
-        rotation: state.rotation.as_dquat().normalize().as_quat(),
-        ..state
-    })
+    Ok(BodyState { rotation: state.rotation.as_dquat().normalize().as_quat(), ..state })
 }
 
 fn check_shape(body: &BodySetup) -> Result<(), RigidError> {
@@ -150,11 +114,7 @@ fn check_shape(body: &BodySetup) -> Result<(), RigidError> {
             length("shape.half_height", *half_height)?;
             length("shape.radius", *radius)
         }
-        Shape::Hull {
-            planes,
-            vertices,
-            triangles,
-        } => {
+        Shape::Hull { planes, vertices, triangles } => {
             for (index, vertex) in vertices.iter().enumerate() {
                 body.finite(format!("shape.vertices[{index}]"), *vertex)?;
             }
@@ -186,13 +146,7 @@ fn check_motion(body: &BodySetup, index: usize, motion: &Motion) -> Result<(), R
             body.finite(key("velocity"), velocity)?;
             (start, end)
         }
-        Motion::Turn {
-            axis,
-            pivot,
-            rate,
-            start,
-            end,
-        } => {
+        Motion::Turn { axis, pivot, rate, start, end } => {
             body.finite(key("axis"), axis)?;
             if axis == Vec3::ZERO {
                 return Err(body.bad_value(key("axis"), axis, "any length but zero"));
@@ -202,12 +156,7 @@ fn check_motion(body: &BodySetup, index: usize, motion: &Motion) -> Result<(), R
             (start, end)
         }
     };
-    body.number(
-        key("start"),
-        start,
-        start.is_finite() && start >= 0.0,
-        NOT_BELOW_ZERO,
-    )?;
+    body.number(key("start"), start, start.is_finite() && start >= 0.0, NOT_BELOW_ZERO)?;
     // An infinite end is welcome: the motion never stops.
     body.number(key("end"), end, end >= start, "at least `start`")
 }
@@ -218,26 +167,15 @@ pub(super) fn check_step(dt: f32, wrenches: &[Wrench], names: &[String]) -> Resu
         return Err(RigidError::TimeStep { dt });
     }
     if wrenches.len() != names.len() {
-        return Err(RigidError::WrenchCount {
-            expected: names.len(),
-            found: wrenches.len(),
-        });
+        return Err(RigidError::WrenchCount { expected: names.len(), found: wrenches.len() });
     }
     for (index, (wrench, name)) in wrenches.iter().zip(names).enumerate() {
-        let parts = [
-            ("impulse", wrench.impulse),
-            ("angular_impulse", wrench.angular_impulse),
-        ];
+        let parts = [("impulse", wrench.impulse), ("angular_impulse", wrench.angular_impulse)];
         for (quantity, value) in parts {
             // The engines calculate in f32, where a finite f64 may overflow.
             if !value.as_vec3().is_finite() {
                 let value = value.to_string();
-                return Err(RigidError::Wrench {
-                    body: name.clone(),
-                    index,
-                    quantity,
-                    value,
-                });
+                return Err(RigidError::Wrench { body: name.clone(), index, quantity, value });
             }
         }
     }

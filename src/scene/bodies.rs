@@ -8,10 +8,7 @@ use super::{BodyKind, Motion, Shape};
 ///
 /// The default is a dynamic ball of 3 cm.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Body {
     /// Name, unique among sponges and bodies: letters, digits, `_` and `-`, starting with a letter. Required in files.
@@ -68,38 +65,19 @@ impl Body {
     /// Dynamic body.
     #[must_use]
     pub fn dynamic(name: &str, shape: ShapeKind, position: Vec3, density: f32) -> Self {
-        Self {
-            name: name.to_owned(),
-            shape,
-            position,
-            density,
-            ..Self::default()
-        }
+        Self { name: name.to_owned(), shape, position, density, ..Self::default() }
     }
 
     /// Body that never moves.
     #[must_use]
     pub fn fixed(name: &str, shape: ShapeKind, position: Vec3) -> Self {
-        Self {
-            name: name.to_owned(),
-            shape,
-            position,
-            kind: BodyKind::Fixed,
-            ..Self::default()
-        }
+        Self { name: name.to_owned(), shape, position, kind: BodyKind::Fixed, ..Self::default() }
     }
 
     /// Body that follows a script.
     #[must_use]
     pub fn kinematic(name: &str, shape: ShapeKind, position: Vec3, motions: Vec<Motion>) -> Self {
-        Self {
-            name: name.to_owned(),
-            shape,
-            position,
-            kind: BodyKind::Kinematic,
-            motions,
-            ..Self::default()
-        }
+        Self { name: name.to_owned(), shape, position, kind: BodyKind::Kinematic, motions, ..Self::default() }
     }
 }
 
@@ -120,14 +98,8 @@ enum KindKey {
 
 /// Geometry of a body, in its own frame, centre of mass at the origin.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
-#[cfg_attr(
-    feature = "serde",
-    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
 pub enum ShapeKind {
     /// Solid half-space below the local plane y = 0. Fixed or kinematic bodies only.
     Plane,
@@ -187,10 +159,7 @@ impl ShapeKind {
 
 /// Orientation as an axis and an angle; the default is unturned.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Rotation {
     /// Axis of the turn, of any length but zero. Range -1000 to 1000; default (0, 1, 0).
@@ -202,10 +171,7 @@ pub struct Rotation {
 
 impl Default for Rotation {
     fn default() -> Self {
-        Self {
-            axis: Vec3::Y,
-            degrees: 0.0,
-        }
+        Self { axis: Vec3::Y, degrees: 0.0 }
     }
 }
 

@@ -21,52 +21,31 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
         );
     }
     if dynamic && body.grip {
-        broken(
-            "grip",
-            "true".to_owned(),
-            "only a fixed or kinematic body can hold a sponge",
-        );
+        broken("grip", "true".to_owned(), "only a fixed or kinematic body can hold a sponge");
     }
     if body.grip && scene.sponges.is_empty() {
         broken("grip", "true".to_owned(), "the scene has no sponge to hold");
     }
     if body.kind != BodyKind::Kinematic && !body.motions.is_empty() {
         let count = format!("({} motions)", body.motions.len());
-        broken(
-            "motions",
-            count,
-            "only a body of `kind` kinematic follows motions",
-        );
+        broken("motions", count, "only a body of `kind` kinematic follows motions");
     }
-    for (field, velocity) in [
-        ("linear_velocity", body.linear_velocity),
-        ("angular_velocity", body.angular_velocity),
-    ] {
+    for (field, velocity) in
+        [("linear_velocity", body.linear_velocity), ("angular_velocity", body.angular_velocity)]
+    {
         if !dynamic && velocity != Vec3::ZERO {
             let rule = "only a dynamic body starts with a velocity; use `motions` for a kinematic one";
             broken(field, vector_text(velocity), rule);
         }
     }
     if body.rotation.axis.length_squared() < 1e-12 {
-        broken(
-            "rotation.axis",
-            vector_text(body.rotation.axis),
-            "must not be zero",
-        );
+        broken("rotation.axis", vector_text(body.rotation.axis), "must not be zero");
     }
     if let ShapeKind::Hull { vertices } = &body.shape {
         if vertices.len() < 4 {
-            broken(
-                "shape.vertices",
-                format!("({} points)", vertices.len()),
-                "a hull has at least 4 points",
-            );
+            broken("shape.vertices", format!("({} points)", vertices.len()), "a hull has at least 4 points");
         } else if flat(vertices) {
-            broken(
-                "shape.vertices",
-                format!("({} points)", vertices.len()),
-                "all points lie in one plane",
-            );
+            broken("shape.vertices", format!("({} points)", vertices.len()), "all points lie in one plane");
         }
     }
     for (index, motion) in body.motions.iter().enumerate() {
@@ -78,22 +57,11 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
         if let Motion::Turn { axis, .. } = motion
             && axis.length_squared() < 1e-12
         {
-            broken(
-                &format!("motions[{index}].axis"),
-                vector_text(*axis),
-                "must not be zero",
-            );
+            broken(&format!("motions[{index}].axis"), vector_text(*axis), "must not be zero");
         }
     }
     if dynamic {
-        inside(
-            &format!("{table}.position"),
-            body.position,
-            body.position,
-            0.0,
-            scene,
-            problems,
-        );
+        inside(&format!("{table}.position"), body.position, body.position, 0.0, scene, problems);
     }
 }
 
@@ -103,10 +71,7 @@ fn flat(points: &[Vec3]) -> bool {
     let arms = || points.iter().map(|point| point.as_dvec3() - origin);
     // The farthest point, the point farthest from that line, the point farthest from that plane.
     let farthest = |size: &dyn Fn(DVec3) -> f64| {
-        arms().fold(
-            DVec3::ZERO,
-            |best, arm| if size(arm) > size(best) { arm } else { best },
-        )
+        arms().fold(DVec3::ZERO, |best, arm| if size(arm) > size(best) { arm } else { best })
     };
     let first = farthest(&|arm| arm.length_squared());
     let second = farthest(&|arm| first.cross(arm).length_squared());

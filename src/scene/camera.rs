@@ -6,10 +6,7 @@ use super::{Domain, Scene};
 
 /// Perspective camera; up is +Y.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Camera {
     /// Where the camera is. Range -10000 to 10000 m; default (0.3, 0.25, 0.5).
@@ -44,11 +41,7 @@ impl Scene {
         // A sphere of this radius around the target fits into the default angle of view at 3.6 radii.
         let radius = 0.5 * (maximum - minimum).length();
         let direction = Vec3::new(0.45, 0.4, 0.8).normalize();
-        Camera {
-            eye: target + 3.6 * radius * direction,
-            target,
-            ..Camera::default()
-        }
+        Camera { eye: target + 3.6 * radius * direction, target, ..Camera::default() }
     }
 
     /// Corners of the smallest axis-aligned box around the container or, in an open scene, around water, sponges and
@@ -58,15 +51,8 @@ impl Scene {
         if let Domain::Box { minimum, maximum } = self.domain {
             return (minimum, maximum);
         }
-        let blocks = self
-            .fluid
-            .iter()
-            .flat_map(|fluid| &fluid.blocks)
-            .map(|b| (b.minimum, b.maximum));
-        let sponges = self
-            .sponges
-            .iter()
-            .map(|sponge| (sponge.position, sponge.maximum()));
+        let blocks = self.fluid.iter().flat_map(|fluid| &fluid.blocks).map(|b| (b.minimum, b.maximum));
+        let sponges = self.sponges.iter().map(|sponge| (sponge.position, sponge.maximum()));
         let bodies = self.bodies.iter().filter_map(|body| {
             let reach = Vec3::splat(body.shape.reach()?);
             Some((body.position - reach, body.position + reach))

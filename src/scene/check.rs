@@ -28,9 +28,9 @@ fn resolve(mut schema: &'static Json) -> &'static Json {
     loop {
         let target = match (schema.get("$ref").and_then(Json::as_str), schema.get("anyOf")) {
             (Some(reference), _) => SCHEMA.pointer(reference.trim_start_matches('#')),
-            (None, Some(Json::Array(choices))) => choices
-                .iter()
-                .find(|choice| choice.get("type").is_none_or(|kind| kind != "null")),
+            (None, Some(Json::Array(choices))) => {
+                choices.iter().find(|choice| choice.get("type").is_none_or(|kind| kind != "null"))
+            }
             _ => None,
         };
         match target {
@@ -75,15 +75,8 @@ fn table(schema: &'static Json, members: &Table, path: &str, problems: &mut Vec<
             }
         }
     }
-    let required = schema
-        .get("required")
-        .and_then(Json::as_array)
-        .into_iter()
-        .flatten();
-    for name in required
-        .filter_map(Json::as_str)
-        .filter(|name| !members.contains_key(*name))
-    {
+    let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
+    for name in required.filter_map(Json::as_str).filter(|name| !members.contains_key(*name)) {
         problems.push(Problem::missing(key::member(path, name)));
     }
 }
@@ -107,10 +100,7 @@ fn array(schema: &'static Json, elements: &[Value], value: &Value, path: &str, p
 fn choice(variants: &'static [Json], value: &Value, path: &str, problems: &mut Vec<Problem>) {
     let tag = |variant: &'static Json| variant.pointer("/properties/kind/const").and_then(Json::as_str);
     let word = |variant: &'static Json| variant.get("const").and_then(Json::as_str);
-    let known: Vec<&str> = variants
-        .iter()
-        .filter_map(|v| word(v).or_else(|| tag(v)))
-        .collect();
+    let known: Vec<&str> = variants.iter().filter_map(|v| word(v).or_else(|| tag(v))).collect();
     let tagged = variants.iter().any(|variant| tag(variant).is_some());
     let (text, text_path) = match value {
         Value::String(text) if !tagged => (text, path.to_owned()),
@@ -127,11 +117,7 @@ fn choice(variants: &'static [Json], value: &Value, path: &str, problems: &mut V
             }
         },
         _ => {
-            let form = if tagged {
-                "a table with a `kind` of "
-            } else {
-                "one of "
-            };
+            let form = if tagged { "a table with a `kind` of " } else { "one of " };
             problems.push(wrong_type(path, value, format!("{form}{}", known.join(", "))));
             return;
         }

@@ -153,12 +153,7 @@ pub enum Defect {
 impl Problem {
     /// Problem of a key with a value.
     pub(super) fn new(key: impl Into<String>, value: impl Into<String>, defect: Defect) -> Self {
-        Self {
-            key: key.into(),
-            value: Some(value.into()),
-            defect,
-            place: None,
-        }
+        Self { key: key.into(), value: Some(value.into()), defect, place: None }
     }
 
     /// Value that breaks a rule.
@@ -169,12 +164,7 @@ impl Problem {
     /// Key that should be there.
     #[cfg(feature = "serde")]
     pub(super) fn missing(key: impl Into<String>) -> Self {
-        Self {
-            key: key.into(),
-            value: None,
-            defect: Defect::MissingKey,
-            place: None,
-        }
+        Self { key: key.into(), value: None, defect: Defect::MissingKey, place: None }
     }
 }
 
@@ -196,17 +186,9 @@ impl fmt::Display for Problem {
             }
             Defect::UnknownChoice { nearest, known } => {
                 let hint = hint(nearest.as_deref());
-                write!(
-                    out,
-                    "{assignment} is not a choice here{hint}; choices: {}",
-                    known.join(", ")
-                )
+                write!(out, "{assignment} is not a choice here{hint}; choices: {}", known.join(", "))
             }
-            Defect::OutOfRange {
-                minimum,
-                maximum,
-                unit,
-            } => {
+            Defect::OutOfRange { minimum, maximum, unit } => {
                 let range = format!("{} to {}", number_text(*minimum), number_text(*maximum));
                 write!(out, "{assignment} is out of range {}", with_unit(&range, unit))
             }
@@ -232,9 +214,7 @@ fn list(file: &str, problems: &[Problem]) -> String {
 
 /// The proposal at the end of "unknown ...".
 fn hint(nearest: Option<&str>) -> String {
-    nearest
-        .map(|name| format!("; did you mean `{name}`?"))
-        .unwrap_or_default()
+    nearest.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }
 
 /// The candidate most similar to a word, if it is similar enough to be a slip of the pen.
@@ -250,6 +230,5 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
             best = Some((similarity, candidate));
         }
     }
-    best.filter(|(similarity, _)| *similarity >= 0.6)
-        .map(|(_, candidate)| candidate.to_owned())
+    best.filter(|(similarity, _)| *similarity >= 0.6).map(|(_, candidate)| candidate.to_owned())
 }

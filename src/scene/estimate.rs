@@ -30,22 +30,14 @@ impl Scene {
         let particles = self.fluid.as_ref().map_or(0.0, |fluid| {
             let particle = f64::from(fluid.spacing).powi(3);
             let free = fluid.blocks.iter().map(|block| {
-                let count: f64 = block
-                    .counts(fluid.spacing)
-                    .iter()
-                    .map(|&n| f64::from(n))
-                    .product();
+                let count: f64 = block.counts(fluid.spacing).iter().map(|&n| f64::from(n)).product();
                 let displaced: f64 = self.sponges.iter().map(|sponge| overlap(block, sponge)).sum();
                 (count - displaced / particle).max(0.0)
             });
             let soaked = self.sponges.iter().map(|sponge| water(sponge) / particle);
             free.sum::<f64>() + soaked.sum::<f64>()
         });
-        Estimate {
-            particles: whole(particles),
-            nodes: whole(nodes),
-            tets: whole(tets),
-        }
+        Estimate { particles: whole(particles), nodes: whole(nodes), tets: whole(tets) }
     }
 }
 
@@ -77,14 +69,8 @@ fn overlap(block: &FluidBlock, sponge: &Sponge) -> f64 {
     size.x * size.y * size.z * sponge.shape.fraction()
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the cast saturates, and a count that large is refused"
-)]
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "negative counts of degenerate sponges become zero"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "the cast saturates, and a count that large is refused")]
+#[expect(clippy::cast_sign_loss, reason = "negative counts of degenerate sponges become zero")]
 fn whole(count: f64) -> u64 {
     count.round() as u64
 }

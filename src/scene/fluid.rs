@@ -6,10 +6,7 @@ use super::Scene;
 
 /// The water: one liquid, seeded as blocks and inside saturated sponges.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Fluid {
     /// Distance of neighbouring particles at rest. Range 1e-4 to 1 m; default 0.005.
@@ -71,10 +68,7 @@ impl Fluid {
 
 /// Pressure as a function of density.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum EquationOfState {
     /// Stiffens under compression: `rest_density * sound_speed^2 / 7 * ((density / rest_density)^7 - 1)`.
@@ -89,10 +83,7 @@ pub enum EquationOfState {
 /// Particles sit at `minimum + (i + 1/2) * spacing`. Those that would start inside a sponge or a body are left out: how
 /// much water a sponge holds is its own `saturation`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct FluidBlock {
     /// Lowest corner. Range -1000 to 1000 m. Required in files.
@@ -110,11 +101,7 @@ impl FluidBlock {
     /// Block at rest, from corner to corner \[m\].
     #[must_use]
     pub fn new(minimum: Vec3, maximum: Vec3) -> Self {
-        Self {
-            minimum,
-            maximum,
-            velocity: Vec3::ZERO,
-        }
+        Self { minimum, maximum, velocity: Vec3::ZERO }
     }
 
     /// Number of particles along each axis at a spacing \[m\]; a block thinner than the spacing has none.
@@ -142,25 +129,11 @@ impl Scene {
         let (minimum, maximum) = self.bounds();
         let floor = minimum.y;
         let tops = fluid.blocks.iter().map(|block| block.maximum.y);
-        let soaked = self
-            .sponges
-            .iter()
-            .filter(|sponge| sponge.saturation > 0.0)
-            .map(|s| s.maximum().y);
-        let height = tops
-            .chain(soaked)
-            .map(|top| (top - floor).min(maximum.y - floor))
-            .fold(0.0, f32::max);
+        let soaked = self.sponges.iter().filter(|sponge| sponge.saturation > 0.0).map(|s| s.maximum().y);
+        let height = tops.chain(soaked).map(|top| (top - floor).min(maximum.y - floor)).fold(0.0, f32::max);
         let fall = 2.0 * self.gravity.length() * height;
-        let start = fluid
-            .blocks
-            .iter()
-            .map(|block| block.velocity.length_squared())
-            .fold(0.0, f32::max);
-        let pull = self
-            .sponges
-            .iter()
-            .map(|sponge| 2.0 * sponge.entry_pressure / fluid.rest_density);
+        let start = fluid.blocks.iter().map(|block| block.velocity.length_squared()).fold(0.0, f32::max);
+        let pull = self.sponges.iter().map(|sponge| 2.0 * sponge.entry_pressure / fluid.rest_density);
         let fastest = (fall + start).max(pull.fold(0.0, f32::max)).sqrt();
         (10.0 * fastest).max(5.0)
     }

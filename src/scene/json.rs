@@ -37,9 +37,7 @@ impl<'de> Visitor<'de> for TreeVisitor {
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
         // Far outside every range either way.
-        Ok(Some(
-            i64::try_from(value).map_or(Value::Float(value as f64), Value::Integer),
-        ))
+        Ok(Some(i64::try_from(value).map_or(Value::Float(value as f64), Value::Integer)))
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {

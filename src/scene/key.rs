@@ -9,11 +9,7 @@ pub(super) fn parts(key: &str) -> Option<Vec<String>> {
 
 /// Key of a member of a table.
 pub(super) fn member(table: &str, name: &str) -> String {
-    if table.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{table}.{name}")
-    }
+    if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") }
 }
 
 /// Key of an element of an array.

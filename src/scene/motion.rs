@@ -9,14 +9,8 @@ use super::{Body, BodyState};
 ///
 /// Motions may overlap: each acts, in the order of the list, on what the ones before it give.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
-#[cfg_attr(
-    feature = "serde",
-    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
 pub enum Motion {
     /// Straight motion at constant velocity.
     Linear {
@@ -75,9 +69,7 @@ impl Body {
             linear_velocity: self.linear_velocity,
             angular_velocity: self.angular_velocity,
         };
-        self.motions
-            .iter()
-            .fold(start, |state, motion| moved(state, motion, time))
+        self.motions.iter().fold(start, |state, motion| moved(state, motion, time))
     }
 }
 
@@ -91,9 +83,7 @@ fn moved(state: BodyState, motion: &Motion, time: f64) -> BodyState {
             linear_velocity: state.linear_velocity + now * velocity,
             ..state
         },
-        Motion::Turn {
-            axis, pivot, rate, ..
-        } => {
+        Motion::Turn { axis, pivot, rate, .. } => {
             let rotation: Quat = turn(axis, f64::from(rate) * seconds);
             let arm = rotation * (state.position - pivot);
             let spin = now * rate * axis.normalize_or_zero();

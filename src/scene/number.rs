@@ -73,9 +73,5 @@ pub(super) fn vector_text(value: Vec3) -> String {
 
 /// A number with its unit, which is left out for pure numbers.
 pub(super) fn with_unit(text: &str, unit: &str) -> String {
-    if unit == "1" {
-        text.to_owned()
-    } else {
-        format!("{text} {unit}")
-    }
+    if unit == "1" { text.to_owned() } else { format!("{text} {unit}") }
 }

@@ -25,14 +25,11 @@ impl Scene {
     /// # Errors
     /// As [`Scene::set`].
     pub fn with_overrides<'a>(&self, texts: impl IntoIterator<Item = &'a str>) -> Result<Self, SceneError> {
-        let mut value = Value::try_from(self).map_err(|error| SceneError::Write {
-            message: error.to_string(),
-        })?;
+        let mut value =
+            Value::try_from(self).map_err(|error| SceneError::Write { message: error.to_string() })?;
         for text in texts {
-            assign(&mut value, text).map_err(|message| SceneError::Override {
-                text: text.to_owned(),
-                message,
-            })?;
+            assign(&mut value, text)
+                .map_err(|message| SceneError::Override { text: text.to_owned(), message })?;
         }
         Self::from_value(value, &format!("scene {} with overrides", self.name))
     }
@@ -53,9 +50,7 @@ fn assign(root: &mut Value, text: &str) -> Result<(), String> {
             }
             Value::Table(members) => {
                 so_far = key::member(&so_far, part);
-                members
-                    .entry(part.as_str())
-                    .or_insert_with(|| Value::Table(Table::new()))
+                members.entry(part.as_str()).or_insert_with(|| Value::Table(Table::new()))
             }
             _ => return Err(format!("`{so_far}` is a single value and has no `{part}`")),
         };
@@ -74,16 +69,11 @@ fn index_of(elements: &[Value], part: &str, array: &str) -> Result<usize, String
             Err(format!("`{array}` has {count} elements, numbered from 0"))
         };
     }
-    let names: Vec<&str> = elements
-        .iter()
-        .map(|e| e.get("name").and_then(Value::as_str).unwrap_or(""))
-        .collect();
+    let names: Vec<&str> =
+        elements.iter().map(|e| e.get("name").and_then(Value::as_str).unwrap_or("")).collect();
     names.iter().position(|name| *name == part).ok_or_else(|| {
         let hint = nearest(part, names.iter().copied()).map(|name| format!("; did you mean `{name}`?"));
-        format!(
-            "`{array}` has no element named `{part}`{}",
-            hint.unwrap_or_default()
-        )
+        format!("`{array}` has no element named `{part}`{}", hint.unwrap_or_default())
     })
 }
 
@@ -95,11 +85,7 @@ fn parse(text: &str) -> Result<Value, String> {
     });
     match parsed {
         Ok(Some(value)) => Ok(value),
-        _ if !text.is_empty()
-            && text
-                .chars()
-                .all(|c| c.is_ascii_alphanumeric() || "_- ".contains(c)) =>
-        {
+        _ if !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || "_- ".contains(c)) => {
             Ok(Value::String(text.to_owned()))
         }
         Ok(None) => Err("expected one value".to_owned()),

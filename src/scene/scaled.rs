@@ -21,11 +21,7 @@ impl Scene {
     pub fn scaled(&self, resolution: f32) -> Result<Self, SceneError> {
         let (minimum, maximum) = RESOLUTIONS;
         if !(minimum..=maximum).contains(&resolution) {
-            return Err(SceneError::Resolution {
-                value: resolution,
-                minimum,
-                maximum,
-            });
+            return Err(SceneError::Resolution { value: resolution, minimum, maximum });
         }
         let mut scene = self.clone();
         if resolution != 1.0 {
@@ -46,21 +42,14 @@ fn refine(sponge: &mut Sponge, resolution: f32) {
     let size = sponge.size();
     let along_x = whole_cells(sponge.cells.x as f32 * resolution);
     sponge.edge = size.x / along_x as f32;
-    sponge.cells = UVec3::new(
-        along_x,
-        whole_cells(size.y / sponge.edge),
-        whole_cells(size.z / sponge.edge),
-    );
+    sponge.cells = UVec3::new(along_x, whole_cells(size.y / sponge.edge), whole_cells(size.z / sponge.edge));
     if let Some(radius) = &mut sponge.node_radius {
         *radius /= resolution;
     }
 }
 
 /// Nearest number of cells, at least 2: with fewer the lattice has no tets across.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the cast saturates, and validation bounds the cells"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "the cast saturates, and validation bounds the cells")]
 #[expect(clippy::cast_sign_loss, reason = "at least 2")]
 fn whole_cells(cells: f32) -> u32 {
     cells.round().max(2.0) as u32

@@ -31,10 +31,7 @@ fn build() -> Value {
     for (table, keys) in REQUIRED {
         for pointer in tables(&schema, &places(&schema, table)) {
             if let Some(Value::Object(node)) = schema.pointer_mut(&pointer) {
-                node.insert(
-                    "required".to_owned(),
-                    keys.iter().copied().map(Value::from).collect(),
-                );
+                node.insert("required".to_owned(), keys.iter().copied().map(Value::from).collect());
             }
         }
     }
@@ -64,13 +61,8 @@ fn tables(schema: &Value, pointers: &[String]) -> Vec<String> {
             found.extend(tables(schema, &[reference.trim_start_matches('#').to_owned()]));
         }
         for alternatives in ["anyOf", "oneOf"] {
-            let count = node
-                .get(alternatives)
-                .and_then(Value::as_array)
-                .map_or(0, Vec::len);
-            let inner: Vec<String> = (0..count)
-                .map(|i| format!("{pointer}/{alternatives}/{i}"))
-                .collect();
+            let count = node.get(alternatives).and_then(Value::as_array).map_or(0, Vec::len);
+            let inner: Vec<String> = (0..count).map(|i| format!("{pointer}/{alternatives}/{i}")).collect();
             found.extend(tables(schema, &inner));
         }
         if node.get("properties").is_some() {
@@ -124,10 +116,7 @@ fn tidy(node: &mut Value) {
         Value::Object(map) => tidy_table(map),
         Value::Array(items) => items.iter_mut().for_each(tidy),
         Value::Number(number) if number.is_f64() => {
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "every number of a scene is an f32"
-            )]
+            #[expect(clippy::cast_possible_truncation, reason = "every number of a scene is an f32")]
             let single = number.as_f64().unwrap_or(0.0) as f32;
             *node = decimal(single, false);
         }

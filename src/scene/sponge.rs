@@ -4,10 +4,7 @@ use glam::{UVec3, Vec3};
 
 /// A coordinate axis; Y is up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Axis {
     /// The first axis.
@@ -21,14 +18,8 @@ pub enum Axis {
 
 /// What is kept of the lattice block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
-#[cfg_attr(
-    feature = "serde",
-    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
 pub enum SpongeShape {
     /// The whole block.
     #[default]
@@ -56,10 +47,7 @@ impl SpongeShape {
 
 /// A sponge: geometry, pores and elasticity.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Sponge {
     /// Name, unique among sponges and bodies: letters, digits, `_` and `-`, starting with a letter. Required in files.
@@ -161,11 +149,7 @@ impl Sponge {
     /// Cube of 8 x 8 x 8 cells of 1 cm with its lowest corner at a position \[m\].
     #[must_use]
     pub fn new(name: &str, position: Vec3) -> Self {
-        Self {
-            name: name.to_owned(),
-            position,
-            ..Self::default()
-        }
+        Self { name: name.to_owned(), position, ..Self::default() }
     }
 
     /// Size of the lattice block \[m\].

@@ -20,12 +20,7 @@ impl Scene {
         let table: toml::Table = toml::from_str(text).map_err(|error| {
             let (line, column) = line_and_column(text, error.span().map_or(0, |span| span.start));
             let message = error.message().trim().to_owned();
-            SceneError::Syntax {
-                file: file.to_owned(),
-                line,
-                column,
-                message,
-            }
+            SceneError::Syntax { file: file.to_owned(), line, column, message }
         })?;
         Self::from_value(Value::Table(table), file).map_err(|error| match error {
             SceneError::Invalid { file, mut problems } => {
@@ -77,9 +72,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Write`] should the writer refuse a value; it refuses none of a valid scene.
     pub fn to_toml(&self) -> Result<String, SceneError> {
-        toml::to_string(self).map_err(|error| SceneError::Write {
-            message: error.to_string(),
-        })
+        toml::to_string(self).map_err(|error| SceneError::Write { message: error.to_string() })
     }
 
     /// The scene as indented JSON, which [`Scene::from_json`] reads back to an equal scene.
@@ -87,27 +80,18 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Write`] should the writer refuse a value; it refuses none of a valid scene.
     pub fn to_json(&self) -> Result<String, SceneError> {
-        serde_json::to_string_pretty(self).map_err(|error| SceneError::Write {
-            message: error.to_string(),
-        })
+        serde_json::to_string_pretty(self).map_err(|error| SceneError::Write { message: error.to_string() })
     }
 
     /// Checks a value against the schema, converts it and validates the result.
     pub(super) fn from_value(value: Value, file: &str) -> Result<Self, SceneError> {
-        let invalid = |problems| SceneError::Invalid {
-            file: file.to_owned(),
-            problems,
-        };
+        let invalid = |problems| SceneError::Invalid { file: file.to_owned(), problems };
         // Alone and first: another version may have other keys, and complaints about those would mislead.
         if let Some(version) = value.get("version").filter(|version| version.is_integer())
             && version.as_integer() != Some(VERSION.into())
         {
             let defect = Defect::Version { supported: VERSION };
-            return Err(invalid(vec![Problem::new(
-                "version",
-                value_text(version),
-                defect,
-            )]));
+            return Err(invalid(vec![Problem::new("version", value_text(version), defect)]));
         }
         let problems = check(&value);
         if !problems.is_empty() {
@@ -116,18 +100,9 @@ impl Scene {
         let scene: Self = value.try_into().map_err(|error: toml::de::Error| {
             // The schema let it pass, so only the message of serde is left to tell what is wrong.
             let defect = Defect::Rule(error.message().to_owned());
-            invalid(vec![Problem {
-                key: "scene".to_owned(),
-                value: None,
-                defect,
-                place: None,
-            }])
+            invalid(vec![Problem { key: "scene".to_owned(), value: None, defect, place: None }])
         })?;
         let problems = scene.problems();
-        if problems.is_empty() {
-            Ok(scene)
-        } else {
-            Err(invalid(problems))
-        }
+        if problems.is_empty() { Ok(scene) } else { Err(invalid(problems)) }
     }
 }

@@ -11,10 +11,7 @@ pub const VERSION: u32 = 1;
 ///
 /// The default is an empty, unbounded scene.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Scene {
     /// Version of the format. Required in files; always 1. A file of another version is refused.
@@ -70,28 +67,19 @@ impl Scene {
     /// Empty, unbounded scene with standard gravity.
     #[must_use]
     pub fn new(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            ..Self::default()
-        }
+        Self { name: name.to_owned(), ..Self::default() }
     }
 
     /// Puts the scene into a box with elastic walls, from corner to corner \[m\].
     #[must_use]
     pub fn in_box(self, minimum: Vec3, maximum: Vec3) -> Self {
-        Self {
-            domain: Domain::Box { minimum, maximum },
-            ..self
-        }
+        Self { domain: Domain::Box { minimum, maximum }, ..self }
     }
 
     /// Sets the water.
     #[must_use]
     pub fn with_fluid(self, fluid: Fluid) -> Self {
-        Self {
-            fluid: Some(fluid),
-            ..self
-        }
+        Self { fluid: Some(fluid), ..self }
     }
 
     /// Adds a sponge.
@@ -111,19 +99,13 @@ impl Scene {
     /// Sets the point of view.
     #[must_use]
     pub fn with_camera(self, camera: Camera) -> Self {
-        Self {
-            camera: Some(camera),
-            ..self
-        }
+        Self { camera: Some(camera), ..self }
     }
 }
 
 /// Frames and the bounds of the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Time {
     /// Frames per second. Range 1 to 10000 1/s; default 60.
@@ -147,26 +129,14 @@ pub struct Time {
 
 impl Default for Time {
     fn default() -> Self {
-        Self {
-            frame_rate: 60.0,
-            duration: 10.0,
-            maximum_step: 0.002,
-            minimum_step: 1e-6,
-            courant: 0.25,
-        }
+        Self { frame_rate: 60.0, duration: 10.0, maximum_step: 0.002, minimum_step: 1e-6, courant: 0.25 }
     }
 }
 
 /// The container.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)
-)]
-#[cfg_attr(
-    feature = "serde",
-    serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
 pub enum Domain {
     /// Axis-aligned box with elastic walls: the cheapest container.
     Box {

@@ -24,10 +24,7 @@ impl Scene {
         if problems.is_empty() {
             return Ok(());
         }
-        Err(SceneError::Invalid {
-            file: format!("scene {}", self.name),
-            problems,
-        })
+        Err(SceneError::Invalid { file: format!("scene {}", self.name), problems })
     }
 
     /// Everything that is wrong with the scene; empty for a valid one.
@@ -53,12 +50,7 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
     if let Some(fluid) = &scene.fluid {
         check(fluid, limits::FLUID, "fluid.", problems);
         for (index, block) in fluid.blocks.iter().enumerate() {
-            check(
-                block,
-                limits::FLUID_BLOCK,
-                &format!("fluid.blocks[{index}]."),
-                problems,
-            );
+            check(block, limits::FLUID_BLOCK, &format!("fluid.blocks[{index}]."), problems);
         }
     }
     for (index, sponge) in scene.sponges.iter().enumerate() {
@@ -66,18 +58,8 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
     }
     for (index, body) in scene.bodies.iter().enumerate() {
         check(body, limits::BODY, &format!("bodies[{index}]."), problems);
-        check(
-            &body.shape,
-            limits::SHAPE,
-            &format!("bodies[{index}].shape."),
-            problems,
-        );
-        check(
-            &body.rotation,
-            limits::ROTATION,
-            &format!("bodies[{index}].rotation."),
-            problems,
-        );
+        check(&body.shape, limits::SHAPE, &format!("bodies[{index}].shape."), problems);
+        check(&body.rotation, limits::ROTATION, &format!("bodies[{index}].rotation."), problems);
         for (motion_index, motion) in body.motions.iter().enumerate() {
             let table = format!("bodies[{index}].motions[{motion_index}].");
             check(motion, limits::MOTION, &table, problems);
@@ -95,11 +77,7 @@ fn check<T>(owner: &T, rows: &[Row<T>], table: &str, problems: &mut Vec<Problem>
         numbers.numbers(&format!("{table}{}", limit.field()), &mut |key, value| {
             if !limit.contains(value) {
                 let (minimum, maximum, unit) = (limit.minimum, limit.maximum, limit.unit);
-                let defect = Defect::OutOfRange {
-                    minimum,
-                    maximum,
-                    unit,
-                };
+                let defect = Defect::OutOfRange { minimum, maximum, unit };
                 problems.push(Problem::new(key, number_text(value), defect));
             }
         });
@@ -110,15 +88,8 @@ fn rules(scene: &Scene, problems: &mut Vec<Problem>) {
     names(scene, problems);
     let time = &scene.time;
     if time.minimum_step > time.maximum_step {
-        let rule = format!(
-            "must not be above `time.maximum_step` = {}",
-            number_text(time.maximum_step)
-        );
-        problems.push(Problem::rule(
-            "time.minimum_step",
-            number_text(time.minimum_step),
-            rule,
-        ));
+        let rule = format!("must not be above `time.maximum_step` = {}", number_text(time.maximum_step));
+        problems.push(Problem::rule("time.minimum_step", number_text(time.minimum_step), rule));
     }
     if let Domain::Box { minimum, maximum } = scene.domain {
         ordered("domain", minimum, maximum, problems);
@@ -131,11 +102,7 @@ fn rules(scene: &Scene, problems: &mut Vec<Problem>) {
         body_rules(body, &format!("bodies[{index}]"), scene, problems);
     }
     if let Some(camera) = scene.camera.filter(|camera| camera.eye == camera.target) {
-        problems.push(Problem::rule(
-            "camera.eye",
-            vector_text(camera.eye),
-            "must not be `camera.target`",
-        ));
+        problems.push(Problem::rule("camera.eye", vector_text(camera.eye), "must not be `camera.target`"));
     }
     sizes(scene, problems);
 }
@@ -143,24 +110,12 @@ fn rules(scene: &Scene, problems: &mut Vec<Problem>) {
 fn names(scene: &Scene, problems: &mut Vec<Problem>) {
     let mut seen: Vec<(&str, String)> = Vec::new();
     named("name", &scene.name, problems);
-    let sponges = scene
-        .sponges
-        .iter()
-        .enumerate()
-        .map(|(i, s)| (format!("sponges[{i}].name"), &s.name));
-    let bodies = scene
-        .bodies
-        .iter()
-        .enumerate()
-        .map(|(i, b)| (format!("bodies[{i}].name"), &b.name));
+    let sponges = scene.sponges.iter().enumerate().map(|(i, s)| (format!("sponges[{i}].name"), &s.name));
+    let bodies = scene.bodies.iter().enumerate().map(|(i, b)| (format!("bodies[{i}].name"), &b.name));
     for (key, name) in sponges.chain(bodies) {
         named(&key, name, problems);
         if let Some((_, first)) = seen.iter().find(|(other, _)| other == name) {
-            problems.push(Problem::rule(
-                &key,
-                format!("{name:?}"),
-                format!("already the name of `{first}`"),
-            ));
+            problems.push(Problem::rule(&key, format!("{name:?}"), format!("already the name of `{first}`")));
         }
         seen.push((name, key));
     }
@@ -179,15 +134,8 @@ fn named(key: &str, name: &str, problems: &mut Vec<Problem>) {
 /// The lowest corner must be below the highest on every axis.
 fn ordered(table: &str, minimum: Vec3, maximum: Vec3, problems: &mut Vec<Problem>) {
     if !minimum.cmplt(maximum).all() {
-        let rule = format!(
-            "must be below `{table}.maximum` = {} on every axis",
-            vector_text(maximum)
-        );
-        problems.push(Problem::rule(
-            format!("{table}.minimum"),
-            vector_text(minimum),
-            rule,
-        ));
+        let rule = format!("must be below `{table}.maximum` = {} on every axis", vector_text(maximum));
+        problems.push(Problem::rule(format!("{table}.minimum"), vector_text(minimum), rule));
     }
 }
 
@@ -207,11 +155,7 @@ pub(super) fn inside(
     if low.cmplt(minimum - slack).any() || high.cmpgt(maximum + slack).any() {
         let extent = format!("(from {} to {})", vector_text(low), vector_text(high));
         let container = format!("{} to {}", vector_text(minimum), vector_text(maximum));
-        problems.push(Problem::rule(
-            key,
-            extent,
-            format!("must be inside the container {container}"),
-        ));
+        problems.push(Problem::rule(key, extent, format!("must be inside the container {container}")));
     }
 }
 
@@ -223,11 +167,7 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         ordered(&key, block.minimum, block.maximum, problems);
         inside(&key, block.minimum, block.maximum, slack, scene, problems);
         for (other_index, other) in fluid.blocks.iter().enumerate().take(index) {
-            if overlap(
-                (block.minimum, block.maximum),
-                (other.minimum, other.maximum),
-                slack,
-            ) {
+            if overlap((block.minimum, block.maximum), (other.minimum, other.maximum), slack) {
                 let rule =
                     format!("overlaps `fluid.blocks[{other_index}]`; the water would start compressed");
                 let corner = format!("{key}.minimum");
@@ -262,17 +202,10 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
         }
         for (other_index, other) in scene.sponges.iter().enumerate().take(index) {
             let whole = sponge.shape == SpongeShape::Block && other.shape == SpongeShape::Block;
-            let (a, b) = (
-                (sponge.position, sponge.maximum()),
-                (other.position, other.maximum()),
-            );
+            let (a, b) = ((sponge.position, sponge.maximum()), (other.position, other.maximum()));
             if whole && overlap(a, b, slack) {
                 let rule = format!("overlaps `sponges[{other_index}]`");
-                problems.push(Problem::rule(
-                    format!("{table}.position"),
-                    vector_text(sponge.position),
-                    rule,
-                ));
+                problems.push(Problem::rule(format!("{table}.position"), vector_text(sponge.position), rule));
             }
         }
     }
@@ -285,11 +218,7 @@ fn lattice_fits(sponge: &Sponge, fluid: &Fluid, table: &str, problems: &mut Vec<
     if !(0.999 * least..=1.001 * most).contains(&ratio) {
         let spacing = number_text(fluid.spacing);
         let rule = format!("must be {least} to {most} times `fluid.spacing` = {spacing}");
-        problems.push(Problem::rule(
-            format!("{table}.edge"),
-            number_text(sponge.edge),
-            rule,
-        ));
+        problems.push(Problem::rule(format!("{table}.edge"), number_text(sponge.edge), rule));
     }
 }
 
@@ -297,18 +226,11 @@ fn sizes(scene: &Scene, problems: &mut Vec<Problem>) {
     let estimate = scene.estimate();
     if estimate.particles > MAXIMUM_PARTICLES {
         let spacing = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.spacing);
-        let rule = format!(
-            "gives about {} particles; at most {MAXIMUM_PARTICLES}",
-            estimate.particles
-        );
+        let rule = format!("gives about {} particles; at most {MAXIMUM_PARTICLES}", estimate.particles);
         problems.push(Problem::rule("fluid.spacing", number_text(spacing), rule));
     }
     if estimate.nodes > MAXIMUM_NODES {
         let rule = format!("have about {} nodes; at most {MAXIMUM_NODES}", estimate.nodes);
-        problems.push(Problem::rule(
-            "sponges",
-            format!("({} sponges)", scene.sponges.len()),
-            rule,
-        ));
+        problems.push(Problem::rule("sponges", format!("({} sponges)", scene.sponges.len()), rule));
     }
 }

@@ -102,12 +102,7 @@ impl Plan {
                     let missing = kernel.needs.iter().find(|need| !is_met(**need, content));
                     let verdict = missing.map_or(Verdict::Runs, |need| Verdict::Skipped(need.missing()));
                     let work = Work::Kernel(kernel);
-                    self.lines.push(PlanLine {
-                        name: kernel.name,
-                        verdict,
-                        repeat,
-                        work,
-                    });
+                    self.lines.push(PlanLine { name: kernel.name, verdict, repeat, work });
                 }
                 Phase::Repeat { times, phases } => {
                     *groups += 1;
@@ -118,17 +113,8 @@ impl Plan {
                     self.collect(phases, content, Some((*groups, times)), groups);
                 }
                 Phase::Host(host) => {
-                    let verdict = if content.bodies {
-                        Verdict::Runs
-                    } else {
-                        Verdict::Skipped(RIGID_NEEDS)
-                    };
-                    self.lines.push(PlanLine {
-                        name: host.name,
-                        verdict,
-                        repeat,
-                        work: Work::Host(host),
-                    });
+                    let verdict = if content.bodies { Verdict::Runs } else { Verdict::Skipped(RIGID_NEEDS) };
+                    self.lines.push(PlanLine { name: host.name, verdict, repeat, work: Work::Host(host) });
                 }
             }
         }
@@ -136,18 +122,10 @@ impl Plan {
 
     /// Walks backwards and skips what no state and no later phase depends on.
     fn drop_dead(&mut self, observed: &[Column]) {
-        let mut live: Vec<Column> = Column::ALL
-            .iter()
-            .copied()
-            .filter(|column| column.life() == Life::State)
-            .collect();
+        let mut live: Vec<Column> =
+            Column::ALL.iter().copied().filter(|column| column.life() == Life::State).collect();
         live.extend_from_slice(observed);
-        for line in self
-            .lines
-            .iter_mut()
-            .rev()
-            .filter(|line| line.verdict == Verdict::Runs)
-        {
+        for line in self.lines.iter_mut().rev().filter(|line| line.verdict == Verdict::Runs) {
             if line.writes().iter().any(|column| live.contains(column)) {
                 live.extend_from_slice(line.reads());
             } else {
@@ -165,10 +143,7 @@ impl Plan {
                     .iter()
                     .find(|column| column.life() == Life::Scratch && !written.contains(column));
                 if let Some(column) = early {
-                    return Err(PlanError {
-                        kernel: kernel.name,
-                        column: column.name(),
-                    });
+                    return Err(PlanError { kernel: kernel.name, column: column.name() });
                 }
             }
             written.extend_from_slice(line.writes());
@@ -203,11 +178,7 @@ impl fmt::Display for Plan {
             match line.verdict {
                 Verdict::Runs => {
                     let names = |columns: &[Column]| {
-                        columns
-                            .iter()
-                            .map(|column| column.name())
-                            .collect::<Vec<_>>()
-                            .join(", ")
+                        columns.iter().map(|column| column.name()).collect::<Vec<_>>().join(", ")
                     };
                     writeln!(formatter, "run   {repeat}{}", line.name)?;
                     writeln!(formatter, "      reads  {}", names(line.reads()))?;

@@ -56,33 +56,18 @@ impl Runner {
     /// The runner of a plan.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        let mut runner = Self {
-            kernels: Vec::new(),
-            groups: Vec::new(),
-            times: Vec::new(),
-        };
+        let mut runner = Self { kernels: Vec::new(), groups: Vec::new(), times: Vec::new() };
         let mut group = None;
         for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
-            let time = runner
-                .times
-                .iter()
-                .position(|time| time.name == line.name)
-                .unwrap_or_else(|| {
-                    let recent_ms = Vec::with_capacity(RECENT);
-                    runner.times.push(PhaseTime {
-                        name: line.name,
-                        calls: 0,
-                        total_s: 0.0,
-                        recent_ms,
-                    });
-                    runner.times.len() - 1
-                });
+            let time = runner.times.iter().position(|time| time.name == line.name).unwrap_or_else(|| {
+                let recent_ms = Vec::with_capacity(RECENT);
+                runner.times.push(PhaseTime { name: line.name, calls: 0, total_s: 0.0, recent_ms });
+                runner.times.len() - 1
+            });
             let at = runner.kernels.len();
             match (runner.groups.last_mut(), line.repeat) {
                 (Some(last), Some((index, _))) if group == Some(index) => last.1 = at + 1,
-                (_, repeat) => runner
-                    .groups
-                    .push((at, at + 1, repeat.map_or(1, |(_, times)| times))),
+                (_, repeat) => runner.groups.push((at, at + 1, repeat.map_or(1, |(_, times)| times))),
             }
             group = line.repeat.map(|(index, _)| index);
             runner.kernels.push((line.work, time));
@@ -98,11 +83,7 @@ impl Runner {
         columns: &mut Columns,
         mut host: impl FnMut(&mut Columns) + Send,
     ) {
-        let Self {
-            kernels,
-            groups,
-            times,
-        } = self;
+        let Self { kernels, groups, times } = self;
         cpu.enter(|| {
             for (first, last, repeat) in &*groups {
                 for _ in 0..*repeat {

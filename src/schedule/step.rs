@@ -44,11 +44,8 @@ pub struct HostPhase {
 }
 
 /// The rigid bodies take what fluid and sponges gave them, and move.
-pub static RIGID: HostPhase = HostPhase {
-    name: "rigid::step",
-    writes: &[Column::BodyStates],
-    reads: &[Column::BodyWrenches],
-};
+pub static RIGID: HostPhase =
+    HostPhase { name: "rigid::step", writes: &[Column::BodyStates], reads: &[Column::BodyWrenches] };
 
 /// Sweeps of the velocity filter before the drag is applied. Three bring the kinetic energy within 2 % of the
 /// converged solution for water that weighs 18 times as much as the sponge it fills.

@@ -41,18 +41,9 @@ impl Grid {
         };
         grid.select(sponge.keep);
         if grid.tet_count == 0 {
-            return Err(LatticeError::Empty {
-                sponge: index,
-                cells,
-                candidates: grid.candidates,
-            });
+            return Err(LatticeError::Empty { sponge: index, cells, candidates: grid.candidates });
         }
-        grid.node_count = grid
-            .sites
-            .iter()
-            .flatten()
-            .map(|&count| u32::from(count > 0))
-            .sum();
+        grid.node_count = grid.sites.iter().flatten().map(|&count| u32::from(count > 0)).sum();
         Ok(grid)
     }
 

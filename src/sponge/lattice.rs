@@ -92,15 +92,10 @@ impl Lattice {
     /// more cells than allowed.
     pub fn new(sponges: &[LatticeSponge<'_>]) -> Result<Self, LatticeError> {
         check(sponges)?;
-        let grids = sponges
-            .iter()
-            .enumerate()
-            .map(|(index, sponge)| Grid::new(index, sponge));
+        let grids = sponges.iter().enumerate().map(|(index, sponge)| Grid::new(index, sponge));
         let mut grids = grids.collect::<Result<Vec<_>, _>>()?;
-        let mut lattice = Self {
-            sponges: sponges.iter().zip(&grids).map(summary).collect(),
-            ..Self::default()
-        };
+        let mut lattice =
+            Self { sponges: sponges.iter().zip(&grids).map(summary).collect(), ..Self::default() };
         lattice.add_nodes(sponges, &mut grids);
         lattice.add_tets(&grids);
         lattice.add_triangles(&grids);
@@ -134,9 +129,7 @@ impl Lattice {
     /// Volume of the tets of a sponge at rest \[m^3\]; `None` if there is no such sponge.
     #[must_use]
     pub fn rest_volume(&self, sponge: u32) -> Option<f64> {
-        self.sponges
-            .get(sponge as usize)
-            .map(|summary| summary.rest_volume)
+        self.sponges.get(sponge as usize).map(|summary| summary.rest_volume)
     }
 
     fn add_nodes(&mut self, sponges: &[LatticeSponge<'_>], grids: &mut [Grid]) {
@@ -230,10 +223,7 @@ fn tet_volume(edge: f32) -> f64 {
     edge * edge * edge / 12.0
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounding to the precision of the state is the purpose"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "rounding to the precision of the state is the purpose")]
 fn rounded(value: f64) -> f32 {
     value as f32
 }
@@ -248,10 +238,7 @@ fn sponge_range(owner: &[u32], starts: &[u32], color: usize, sponge: u32) -> Ran
 
 /// First row of a range that no longer belongs; those that do come first.
 pub(super) fn first_after(rows: Range<u32>, belongs: impl Fn(u32) -> bool) -> u32 {
-    let Range {
-        start: mut low,
-        end: mut high,
-    } = rows;
+    let Range { start: mut low, end: mut high } = rows;
     while low < high {
         let middle = low + (high - low) / 2;
         if belongs(middle) {

@@ -21,35 +21,20 @@ const _: () = assert!(24 * MAX_CELLS < u32::MAX as u64);
 /// Checks all sponges before anything is allocated for them.
 pub(super) fn check(sponges: &[LatticeSponge<'_>]) -> Result<(), LatticeError> {
     let mut total: u64 = 0;
-    for (
-        sponge,
-        &LatticeSponge {
-            edge, cells, origin, ..
-        },
-    ) in sponges.iter().enumerate()
-    {
+    for (sponge, &LatticeSponge { edge, cells, origin, .. }) in sponges.iter().enumerate() {
         if !(MIN_EDGE..=MAX_EDGE).contains(&edge) {
             return Err(LatticeError::Edge { sponge, value: edge });
         }
         if cells.contains(&0) {
             return Err(LatticeError::NoCells { sponge, value: cells });
         }
-        let product = cells
-            .iter()
-            .fold(1_u64, |product, &n| product.saturating_mul(u64::from(n)));
+        let product = cells.iter().fold(1_u64, |product, &n| product.saturating_mul(u64::from(n)));
         total = total.saturating_add(product);
         if total > MAX_CELLS {
-            return Err(LatticeError::TooManyCells {
-                sponge,
-                value: cells,
-                total,
-            });
+            return Err(LatticeError::TooManyCells { sponge, value: cells, total });
         }
         if !origin.is_finite() {
-            return Err(LatticeError::Origin {
-                sponge,
-                value: origin,
-            });
+            return Err(LatticeError::Origin { sponge, value: origin });
         }
         let size = DVec3::from_array(cells.map(f64::from)) * f64::from(edge);
         let low = origin.as_dvec3();
@@ -57,12 +42,7 @@ pub(super) fn check(sponges: &[LatticeSponge<'_>]) -> Result<(), LatticeError> {
         // A coordinate may be off by half a unit in the last place; this keeps strains at rest near one per cent.
         let limit = f64::from(edge) / (64.0 * f64::from(f32::EPSILON));
         if reach > limit {
-            return Err(LatticeError::Reach {
-                sponge,
-                reach,
-                edge,
-                limit,
-            });
+            return Err(LatticeError::Reach { sponge, reach, edge, limit });
         }
     }
     Ok(())

@@ -25,19 +25,13 @@ pub fn pieces(lattice: &Lattice) -> Pieces {
             join(&mut parent, tet[0], node);
         }
     }
-    let mut found = Pieces {
-        node_piece: Vec::with_capacity(parent.len()),
-        piece_count: vec![0; lattice.sponges.len()],
-    };
+    let mut found =
+        Pieces { node_piece: Vec::with_capacity(parent.len()), piece_count: vec![0; lattice.sponges.len()] };
     let mut next = 0;
     for node in 0..count {
         let root = root(&mut parent, node);
         // The root is the lowest node of its piece, so its own number is known already.
-        let piece = if root == node {
-            next
-        } else {
-            found.node_piece[root as usize]
-        };
+        let piece = if root == node { next } else { found.node_piece[root as usize] };
         if root == node {
             found.piece_count[lattice.node_sponge[node as usize] as usize] += 1;
             next += 1;

@@ -20,9 +20,7 @@ pub(super) struct Surface {
 
 impl Surface {
     pub(super) fn new() -> Self {
-        Self {
-            behind: std::array::from_fn(|class| std::array::from_fn(|face| behind(class, face))),
-        }
+        Self { behind: std::array::from_fn(|class| std::array::from_fn(|face| behind(class, face))) }
     }
 
     /// Calls `triangle` for each face of the outer surface, in the order of cells (k, j, i), classes and faces.
@@ -60,10 +58,7 @@ fn behind(class: usize, face: usize) -> Behind {
                 .map(|node| -> [i32; 3] { std::array::from_fn(|axis| node[axis] + 2 * offset[axis]) });
             let shares_face = wanted.iter().all(|node| candidate.contains(node));
             if shares_face && !candidate.contains(&nodes[face]) {
-                return Behind {
-                    class: other,
-                    offset: offset.map(i64::from),
-                };
+                return Behind { class: other, offset: offset.map(i64::from) };
             }
         }
     }

@@ -18,12 +18,7 @@ pub static KERNEL: Kernel = Kernel {
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
     let nodes = &columns.nodes;
-    let Controls {
-        node,
-        velocity,
-        unfiltered,
-        ..
-    } = &mut columns.controls;
+    let Controls { node, velocity, unfiltered, .. } = &mut columns.controls;
     velocity.clear();
     velocity.resize(padded(node.len()), [0.0; 4]);
     cpu.for_chunks(&mut velocity[..node.len()], |first, velocity| {

@@ -13,13 +13,7 @@ pub static KERNEL: Kernel = Kernel {
     name: "couple::controls",
     needs: &[Need::Fluid, Need::Sponge],
     reads: &[FluidPosition, FluidCells, NodePosition, NodeVolume],
-    writes: &[
-        ControlNode,
-        ControlCells,
-        ControlPosition,
-        FluidControls,
-        ControlFluid,
-    ],
+    writes: &[ControlNode, ControlCells, ControlPosition, FluidControls, ControlFluid],
     cpu,
 };
 
@@ -27,9 +21,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (particles, count) = (columns.rows.fluid, columns.rows.nodes);
     let radius = params.coupling.support_radius;
     let (fluid, nodes, controls) = (&mut columns.fluid, &columns.nodes, &mut columns.controls);
-    controls
-        .cells
-        .build(cpu, &nodes.position[..count], radius, params.domain);
+    controls.cells.build(cpu, &nodes.position[..count], radius, params.domain);
     controls.node.clone_from(&controls.cells.order);
     controls.position.clear();
     controls.position.resize(padded(count), FAR_ROW);
@@ -38,10 +30,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         controls.position[row][3] = nodes.volume[*node as usize];
     }
     let (particles, controls_rows) = ((&fluid.position[..], particles), (&controls.position[..], count));
-    fluid
-        .controls
-        .build(cpu, particles, controls_rows, &controls.cells, radius);
-    controls
-        .fluid
-        .build(cpu, controls_rows, particles, &fluid.cells, radius);
+    fluid.controls.build(cpu, particles, controls_rows, &controls.cells, radius);
+    controls.fluid.build(cpu, controls_rows, particles, &fluid.cells, radius);
 }

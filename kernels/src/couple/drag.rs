@@ -37,15 +37,7 @@ pub static KERNEL: Kernel = Kernel {
 const OUTSIDE: f32 = 1.0e-3;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        velocity,
-        controls: lists,
-        interior,
-        drag_rate,
-        drag,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, velocity, controls: lists, interior, drag_rate, drag, .. } = &mut columns.fluid;
     let (controls, control_velocity) = (&columns.controls.position, &columns.controls.velocity);
     let (step, mass) = (params.step, params.fluid.particle_mass);
     drag.resize(position.len(), [0.0; 4]);

@@ -20,25 +20,13 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::interior",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidPosition,
-        FluidControls,
-        ControlPosition,
-        ControlNode,
-        NodeSponge,
-    ],
+    reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodeSponge],
     writes: &[FluidInterior, FluidDragRate],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        controls: lists,
-        interior,
-        drag_rate,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, controls: lists, interior, drag_rate, .. } = &mut columns.fluid;
     let controls = &columns.controls.position;
     // One rate per control row; padding rows weigh nothing.
     let mut rate = vec![0.0; controls.len()];
@@ -47,29 +35,26 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
     interior.resize(position.len(), 0.0);
     drag_rate.resize(position.len(), 0.0);
-    cpu.for_chunks(
-        (&mut interior[..], &mut drag_rate[..]),
-        |first, (interior, drag_rate)| {
-            let lists = lists.chunk(first);
-            with_lanes!(cpu, simd => {
-                let kernel = params.coupling.lanes(simd);
-                for row in (0..interior.len()).step_by(LANES) {
-                    let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
-                    let mut sum = lanes::splat(simd, 0.0);
-                    let mut drag = lanes::splat(simd, 0.0);
-                    for entry in lists.group(row) {
-                        let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
-                        let (dx, dy, dz) = (x - xa, y - ya, z - za);
-                        let weight = volume * kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
-                        sum += weight;
-                        drag += weight * lanes::gather(simd, &rate, entry);
-                    }
-                    lanes::store(interior, row, sum * kernel.value_scale());
-                    lanes::store(drag_rate, row, drag * kernel.value_scale());
+    cpu.for_chunks((&mut interior[..], &mut drag_rate[..]), |first, (interior, drag_rate)| {
+        let lists = lists.chunk(first);
+        with_lanes!(cpu, simd => {
+            let kernel = params.coupling.lanes(simd);
+            for row in (0..interior.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+                let mut sum = lanes::splat(simd, 0.0);
+                let mut drag = lanes::splat(simd, 0.0);
+                for entry in lists.group(row) {
+                    let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
+                    let (dx, dy, dz) = (x - xa, y - ya, z - za);
+                    let weight = volume * kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                    sum += weight;
+                    drag += weight * lanes::gather(simd, &rate, entry);
                 }
-            });
-        },
-    );
+                lanes::store(interior, row, sum * kernel.value_scale());
+                lanes::store(drag_rate, row, drag * kernel.value_scale());
+            }
+        });
+    });
 }
 
 /// Kernel sum of node volumes at every node, as the nodes lie now; set-up calls it at rest.
@@ -77,25 +62,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 pub fn node_interior(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<f32> {
     let (nodes, count) = (&columns.nodes, columns.rows.nodes);
     let mut cells = Cells::default();
-    cells.build(
-        cpu,
-        &nodes.position[..count],
-        params.coupling.support_radius,
-        params.domain,
-    );
+    cells.build(cpu, &nodes.position[..count], params.coupling.support_radius, params.domain);
     let mut sorted = vec![FAR_ROW; padded(count)];
     permute(cpu, &cells.order, &nodes.position, &mut sorted);
     for (row, node) in sorted.iter_mut().zip(&cells.order) {
         row[3] = nodes.volume[*node as usize];
     }
     let mut lists = Neighbors::default();
-    lists.build(
-        cpu,
-        (&sorted, count),
-        (&sorted, count),
-        &cells,
-        params.coupling.support_radius,
-    );
+    lists.build(cpu, (&sorted, count), (&sorted, count), &cells, params.coupling.support_radius);
     let radius = f64::from(params.coupling.support_radius);
     let mut interior = vec![0.0; nodes.position.len()];
     for (row, node) in cells.order.iter().enumerate() {

@@ -35,51 +35,37 @@ pub static KERNEL: Kernel = Kernel {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let particles = &columns.fluid.position;
     let nodes = &mut columns.nodes;
-    let Controls {
-        node,
-        position,
-        fluid: lists,
-        saturation,
-        suction,
-        ..
-    } = &mut columns.controls;
+    let Controls { node, position, fluid: lists, saturation, suction, .. } = &mut columns.controls;
     let volume = params.fluid.particle_mass / params.fluid.rest_density;
     saturation.clear();
     saturation.resize(position.len(), 0.0);
     suction.clear();
     suction.resize(position.len(), 0.0);
-    cpu.for_chunks(
-        (&mut saturation[..], &mut suction[..]),
-        |first, (saturation, suction)| {
-            let lists = lists.chunk(first);
-            with_lanes!(cpu, simd => {
-                let kernel = params.coupling.lanes(simd);
-                for row in (0..saturation.len()).step_by(LANES) {
-                    let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
-                    let mut sum = lanes::splat(simd, 0.0);
-                    for entry in lists.group(row) {
-                        let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
-                        let (dx, dy, dz) = (x - xi, y - yi, z - zi);
-                        sum += kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
-                    }
-                    lanes::store(saturation, row, sum * kernel.value_scale() * volume);
+    cpu.for_chunks((&mut saturation[..], &mut suction[..]), |first, (saturation, suction)| {
+        let lists = lists.chunk(first);
+        with_lanes!(cpu, simd => {
+            let kernel = params.coupling.lanes(simd);
+            for row in (0..saturation.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+                let mut sum = lanes::splat(simd, 0.0);
+                for entry in lists.group(row) {
+                    let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
+                    let (dx, dy, dz) = (x - xi, y - yi, z - zi);
+                    sum += kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
                 }
-            });
-            for (row, node) in node[first.min(node.len())..]
-                .iter()
-                .take(saturation.len())
-                .enumerate()
-            {
-                let node = *node as usize;
-                let sponge = &params.sponges[nodes.sponge[node] as usize];
-                saturation[row] /= sponge.porosity * nodes.interior[node];
-                let dry = 1.0 - saturation[row];
-                let dry = if dry > 0.0 { dry } else { 0.0 };
-                let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
-                suction[row] = pressure * nodes.suction[node] * position[first + row][3];
+                lanes::store(saturation, row, sum * kernel.value_scale() * volume);
             }
-        },
-    );
+        });
+        for (row, node) in node[first.min(node.len())..].iter().take(saturation.len()).enumerate() {
+            let node = *node as usize;
+            let sponge = &params.sponges[nodes.sponge[node] as usize];
+            saturation[row] /= sponge.porosity * nodes.interior[node];
+            let dry = 1.0 - saturation[row];
+            let dry = if dry > 0.0 { dry } else { 0.0 };
+            let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
+            suction[row] = pressure * nodes.suction[node] * position[first + row][3];
+        }
+    });
     nodes.saturation.resize(nodes.position.len(), 0.0);
     for (node, saturation) in node.iter().zip(&*saturation) {
         nodes.saturation[*node as usize] = *saturation;

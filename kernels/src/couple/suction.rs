@@ -18,24 +18,13 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::suction",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidPosition,
-        FluidControls,
-        FluidAcceleration,
-        ControlPosition,
-        ControlSuction,
-    ],
+    reads: &[FluidPosition, FluidControls, FluidAcceleration, ControlPosition, ControlSuction],
     writes: &[FluidAcceleration],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        controls: lists,
-        acceleration,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, controls: lists, acceleration, .. } = &mut columns.fluid;
     let (controls, suction) = (&columns.controls.position, &columns.controls.suction);
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = lists.chunk(first);

@@ -21,27 +21,14 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::velocity_filter",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidPosition,
-        FluidDrag,
-        ControlPosition,
-        ControlVelocity,
-        ControlUnfiltered,
-        ControlFluid,
-    ],
+    reads: &[FluidPosition, FluidDrag, ControlPosition, ControlVelocity, ControlUnfiltered, ControlFluid],
     writes: &[ControlVelocity],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let fluid = &columns.fluid;
-    let Controls {
-        position,
-        velocity,
-        unfiltered,
-        fluid: lists,
-        ..
-    } = &mut columns.controls;
+    let Controls { position, velocity, unfiltered, fluid: lists, .. } = &mut columns.controls;
     cpu.for_chunks(&mut velocity[..], |first, velocity| {
         let lists = lists.chunk(first);
         with_lanes!(cpu, simd => {

@@ -90,11 +90,7 @@ impl ColumnData for Cells {
     }
     fn poison(&mut self) {
         self.order.fill(u32::MAX);
-        self.dense
-            .row_start
-            .iter_mut()
-            .enumerate()
-            .for_each(|(row, start)| *start = row as u32 * 3);
+        self.dense.row_start.iter_mut().enumerate().for_each(|(row, start)| *start = row as u32 * 3);
         self.dense.bin_start.fill(u32::MAX);
         self.hashed.table.fill([0, 1]);
         self.hashed.cells.fill([u32::MAX - 1, u32::MAX]);
@@ -190,9 +186,7 @@ impl Dense {
         cpu.for_chunks_of(rows.max(1), &mut counts[..], |first, counts| {
             let begin = first / rows.max(1) * COUNT_CHUNK;
             let end = place.len().min(begin + COUNT_CHUNK);
-            place[begin..end]
-                .iter()
-                .for_each(|place| counts[place[0] as usize] += 1);
+            place[begin..end].iter().for_each(|place| counts[place[0] as usize] += 1);
         });
         (self.place, self.counts) = (place, counts);
     }
@@ -337,10 +331,7 @@ impl Hashed {
         let begins = |row: usize| row == 0 || keys[order[row] as usize] != keys[order[row - 1] as usize];
         self.flags.resize(order.len(), 0);
         cpu.for_chunks(&mut self.flags[..], |first, flags| {
-            flags
-                .iter_mut()
-                .enumerate()
-                .for_each(|(row, flag)| *flag = u32::from(begins(first + row)));
+            flags.iter_mut().enumerate().for_each(|(row, flag)| *flag = u32::from(begins(first + row)));
         });
         let count = scan::exclusive(cpu, &mut self.flags, &mut self.page_sums) as usize;
         self.cell_keys.clear();
@@ -364,19 +355,10 @@ impl Hashed {
     fn hash_cells(&mut self, cpu: &Cpu) {
         let size = (self.keys.len() as u64 + 1).next_power_of_two();
         self.hashes.clear();
-        self.hashes
-            .extend(self.cell_keys.iter().map(|key| hash(*key) % size));
+        self.hashes.extend(self.cell_keys.iter().map(|key| hash(*key) % size));
         self.sort.stable_by_key(cpu, &self.hashes, &mut self.cell_order);
-        self.cells = self
-            .cell_order
-            .iter()
-            .map(|cell| self.cells[*cell as usize])
-            .collect();
-        self.cell_keys = self
-            .cell_order
-            .iter()
-            .map(|cell| self.cell_keys[*cell as usize])
-            .collect();
+        self.cells = self.cell_order.iter().map(|cell| self.cells[*cell as usize]).collect();
+        self.cell_keys = self.cell_order.iter().map(|cell| self.cell_keys[*cell as usize]).collect();
         self.table.clear();
         self.table.resize(size as usize, [0; 2]);
         for (row, cell) in self.cell_order.iter().enumerate() {
@@ -443,9 +425,7 @@ mod tests {
 
     fn rows_in_box(cells: &Cells, points: &[[f32; 4]], low: [f32; 3], high: [f32; 3]) -> Vec<u32> {
         let mut found = Vec::new();
-        cells.spans(low, high, |begin, end| {
-            found.extend_from_slice(&cells.order[begin..end])
-        });
+        cells.spans(low, high, |begin, end| found.extend_from_slice(&cells.order[begin..end]));
         found.sort_unstable();
         let all = found.len();
         found.dedup();
@@ -458,10 +438,7 @@ mod tests {
     #[test]
     fn both_schemes_find_every_point_of_a_box() {
         let cpu = Cpu::with_threads(SimdLevel::Fallback, 3).expect("the fallback is always there");
-        let bounded = Domain::Bounded {
-            minimum: Vec3::splat(-1.0),
-            maximum: Vec3::splat(1.0),
-        };
+        let bounded = Domain::Bounded { minimum: Vec3::splat(-1.0), maximum: Vec3::splat(1.0) };
         for count in [0, 1, 8, 5000] {
             let points = random_points(count, 1.0, 7);
             for domain in [bounded, Domain::Unbounded] {
@@ -469,12 +446,7 @@ mod tests {
                 cpu.enter(|| cells.build(&cpu, &points, 0.1, domain));
                 let mut order = cells.order.clone();
                 order.sort_unstable();
-                assert!(
-                    order
-                        .iter()
-                        .enumerate()
-                        .all(|(row, point)| row == *point as usize)
-                );
+                assert!(order.iter().enumerate().all(|(row, point)| row == *point as usize));
                 for centre in [[0.0_f32; 3], [-0.9, 0.3, 0.99], [0.5, -1.0, 0.2]] {
                     let (low, high) = (centre.map(|x| x - 0.17), centre.map(|x| x + 0.13));
                     let expected: Vec<u32> = (0..count as u32)
@@ -491,33 +463,18 @@ mod tests {
     #[test]
     fn far_away_and_negative_points_are_found_in_an_unbounded_domain() {
         let cpu = Cpu::serial(SimdLevel::Fallback).expect("the fallback is always there");
-        let points = [
-            [-5000.0, 3.0, 7000.5, 0.0],
-            [-5000.01, 3.0, 7000.5, 0.0],
-            [1e9, 0.0, -1e9, 0.0],
-        ];
+        let points = [[-5000.0, 3.0, 7000.5, 0.0], [-5000.01, 3.0, 7000.5, 0.0], [1e9, 0.0, -1e9, 0.0]];
         let mut cells = Cells::default();
         cells.build(&cpu, &points, 0.01, Domain::Unbounded);
         let found = rows_in_box(&cells, &points, [-5000.1, 2.9, 7000.0], [-4999.9, 3.1, 7001.0]);
         assert_eq!(found, [0, 1]);
-        assert!(
-            rows_in_box(
-                &cells,
-                &points,
-                [5000.0 - 0.1, 2.9, 7000.0],
-                [5000.1, 3.1, 7001.0]
-            )
-            .is_empty()
-        );
+        assert!(rows_in_box(&cells, &points, [5000.0 - 0.1, 2.9, 7000.0], [5000.1, 3.1, 7001.0]).is_empty());
     }
 
     #[test]
     fn a_grid_that_would_be_too_large_is_hashed() {
         let cpu = Cpu::serial(SimdLevel::Fallback).expect("the fallback is always there");
-        let huge = Domain::Bounded {
-            minimum: Vec3::splat(-1e6),
-            maximum: Vec3::splat(1e6),
-        };
+        let huge = Domain::Bounded { minimum: Vec3::splat(-1e6), maximum: Vec3::splat(1e6) };
         let mut cells = Cells::default();
         cells.build(&cpu, &random_points(100, 1.0, 3), 0.01, huge);
         assert_eq!(cells.scheme, Scheme::Hashed);

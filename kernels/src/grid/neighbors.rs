@@ -30,10 +30,7 @@ pub(crate) struct ChunkLists {
 
 impl Default for ChunkLists {
     fn default() -> Self {
-        Self {
-            start: [0; GROUPS + 1],
-            entries: Vec::new(),
-        }
+        Self { start: [0; GROUPS + 1], entries: Vec::new() }
     }
 }
 
@@ -56,10 +53,7 @@ impl Neighbors {
     /// The neighbours of one query, in list order, without padding.
     pub fn of(&self, query: usize, targets: usize) -> impl Iterator<Item = u32> + '_ {
         let lists = self.chunk(query).group(query % CHUNK);
-        lists
-            .iter()
-            .map(move |entry| entry[query % LANES])
-            .filter(move |row| (*row as usize) < targets)
+        lists.iter().map(move |entry| entry[query % LANES]).filter(move |row| (*row as usize) < targets)
     }
 
     /// Number of list entries, padding included.
@@ -78,16 +72,10 @@ impl Neighbors {
         cells: &Cells,
         radius: f32,
     ) {
-        self.chunks
-            .resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
+        self.chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
         cpu.for_chunks(PerChunk(&mut self.chunks), |first, lists| {
             let end = queries.len().min(first + CHUNK);
-            let task = Task {
-                targets,
-                padding: target_count as u32,
-                cells,
-                radius,
-            };
+            let task = Task { targets, padding: target_count as u32, cells, radius };
             let used = count.saturating_sub(first).min(end - first);
             with_lanes!(cpu, simd => task.chunk(simd, &queries[first..end], used, &mut lists.0[0]));
         });
@@ -102,9 +90,7 @@ impl ColumnData for Neighbors {
         }
     }
     fn poison(&mut self) {
-        self.chunks
-            .iter_mut()
-            .for_each(|chunk| chunk.entries.fill([u32::MAX; LANES]));
+        self.chunks.iter_mut().for_each(|chunk| chunk.entries.fill([u32::MAX; LANES]));
     }
 }
 
@@ -192,39 +178,33 @@ impl Task<'_> {
         let square = splat(radius * radius);
         let lane_index = u32x8::from_fn(simd, |lane| lane as u32);
         candidates.count = 0;
-        self.cells
-            .spans(low.map(|x| x - radius), high.map(|x| x + radius), |begin, end| {
-                let mut row = begin;
-                while row < end {
-                    let [x, y, z, _] =
-                        lanes::load_rows(simd, self.targets, row.min(self.targets.len() - LANES));
-                    // Near the end of the array the last eight rows are loaded; those before `row` were seen already.
-                    let loaded = row.min(self.targets.len() - LANES);
-                    let rows = lane_index + loaded as u32;
-                    let outside = |axis: usize, value: f32x8<S>| {
-                        (lows[axis] - value).max(value - highs[axis]).max(splat(0.0))
-                    };
-                    let (dx, dy, dz) = (outside(0, x), outside(1, y), outside(2, z));
-                    let near = (dx * dx + dy * dy + dz * dz).simd_lt(square)
-                        & rows.simd_ge(u32x8::splat(simd, row as u32))
-                        & rows.simd_lt(u32x8::splat(simd, end as u32));
-                    let hits = near.to_bitmask().count_ones() as usize;
-                    if hits > 0 {
-                        candidates.reserve();
-                        let at = candidates.count..candidates.count + LANES;
-                        simd.compress_f32x8(x, near)
-                            .store_slice(&mut candidates.x[at.clone()]);
-                        simd.compress_f32x8(y, near)
-                            .store_slice(&mut candidates.y[at.clone()]);
-                        simd.compress_f32x8(z, near)
-                            .store_slice(&mut candidates.z[at.clone()]);
-                        simd.compress_u32x8(rows, near)
-                            .store_slice(&mut candidates.row[at]);
-                        candidates.count += hits;
-                    }
-                    row = loaded + LANES;
+        self.cells.spans(low.map(|x| x - radius), high.map(|x| x + radius), |begin, end| {
+            let mut row = begin;
+            while row < end {
+                let [x, y, z, _] = lanes::load_rows(simd, self.targets, row.min(self.targets.len() - LANES));
+                // Near the end of the array the last eight rows are loaded; those before `row` were seen already.
+                let loaded = row.min(self.targets.len() - LANES);
+                let rows = lane_index + loaded as u32;
+                let outside = |axis: usize, value: f32x8<S>| {
+                    (lows[axis] - value).max(value - highs[axis]).max(splat(0.0))
+                };
+                let (dx, dy, dz) = (outside(0, x), outside(1, y), outside(2, z));
+                let near = (dx * dx + dy * dy + dz * dz).simd_lt(square)
+                    & rows.simd_ge(u32x8::splat(simd, row as u32))
+                    & rows.simd_lt(u32x8::splat(simd, end as u32));
+                let hits = near.to_bitmask().count_ones() as usize;
+                if hits > 0 {
+                    candidates.reserve();
+                    let at = candidates.count..candidates.count + LANES;
+                    simd.compress_f32x8(x, near).store_slice(&mut candidates.x[at.clone()]);
+                    simd.compress_f32x8(y, near).store_slice(&mut candidates.y[at.clone()]);
+                    simd.compress_f32x8(z, near).store_slice(&mut candidates.z[at.clone()]);
+                    simd.compress_u32x8(rows, near).store_slice(&mut candidates.row[at]);
+                    candidates.count += hits;
                 }
-            });
+                row = loaded + LANES;
+            }
+        });
         candidates.reserve();
         candidates.x[candidates.count..candidates.count + LANES].fill(FAR);
     }
@@ -239,15 +219,7 @@ impl Task<'_> {
         candidates: &mut Candidates,
     ) {
         let square = lanes::splat(simd, self.radius * self.radius);
-        let Candidates {
-            x,
-            y,
-            z,
-            row,
-            count,
-            lists,
-            lengths,
-        } = candidates;
+        let Candidates { x, y, z, row, count, lists, lengths } = candidates;
         for lane in range {
             let query = [0, 1, 2].map(|axis| lanes::splat(simd, queries[lane][axis]));
             let list = &mut lists[lane];
@@ -261,8 +233,7 @@ impl Task<'_> {
                 let dz = lanes::load(simd, z, at) - query[2];
                 let near = (dx * dx + dy * dy + dz * dz).simd_lt(square);
                 let rows = u32x8::from_slice(simd, &row[at..at + LANES]);
-                simd.compress_u32x8(rows, near)
-                    .store_slice(&mut list[length..length + LANES]);
+                simd.compress_u32x8(rows, near).store_slice(&mut list[length..length + LANES]);
                 length += near.to_bitmask().count_ones() as usize;
             }
             lengths[lane] = length;
@@ -283,9 +254,7 @@ impl Task<'_> {
         entries.extend((0..length).map(|k| std::array::from_fn(|lane| lists[lane][k])));
         let entries = &mut entries[first..];
         for (lane, &own) in candidates.lengths.iter().enumerate() {
-            entries[own..]
-                .iter_mut()
-                .for_each(|entry| entry[lane] = self.padding);
+            entries[own..].iter_mut().for_each(|entry| entry[lane] = self.padding);
         }
     }
 }
@@ -307,15 +276,7 @@ mod tests {
         let mut sorted: Vec<[f32; 4]> = cells.order.iter().map(|row| points[*row as usize]).collect();
         sorted.resize(padded(points.len()), FAR_ROW);
         let mut lists = Neighbors::default();
-        cpu.enter(|| {
-            lists.build(
-                cpu,
-                (&sorted, points.len()),
-                (&sorted, points.len()),
-                &cells,
-                radius,
-            )
-        });
+        cpu.enter(|| lists.build(cpu, (&sorted, points.len()), (&sorted, points.len()), &cells, radius));
         (sorted, lists)
     }
 
@@ -329,10 +290,7 @@ mod tests {
 
     #[test]
     fn lists_equal_brute_force_on_every_level_and_scheme() {
-        let bounded = Domain::Bounded {
-            minimum: Vec3::splat(-1.0),
-            maximum: Vec3::splat(1.0),
-        };
+        let bounded = Domain::Bounded { minimum: Vec3::splat(-1.0), maximum: Vec3::splat(1.0) };
         for count in [0, 1, 7, 8, 9, 1500] {
             let points = random_points(count, 1.0, 11);
             for domain in [bounded, Domain::Unbounded] {

@@ -49,9 +49,7 @@ impl Sort {
         let from = &self.from;
         let chunk_rows = |chunk: usize| &from[chunk * SORT_CHUNK..rows.min((chunk + 1) * SORT_CHUNK)];
         cpu.for_chunks_of(1, &mut self.offsets[..], |chunk, counts| {
-            chunk_rows(chunk)
-                .iter()
-                .for_each(|row| counts[0][digit(row.load(Relaxed))] += 1);
+            chunk_rows(chunk).iter().for_each(|row| counts[0][digit(row.load(Relaxed))] += 1);
         });
         // Offsets in the order of (digit, chunk) make the sort stable for any number of threads.
         let mut sum = 0;
@@ -102,9 +100,8 @@ mod tests {
         for threads in [1, 3] {
             let cpu = Cpu::with_threads(SimdLevel::Fallback, threads).expect("the fallback is always there");
             for rows in [0_u64, 1, 2, 4095, 4097, 30_000] {
-                let keys: Vec<u64> = (0..rows)
-                    .map(|i| (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) % 97 << 20)
-                    .collect();
+                let keys: Vec<u64> =
+                    (0..rows).map(|i| (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) % 97 << 20).collect();
                 let mut order = Vec::new();
                 cpu.enter(|| Sort::default().stable_by_key(&cpu, &keys, &mut order));
                 let mut expected: Vec<u32> = (0..rows as u32).collect();

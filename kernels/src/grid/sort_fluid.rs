@@ -19,19 +19,8 @@ pub static KERNEL: Kernel = Kernel {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
-    let Fluid {
-        position,
-        velocity,
-        id,
-        cells,
-        ..
-    } = &mut columns.fluid;
-    cells.build(
-        cpu,
-        &position[..count],
-        params.fluid.smoothing.support_radius,
-        params.domain,
-    );
+    let Fluid { position, velocity, id, cells, .. } = &mut columns.fluid;
+    cells.build(cpu, &position[..count], params.fluid.smoothing.support_radius, params.domain);
     let mut rows = vec![FAR_ROW; padded(count)];
     permute(cpu, &cells.order, position, &mut rows);
     std::mem::swap(position, &mut rows);

@@ -25,30 +25,17 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes {
-        position,
-        predicted,
-        sponge,
-        ..
-    } = &mut columns.nodes;
+    let Nodes { position, predicted, sponge, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let chunks = predicted.len().div_ceil(CHUNK);
     let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
         0 => (0..chunks).map(|_| &mut [][..]).collect(),
         count => columns.bodies.wrenches.nodes.chunks_exact_mut(count).collect(),
     };
-    cpu.for_chunks(
-        (&mut predicted[..], PerChunk(&mut wrenches)),
-        |first, (predicted, wrenches)| {
-            let task = Task {
-                params,
-                bodies,
-                position,
-                sponge,
-            };
-            with_lanes!(cpu, simd => task.chunk(simd, first, predicted, wrenches.0[0]));
-        },
-    );
+    cpu.for_chunks((&mut predicted[..], PerChunk(&mut wrenches)), |first, (predicted, wrenches)| {
+        let task = Task { params, bodies, position, sponge };
+        with_lanes!(cpu, simd => task.chunk(simd, first, predicted, wrenches.0[0]));
+    });
 }
 
 struct Task<'a> {
@@ -78,14 +65,7 @@ impl Task<'_> {
                 let slide = [0, 1, 2].map(|axis| point[axis] - old[axis] - drift[axis]);
                 let change = contact(simd, depth, normal, slide, lanes::splat(simd, body.friction));
                 point = [0, 1, 2].map(|axis| point[axis] + change[axis]);
-                self.react(
-                    depth.to_array(),
-                    change,
-                    w,
-                    point,
-                    body.state.position,
-                    &mut wrenches[*index],
-                );
+                self.react(depth.to_array(), change, w, point, body.state.position, &mut wrenches[*index]);
             }
             self.walls(simd, first + row, w, old, &mut point);
             lanes::store_rows(predicted, row, [point[0], point[1], point[2], w]);
@@ -100,10 +80,8 @@ impl Task<'_> {
         let zero = lanes::splat(simd, 0.0);
         // Eight nodes may belong to several sponges, or to none where rows are padding.
         let friction = f32x8::from_fn(simd, |lane| {
-            let sponge = self
-                .sponge
-                .get(row + lane)
-                .and_then(|sponge| self.params.sponges.get(*sponge as usize));
+            let sponge =
+                self.sponge.get(row + lane).and_then(|sponge| self.params.sponges.get(*sponge as usize));
             sponge.map_or(0.0, |sponge| sponge.friction)
         });
         for axis in 0..3 {
@@ -131,11 +109,7 @@ impl Task<'_> {
     ) {
         for lane in (0..LANES).filter(|lane| depth[*lane] > 0.0) {
             let lane_of = |vector: Vec3x8<S>| {
-                DVec3::new(
-                    f64::from(vector[0][lane]),
-                    f64::from(vector[1][lane]),
-                    f64::from(vector[2][lane]),
-                )
+                DVec3::new(f64::from(vector[0][lane]), f64::from(vector[1][lane]), f64::from(vector[2][lane]))
             };
             let mass = 1.0 / f64::from(w[lane]);
             let impulse = lane_of(change) * (-mass / f64::from(self.params.step));

@@ -8,13 +8,8 @@ use crate::{
 };
 
 /// `pbd::gravity`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::gravity",
-    needs: &[Need::Sponge],
-    reads: &[],
-    writes: &[NodeAcceleration],
-    cpu,
-};
+pub static KERNEL: Kernel =
+    Kernel { name: "pbd::gravity", needs: &[Need::Sponge], reads: &[], writes: &[NodeAcceleration], cpu };
 
 fn cpu(_cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let [x, y, z] = params.gravity.to_array();

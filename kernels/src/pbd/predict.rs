@@ -20,14 +20,7 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::predict",
     needs: &[Need::Sponge],
-    reads: &[
-        NodePosition,
-        NodeVelocity,
-        NodeAcceleration,
-        NodeGrip,
-        NodeGripOffset,
-        BodyStates,
-    ],
+    reads: &[NodePosition, NodeVelocity, NodeAcceleration, NodeGrip, NodeGripOffset, BodyStates],
     writes: &[NodePredicted, BodyWrenches],
     cpu,
 };
@@ -35,15 +28,7 @@ pub static KERNEL: Kernel = Kernel {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.wrenches.nodes;
-    let Nodes {
-        position,
-        velocity,
-        acceleration,
-        grip,
-        grip_offset,
-        predicted,
-        ..
-    } = &mut columns.nodes;
+    let Nodes { position, velocity, acceleration, grip, grip_offset, predicted, .. } = &mut columns.nodes;
     wrenches.clear();
     wrenches.resize(position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
     predicted.resize(position.len(), [0.0; 4]);

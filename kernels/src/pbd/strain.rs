@@ -38,12 +38,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes {
-        position,
-        topology,
-        predicted,
-        ..
-    } = &mut columns.nodes;
+    let Nodes { position, topology, predicted, .. } = &mut columns.nodes;
     for color in 0..COLORS {
         let task = Task {
             params,
@@ -55,10 +50,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let (rest, d) = predicted.split_at_mut(starts[3]);
         let (rest, c) = rest.split_at_mut(starts[2]);
         let (a, b) = rest.split_at_mut(starts[1]);
-        let nodes = NodeSlices {
-            nodes: [a, b, c, d],
-            first: [starts[0], starts[1], starts[2], starts[3]],
-        };
+        let nodes = NodeSlices { nodes: [a, b, c, d], first: [starts[0], starts[1], starts[2], starts[3]] };
         task.split(cpu, cpu.threads(), &topology.chunks[color], nodes);
     }
 }
@@ -79,14 +71,8 @@ impl NodeSlices<'_> {
         let (c_left, c_right) = c.split_at_mut(starts[2] - self.first[2]);
         let (d_left, d_right) = d.split_at_mut(starts[3] - self.first[3]);
         (
-            Self {
-                nodes: [a_left, b_left, c_left, d_left],
-                first: self.first,
-            },
-            Self {
-                nodes: [a_right, b_right, c_right, d_right],
-                first: starts,
-            },
+            Self { nodes: [a_left, b_left, c_left, d_left], first: self.first },
+            Self { nodes: [a_right, b_right, c_right, d_right], first: starts },
         )
     }
 }
@@ -135,11 +121,7 @@ impl Task<'_> {
                 let [x, y, z, _] = lanes::gather_rows(simd, self.position, &rows[slot]);
                 [x, y, z]
             });
-            let mut state = TetLanes {
-                p: p.map(|[x, y, z, _]| [x, y, z]),
-                old,
-                w: p.map(|[_, _, _, w]| w),
-            };
+            let mut state = TetLanes { p: p.map(|[x, y, z, _]| [x, y, z]), old, w: p.map(|[_, _, _, w]| w) };
             solver.solve(&mut state);
             for slot in 0..4 {
                 let [x, y, z] = state.p[slot];
@@ -217,12 +199,7 @@ impl<S: Simd> Solver<S> {
         }
         let [d, e, f] = self.columns(tet);
         let (by_d, by_e, by_f) = (cross(e, f), cross(f, d), cross(d, e));
-        let gradient = [
-            negative(plus(by_d, by_f)),
-            minus(by_d, by_f),
-            plus(by_e, by_f),
-            minus(by_f, by_e),
-        ];
+        let gradient = [negative(plus(by_d, by_f)), minus(by_d, by_f), plus(by_e, by_f), minus(by_f, by_e)];
         self.correct(tet, dot(d, by_d) - one, gradient, volume);
     }
 
@@ -231,11 +208,7 @@ impl<S: Simd> Solver<S> {
     fn columns(&self, tet: &TetLanes<S>) -> [Vec3x8<S>; 3] {
         let [p0, p1, p2, p3] = tet.p;
         let scale = |v: Vec3x8<S>| v.map(|value| value * self.inverse_edge);
-        [
-            scale(minus(p1, p0)),
-            scale(minus(p2, p3)),
-            scale(minus(plus(p2, p3), plus(p0, p1))),
-        ]
+        [scale(minus(p1, p0)), scale(minus(p2, p3)), scale(minus(plus(p2, p3), plus(p0, p1)))]
     }
 
     /// Gradients of `f_k . f_l`, times the edge.

@@ -23,19 +23,9 @@ pub static KERNEL: Kernel = Kernel {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.nodes;
-    let Nodes {
-        position,
-        velocity,
-        predicted,
-        extremes,
-        ..
-    } = &mut columns.nodes;
+    let Nodes { position, velocity, predicted, extremes, .. } = &mut columns.nodes;
     let rate = 1.0 / params.step;
-    let rows = (
-        &mut position[..count],
-        &mut velocity[..count],
-        per_chunk(&mut extremes.0, count),
-    );
+    let rows = (&mut position[..count], &mut velocity[..count], per_chunk(&mut extremes.0, count));
     cpu.for_chunks(rows, |first, (position, velocity, extreme)| {
         let extreme = &mut extreme.0[0];
         let mut largest = 0.0_f32;

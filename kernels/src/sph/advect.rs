@@ -28,21 +28,10 @@ const STOP: f32 = 0.05;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
-    let Fluid {
-        position,
-        velocity,
-        extremes,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, velocity, extremes, .. } = &mut columns.fluid;
     let margin = params.fluid.spacing * STOP;
-    let box_inside = params
-        .walls
-        .map(|(low, high)| ((low + margin).to_array(), (high - margin).to_array()));
-    let rows = (
-        &mut position[..count],
-        &mut velocity[..count],
-        PerChunk(&mut extremes.0),
-    );
+    let box_inside = params.walls.map(|(low, high)| ((low + margin).to_array(), (high - margin).to_array()));
+    let rows = (&mut position[..count], &mut velocity[..count], PerChunk(&mut extremes.0));
     cpu.for_chunks(rows, |first, (position, velocity, extreme)| {
         let extreme = &mut extreme.0[0];
         let mut largest = 0.0_f32;

@@ -23,12 +23,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        neighbors,
-        density,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, neighbors, density, .. } = &mut columns.fluid;
     density.resize(position.len(), 0.0);
     cpu.for_chunks(&mut density[..], |first, density| {
         let lists = neighbors.chunk(first);

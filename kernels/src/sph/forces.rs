@@ -26,13 +26,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        velocity,
-        neighbors,
-        acceleration,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, velocity, neighbors, acceleration, .. } = &mut columns.fluid;
     acceleration.resize(position.len(), [0.0; 4]);
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = neighbors.chunk(first);
@@ -67,11 +61,7 @@ fn chunk<S: Simd>(
             let (dx, dy, dz) = (x - xj, y - yj, z - zj);
             let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
             let push = (p + pj) * (u * u * u);
-            pressure = [
-                pressure[0] + push * dx,
-                pressure[1] + push * dy,
-                pressure[2] + push * dz,
-            ];
+            pressure = [pressure[0] + push * dx, pressure[1] + push * dy, pressure[2] + push * dz];
             let pull = volume_j * u;
             viscosity = [
                 viscosity[0] + pull * (vxj - vx),

@@ -23,12 +23,7 @@ pub static KERNEL: Kernel = Kernel {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
-    let Fluid {
-        velocity,
-        acceleration,
-        extremes,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { velocity, acceleration, extremes, .. } = &mut columns.fluid;
     let rows = (&mut velocity[..count], per_chunk(&mut extremes.0, count));
     cpu.for_chunks(rows, |first, (velocity, extreme)| {
         let mut largest = 0.0_f32;

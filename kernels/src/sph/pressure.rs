@@ -27,23 +27,17 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        velocity,
-        density,
-        ..
-    } = &mut columns.fluid;
+    let count = columns.rows.fluid;
+    let Fluid { position, velocity, density, .. } = &mut columns.fluid;
     let fluid = &params.fluid;
-    cpu.for_chunks(
-        (&mut position[..], &mut velocity[..]),
-        |first, (position, velocity)| {
-            let rows = position.iter_mut().zip(velocity).zip(&density[first..]);
-            for ((position, velocity), density) in rows {
-                position[3] = pressure(fluid, *density) / (density * density);
-                velocity[3] = fluid.particle_mass / density;
-            }
-        },
-    );
+    // Padding rows keep a pressure and a volume of zero.
+    cpu.for_chunks((&mut position[..count], &mut velocity[..count]), |first, (position, velocity)| {
+        let rows = position.iter_mut().zip(velocity).zip(&density[first..]);
+        for ((position, velocity), density) in rows {
+            position[3] = pressure(fluid, *density) / (density * density);
+            velocity[3] = fluid.particle_mass / density;
+        }
+    });
 }
 
 /// Pressure at a density [Pa].

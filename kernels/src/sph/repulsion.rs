@@ -27,12 +27,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        velocity,
-        acceleration,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, velocity, acceleration, .. } = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.wrenches.fluid;
     let chunks = acceleration.len().div_ceil(CHUNK);
@@ -44,12 +39,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     };
     let rows = (&mut acceleration[..], PerChunk(&mut per_chunk));
     cpu.for_chunks(rows, |first, (acceleration, wrenches)| {
-        let task = Task {
-            params,
-            bodies,
-            position,
-            velocity,
-        };
+        let task = Task { params, bodies, position, velocity };
         with_lanes!(cpu, simd => task.chunk(simd, first, acceleration, wrenches.0[0]));
     });
 }
@@ -66,10 +56,8 @@ impl Task<'_> {
     fn chunk<S: Simd>(&self, simd: S, first: usize, acceleration: &mut [[f32; 4]], wrenches: &mut [Wrench]) {
         let end = (first + acceleration.len()).min(self.position.len());
         let near = self.near_bodies(&self.position[first..end]);
-        let placed: Vec<(usize, Placed<'_, S>)> = near
-            .into_iter()
-            .map(|body| (body, Placed::new(simd, &self.bodies[body])))
-            .collect();
+        let placed: Vec<(usize, Placed<'_, S>)> =
+            near.into_iter().map(|body| (body, Placed::new(simd, &self.bodies[body]))).collect();
         for row in (0..acceleration.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.position, first + row);
             let [vx, vy, vz, _] = lanes::load_rows(simd, self.velocity, first + row);
@@ -112,9 +100,7 @@ impl Task<'_> {
             let centre = body.state.position.to_array();
             (0..3).all(|axis| centre[axis] + reach > low[axis] && centre[axis] - reach < high[axis])
         };
-        (0..self.bodies.len())
-            .filter(|body| is_near(&self.bodies[*body]))
-            .collect()
+        (0..self.bodies.len()).filter(|body| is_near(&self.bodies[*body])).collect()
     }
 
     /// Acceleration along the normal, from the distance and the speed along the normal.
@@ -123,11 +109,7 @@ impl Task<'_> {
         let fluid = &self.params.fluid;
         let depth = lanes::splat(simd, fluid.repulsion_range) - distance;
         let push = depth * fluid.repulsion_stiffness - speed * fluid.repulsion_damping;
-        select(
-            depth.simd_gt(lanes::splat(simd, 0.0)),
-            lanes::positive(simd, push),
-            lanes::splat(simd, 0.0),
-        )
+        select(depth.simd_gt(lanes::splat(simd, 0.0)), lanes::positive(simd, push), lanes::splat(simd, 0.0))
     }
 
     #[inline(always)]
@@ -137,11 +119,7 @@ impl Task<'_> {
         };
         for axis in 0..3 {
             let low = self.push(simd, point[axis] - minimum[axis], velocity[axis]);
-            let high = self.push(
-                simd,
-                lanes::splat(simd, maximum[axis]) - point[axis],
-                -velocity[axis],
-            );
+            let high = self.push(simd, lanes::splat(simd, maximum[axis]) - point[axis], -velocity[axis]);
             sum[axis] += low - high;
         }
     }
@@ -158,11 +136,7 @@ impl Task<'_> {
     ) {
         for lane in (0..LANES).filter(|lane| push[*lane] > 0.0) {
             let lane_of = |vector: Vec3x8<S>| {
-                DVec3::new(
-                    f64::from(vector[0][lane]),
-                    f64::from(vector[1][lane]),
-                    f64::from(vector[2][lane]),
-                )
+                DVec3::new(f64::from(vector[0][lane]), f64::from(vector[1][lane]), f64::from(vector[2][lane]))
             };
             let normal = lane_of(normal);
             let impulse =

@@ -29,13 +29,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid {
-        position,
-        velocity,
-        neighbors,
-        acceleration,
-        ..
-    } = &mut columns.fluid;
+    let Fluid { position, velocity, neighbors, acceleration, .. } = &mut columns.fluid;
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = neighbors.chunk(first);
         with_lanes!(cpu, simd => chunk(simd, params, first, (position, velocity), lists, acceleration));
@@ -67,11 +61,7 @@ fn chunk<S: Simd>(
             let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
             let weight = volume_j * u * u;
             let slope = weight * u;
-            normal = [
-                normal[0] - slope * dx,
-                normal[1] - slope * dy,
-                normal[2] - slope * dz,
-            ];
+            normal = [normal[0] - slope * dx, normal[1] - slope * dy, normal[2] - slope * dz];
             laplacian -= weight * (u + u - one);
         }
         let normal = normal.map(|value| value * kernel.gradient_scale());
@@ -81,12 +71,7 @@ fn chunk<S: Simd>(
             laplacian * kernel.laplacian_scale() * volume * (fluid.surface_tension / fluid.particle_mass);
         let strength = select(at_surface, strength / select(at_surface, length, one), zero);
         let [ax, ay, az, aw] = lanes::load_rows(simd, acceleration, row);
-        let sum = [
-            ax - strength * normal[0],
-            ay - strength * normal[1],
-            az - strength * normal[2],
-            aw,
-        ];
+        let sum = [ax - strength * normal[0], ay - strength * normal[1], az - strength * normal[2], aw];
         lanes::store_rows(acceleration, row, sum);
     }
 }

@@ -15,9 +15,7 @@ fn refusal(setup: &BodySetup) -> RigidError {
 
 #[cfg(feature = "rigid")]
 fn dynamic_refusal(setup: &BodySetup) -> Option<RigidError> {
-    crate::rigid::RapierEngine::new(GRAVITY, None, std::slice::from_ref(setup))
-        .map(|_| ())
-        .err()
+    crate::rigid::RapierEngine::new(GRAVITY, None, std::slice::from_ref(setup)).map(|_| ()).err()
 }
 
 #[cfg(not(feature = "rigid"))]
@@ -25,7 +23,7 @@ fn dynamic_refusal(setup: &BodySetup) -> Option<RigidError> {
     crate::rigid::setup::checked_state(setup).map(|_| ()).err()
 }
 
-fn assert_value(setup: BodySetup, expected: &str) {
+pub(super) fn assert_value(setup: BodySetup, expected: &str) {
     match refusal(&setup) {
         RigidError::Value { body, key, .. } if body == setup.name => assert_eq!(key, expected),
         error => panic!("expected a bad `{expected}`, found: {error}"),
@@ -44,144 +42,48 @@ fn assert_kind(setup: BodySetup, expected: &str) {
 #[test]
 fn bad_numbers_name_body_and_key() {
     let ball = || ball(Vec3::ZERO);
-    assert_value(
-        BodySetup {
-            density: 0.0,
-            ..ball()
-        },
-        "density",
-    );
-    assert_value(
-        BodySetup {
-            density: f32::NAN,
-            ..ball()
-        },
-        "density",
-    );
-    assert_value(
-        BodySetup {
-            density: -1.0,
-            kind: BodyKind::Fixed,
-            ..ball()
-        },
-        "density",
-    );
-    assert_value(
-        BodySetup {
-            friction: -0.1,
-            ..ball()
-        },
-        "friction",
-    );
-    assert_value(
-        BodySetup {
-            restitution: 1.1,
-            ..ball()
-        },
-        "restitution",
-    );
-    assert_value(
-        BodySetup {
-            restitution: f32::NAN,
-            ..ball()
-        },
-        "restitution",
-    );
+    assert_value(BodySetup { density: 0.0, ..ball() }, "density");
+    assert_value(BodySetup { density: f32::NAN, ..ball() }, "density");
+    assert_value(BodySetup { density: -1.0, kind: BodyKind::Fixed, ..ball() }, "density");
+    assert_value(BodySetup { friction: -0.1, ..ball() }, "friction");
+    assert_value(BodySetup { restitution: 1.1, ..ball() }, "restitution");
+    assert_value(BodySetup { restitution: f32::NAN, ..ball() }, "restitution");
     let rest = at_rest(Vec3::ZERO);
     let with = |state| BodySetup { state, ..ball() };
     assert_value(with(at_rest(Vec3::X * f32::NAN)), "position");
-    assert_value(
-        with(BodyState {
-            linear_velocity: Vec3::X * f32::INFINITY,
-            ..rest
-        }),
-        "linear_velocity",
-    );
-    assert_value(
-        with(BodyState {
-            angular_velocity: Vec3::Y * f32::NAN,
-            ..rest
-        }),
-        "angular_velocity",
-    );
-    assert_value(
-        with(BodyState {
-            rotation: Quat::from_xyzw(0.0, 0.0, 0.0, 0.0),
-            ..rest
-        }),
-        "rotation",
-    );
-    assert_value(
-        with(BodyState {
-            rotation: Quat::from_xyzw(0.0, 0.0, 0.0, f32::NAN),
-            ..rest
-        }),
-        "rotation",
-    );
+    assert_value(with(BodyState { linear_velocity: Vec3::X * f32::INFINITY, ..rest }), "linear_velocity");
+    assert_value(with(BodyState { angular_velocity: Vec3::Y * f32::NAN, ..rest }), "angular_velocity");
+    assert_value(with(BodyState { rotation: Quat::from_xyzw(0.0, 0.0, 0.0, 0.0), ..rest }), "rotation");
+    assert_value(with(BodyState { rotation: Quat::from_xyzw(0.0, 0.0, 0.0, f32::NAN), ..rest }), "rotation");
 }
 
 #[test]
 fn bad_shapes_name_body_and_key() {
     let with = |shape| body("thing", BodyKind::Fixed, shape, Vec3::ZERO);
     assert_value(with(Shape::Sphere { radius: 0.0 }), "shape.radius");
-    assert_value(
-        with(Shape::Cuboid {
-            half_extents: Vec3::new(1.0, -1.0, 1.0),
-        }),
-        "shape.half_extents.y",
-    );
-    assert_value(
-        with(Shape::Capsule {
-            half_height: f32::NAN,
-            radius: 1.0,
-        }),
-        "shape.half_height",
-    );
-    assert_value(
-        with(Shape::Capsule {
-            half_height: 1.0,
-            radius: f32::INFINITY,
-        }),
-        "shape.radius",
-    );
+    assert_value(with(Shape::Cuboid { half_extents: Vec3::new(1.0, -1.0, 1.0) }), "shape.half_extents.y");
+    assert_value(with(Shape::Capsule { half_height: f32::NAN, radius: 1.0 }), "shape.half_height");
+    assert_value(with(Shape::Capsule { half_height: 1.0, radius: f32::INFINITY }), "shape.radius");
     let hull = |normal, corner, triangle| Shape::Hull {
         planes: vec![(normal, 1.0)],
         vertices: vec![corner; 2],
         triangles: vec![triangle],
     };
-    assert_value(
-        with(hull(Vec3::X * 2.0, Vec3::ZERO, [0, 1, 0])),
-        "shape.planes[0]",
-    );
-    assert_value(
-        with(hull(Vec3::X, Vec3::X * f32::NAN, [0, 1, 0])),
-        "shape.vertices[0]",
-    );
+    assert_value(with(hull(Vec3::X * 2.0, Vec3::ZERO, [0, 1, 0])), "shape.planes[0]");
+    assert_value(with(hull(Vec3::X, Vec3::X * f32::NAN, [0, 1, 0])), "shape.vertices[0]");
     assert_value(with(hull(Vec3::X, Vec3::ZERO, [0, 1, 2])), "shape.triangles[0]");
 }
 
 #[test]
 fn bad_motions_name_body_and_key() {
-    let good = Motion::Linear {
-        velocity: Vec3::X,
-        start: 0.0,
-        end: 1.0,
-    };
+    let good = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
     let linear = |velocity, start, end| plate(vec![good, Motion::Linear { velocity, start, end }]);
     assert_value(linear(Vec3::X * f32::NAN, 0.0, 1.0), "motions[1].velocity");
     assert_value(linear(Vec3::X, -1.0, 1.0), "motions[1].start");
     assert_value(linear(Vec3::X, f32::INFINITY, f32::INFINITY), "motions[1].start");
     assert_value(linear(Vec3::X, 2.0, 1.0), "motions[1].end");
     assert_value(linear(Vec3::X, 2.0, f32::NAN), "motions[1].end");
-    let turn = |axis, pivot, rate| {
-        plate(vec![Motion::Turn {
-            axis,
-            pivot,
-            rate,
-            start: 0.0,
-            end: 1.0,
-        }])
-    };
+    let turn = |axis, pivot, rate| plate(vec![Motion::Turn { axis, pivot, rate, start: 0.0, end: 1.0 }]);
     assert_value(turn(Vec3::ZERO, Vec3::ZERO, 1.0), "motions[0].axis");
     assert_value(turn(Vec3::NAN, Vec3::ZERO, 1.0), "motions[0].axis");
     assert_value(turn(Vec3::X, Vec3::NAN, 1.0), "motions[0].pivot");
@@ -190,29 +92,10 @@ fn bad_motions_name_body_and_key() {
 
 #[test]
 fn what_does_not_fit_the_kind_is_refused() {
-    let motion = Motion::Linear {
-        velocity: Vec3::X,
-        start: 0.0,
-        end: 1.0,
-    };
-    assert_kind(
-        BodySetup {
-            motions: vec![motion],
-            ..ball(Vec3::ZERO)
-        },
-        "motions",
-    );
-    assert_kind(
-        BodySetup {
-            kind: BodyKind::Fixed,
-            ..plate(vec![motion])
-        },
-        "motions",
-    );
-    assert_kind(
-        body("ground", BodyKind::Dynamic, Shape::Plane, Vec3::ZERO),
-        "shape",
-    );
+    let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
+    assert_kind(BodySetup { motions: vec![motion], ..ball(Vec3::ZERO) }, "motions");
+    assert_kind(BodySetup { kind: BodyKind::Fixed, ..plate(vec![motion]) }, "motions");
+    assert_kind(body("ground", BodyKind::Dynamic, Shape::Plane, Vec3::ZERO), "shape");
     let mut moving = plate(Vec::new());
     moving.state.linear_velocity = Vec3::X;
     assert_kind(moving, "linear_velocity");
@@ -224,21 +107,13 @@ fn what_does_not_fit_the_kind_is_refused() {
 #[test]
 fn the_scripted_engine_says_which_feature_a_dynamic_body_needs() {
     let error = ScriptedEngine::new(&[plate(Vec::new()), ball(Vec3::ZERO)]).expect_err("a ball is dynamic");
-    assert_eq!(
-        error,
-        RigidError::DynamicUnsupported {
-            body: "ball".to_owned()
-        }
-    );
+    assert_eq!(error, RigidError::DynamicUnsupported { body: "ball".to_owned() });
     let message = error.to_string();
-    assert!(
-        message.contains("`ball`") && message.contains("`rigid`"),
-        "{message}"
-    );
+    assert!(message.contains("`ball`") && message.contains("`rigid`"), "{message}");
 }
 
 /// Bad input of a step is refused before anything moves; the last body is called `plate`.
-fn assert_bad_steps(engine: &mut dyn RigidEngine) {
+pub(super) fn assert_bad_steps(engine: &mut dyn RigidEngine) {
     let count = engine.body_count();
     let before = bits(engine);
     let good = vec![Wrench::default(); count];
@@ -246,30 +121,15 @@ fn assert_bad_steps(engine: &mut dyn RigidEngine) {
         assert!(matches!(engine.step(dt, &good), Err(RigidError::TimeStep { .. })));
     }
     let error = engine.step(0.1, &good[1..]).expect_err("a wrench is missing");
-    assert_eq!(
-        error,
-        RigidError::WrenchCount {
-            expected: count,
-            found: count - 1
-        }
-    );
+    assert_eq!(error, RigidError::WrenchCount { expected: count, found: count - 1 });
     for value in [f64::NAN, f64::INFINITY, 1e300] {
         for expected in ["impulse", "angular_impulse"] {
             let mut bad = good.clone();
             let last = &mut bad[count - 1];
-            let part = if expected == "impulse" {
-                &mut last.impulse
-            } else {
-                &mut last.angular_impulse
-            };
+            let part = if expected == "impulse" { &mut last.impulse } else { &mut last.angular_impulse };
             part.y = value;
             match engine.step(0.1, &bad) {
-                Err(RigidError::Wrench {
-                    body,
-                    index,
-                    quantity,
-                    ..
-                }) => {
+                Err(RigidError::Wrench { body, index, quantity, .. }) => {
                     assert_eq!((body.as_str(), index, quantity), ("plate", count - 1, expected));
                 }
                 other => panic!("expected a refused wrench, found {other:?}"),
@@ -283,137 +143,13 @@ fn assert_bad_steps(engine: &mut dyn RigidEngine) {
 
 #[test]
 fn bad_steps_move_nothing() {
-    let lift = Motion::Linear {
-        velocity: Vec3::Y,
-        start: 0.0,
-        end: 1.0,
-    };
+    let lift = Motion::Linear { velocity: Vec3::Y, start: 0.0, end: 1.0 };
     let mut engine = ScriptedEngine::new(&[plate(vec![lift])]).expect("the plate is valid");
     assert_bad_steps(&mut engine);
 }
 
 #[test]
 fn a_host_engine_reports_in_its_own_words() {
-    let error = RigidError::Engine {
-        message: "no island left".to_owned(),
-    };
+    let error = RigidError::Engine { message: "no island left".to_owned() };
     assert_eq!(error.to_string(), "rigid-body engine: no island left");
-}
-
-#[cfg(feature = "rigid")]
-mod rapier {
-    use super::*;
-    use crate::rigid::RapierEngine;
-
-    #[test]
-    fn bad_steps_move_nothing() {
-        let lift = Motion::Linear {
-            velocity: Vec3::Y,
-            start: 0.0,
-            end: 1.0,
-        };
-        let bodies = [ball(Vec3::Y), plate(vec![lift])];
-        assert_bad_steps(&mut RapierEngine::new(GRAVITY, None, &bodies).expect("the bodies are valid"));
-    }
-
-    #[test]
-    fn a_wrench_beyond_the_range_of_the_velocity_is_refused() {
-        let mut engine = RapierEngine::new(GRAVITY, None, &[ball(Vec3::Y)]).expect("the ball is valid");
-        let error = engine
-            .step(0.01, &[impulse(0.0, 3e38, 0.0)])
-            .expect_err("the velocity would overflow");
-        assert!(
-            matches!(
-                error,
-                RigidError::Wrench {
-                    index: 0,
-                    quantity: "impulse",
-                    ..
-                }
-            ),
-            "{error}"
-        );
-        let wrench = Wrench {
-            angular_impulse: DVec3::X * 1e36,
-            ..Wrench::default()
-        };
-        let error = engine.step(0.01, &[wrench]).expect_err("the spin would overflow");
-        assert!(
-            matches!(
-                error,
-                RigidError::Wrench {
-                    quantity: "angular_impulse",
-                    ..
-                }
-            ),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn a_body_that_leaves_all_bounds_is_named() {
-        let bodies = [
-            plate(Vec::new()),
-            BodySetup {
-                name: "comet".to_owned(),
-                ..ball(Vec3::Y)
-            },
-        ];
-        let mut engine = RapierEngine::new(GRAVITY, None, &bodies).expect("the bodies are valid");
-        let mut wrenches = [Wrench::default(), impulse(0.0, 2e36, 0.0)];
-        let mut outcome = Ok(());
-        for _ in 0..100 {
-            outcome = engine.step(10.0, &wrenches);
-            wrenches[1] = Wrench::default();
-            if outcome.is_err() {
-                break;
-            }
-        }
-        match outcome {
-            Err(RigidError::Diverged { body, index, time }) => {
-                assert_eq!((body.as_str(), index, time), ("comet", 1, engine.time()));
-            }
-            other => panic!("expected a divergence, found {other:?}"),
-        }
-    }
-
-    #[test]
-    fn gravity_container_and_mass_are_checked() {
-        let new = |gravity, container, position| {
-            RapierEngine::new(gravity, container, &[ball(position)]).map(|_| ())
-        };
-        let inside = Some((Vec3::ZERO, Vec3::ONE));
-        let centre = Vec3::splat(0.5);
-        assert_eq!(new(GRAVITY, inside, centre), Ok(()));
-        assert!(matches!(
-            new(Vec3::NAN, inside, centre),
-            Err(RigidError::Gravity { .. })
-        ));
-        for high in [
-            Vec3::new(1.0, 0.0, 1.0),
-            Vec3::new(1.0, -1.0, 1.0),
-            Vec3::new(1.0, f32::NAN, 1.0),
-        ] {
-            let container = Some((Vec3::ZERO, high));
-            assert!(matches!(
-                new(GRAVITY, container, centre),
-                Err(RigidError::Container { .. })
-            ));
-        }
-        let outside = new(GRAVITY, inside, Vec3::new(0.5, 1.5, 0.5)).expect_err("the ball is above the lid");
-        assert!(
-            matches!(&outside, RigidError::OutsideContainer { body, .. } if body == "ball"),
-            "{outside}"
-        );
-        for (radius, density) in [(1e-9, 1000.0), (1e15, 1000.0), (1e-4, 1e-30)] {
-            let shape = Shape::Sphere { radius };
-            assert_value(
-                BodySetup {
-                    density,
-                    ..body("mote", BodyKind::Dynamic, shape, Vec3::ZERO)
-                },
-                "mass",
-            );
-        }
-    }
 }

@@ -20,21 +20,14 @@ fn grid(count: u8, edge: f32, corner: Vec3) -> Vec<Vec3> {
 
 /// Closed, centred, convex, without duplicate planes.
 fn assert_sound(hull: &ConvexHull, points: &[Vec3]) {
-    let Shape::Hull { planes, vertices, .. } = &hull.shape else {
-        panic!("a hull has the shape of a hull")
-    };
+    let Shape::Hull { planes, vertices, .. } = &hull.shape else { panic!("a hull has the shape of a hull") };
     let size = vertices.iter().map(|v| v.length()).fold(0.0, f32::max);
     for (index, (normal, offset)) in planes.iter().enumerate() {
         assert!((normal.length() - 1.0).abs() < 1e-6 && *offset > 0.0);
-        assert!(
-            vertices.iter().all(|v| normal.dot(*v) <= *offset),
-            "a vertex lies outside"
-        );
+        assert!(vertices.iter().all(|v| normal.dot(*v) <= *offset), "a vertex lies outside");
         let slack = 2e-6 * (size + hull.offset.length());
         assert!(
-            points
-                .iter()
-                .all(|p| normal.dot(*p - hull.offset) <= *offset + slack),
+            points.iter().all(|p| normal.dot(*p - hull.offset) <= *offset + slack),
             "a point lies outside"
         );
         let twin = planes[..index]
@@ -55,18 +48,11 @@ fn a_cube_has_six_planes() {
         let points = grid(count, edge, corner);
         let hull = convex_hull(&points).expect("a cube is a solid");
         assert_sound(&hull, &points);
-        assert_close(
-            hull.offset,
-            corner + Vec3::splat(edge / 2.0),
-            1e-6 * edge.max(corner.length()),
-        );
-        let Shape::Hull { mut planes, .. } = hull.shape else {
-            panic!("a hull has the shape of a hull")
-        };
+        assert_close(hull.offset, corner + Vec3::splat(edge / 2.0), 1e-6 * edge.max(corner.length()));
+        let Shape::Hull { mut planes, .. } = hull.shape else { panic!("a hull has the shape of a hull") };
         assert_eq!(planes.len(), 6, "{count} points per edge of {edge} m: {planes:?}");
         planes.sort_by(|(a, _), (b, _)| {
-            a.dot(Vec3::new(1.0, 2.0, 4.0))
-                .total_cmp(&b.dot(Vec3::new(1.0, 2.0, 4.0)))
+            a.dot(Vec3::new(1.0, 2.0, 4.0)).total_cmp(&b.dot(Vec3::new(1.0, 2.0, 4.0)))
         });
         let normals = [Vec3::NEG_Z, Vec3::NEG_Y, Vec3::NEG_X, Vec3::X, Vec3::Y, Vec3::Z];
         for ((normal, offset), expected) in planes.into_iter().zip(normals) {
@@ -86,11 +72,7 @@ fn random_clouds_give_sound_hulls_that_rapier_takes() {
             .map(|_| {
                 let point = Vec3::new(random(&mut seed), random(&mut seed), random(&mut seed)) - 0.5;
                 // Every other cloud lies on an ellipsoid: all points are corners.
-                if round % 2 == 0 {
-                    point.normalize_or_zero() * scale
-                } else {
-                    point * scale
-                }
+                if round % 2 == 0 { point.normalize_or_zero() * scale } else { point * scale }
             })
             .collect();
         let Ok(hull) = convex_hull(&points) else {
@@ -120,24 +102,15 @@ fn a_fine_ball_is_a_hull_too() {
     let floor = body("floor", BodyKind::Fixed, Shape::Plane, Vec3::ZERO);
     let mut engine = RapierEngine::new(GRAVITY, None, &[ball, floor]).expect("rapier3d takes the hull");
     step(&mut engine, 0.01, 50);
-    assert!(
-        (engine.state(0).position.y - 0.03).abs() < 5e-4,
-        "{}",
-        engine.state(0).position
-    );
+    assert!((engine.state(0).position.y - 0.03).abs() < 5e-4, "{}", engine.state(0).position);
 }
 
 #[test]
 fn degenerate_points_have_no_hull() {
     let cube = grid(2, 0.1, Vec3::ZERO);
-    let flat: Vec<Vec3> = cube
-        .iter()
-        .map(|p| Vec3::new(p.x, p.y, 0.3 * p.x - p.y))
-        .collect();
+    let flat: Vec<Vec3> = cube.iter().map(|p| Vec3::new(p.x, p.y, 0.3 * p.x - p.y)).collect();
     let thin: Vec<Vec3> = cube.iter().map(|p| *p * Vec3::new(1.0, 1.0, 5e-4)).collect();
-    let line: Vec<Vec3> = (0..9_u8)
-        .map(|i| Vec3::new(1.0, 2.0, 3.0) * f32::from(i))
-        .collect();
+    let line: Vec<Vec3> = (0..9_u8).map(|i| Vec3::new(1.0, 2.0, 3.0) * f32::from(i)).collect();
     assert_eq!(convex_hull(&flat), Err(HullError::Flat));
     assert_eq!(convex_hull(&thin), Err(HullError::Flat));
     assert_eq!(convex_hull(&line), Err(HullError::Flat));
@@ -146,10 +119,7 @@ fn degenerate_points_have_no_hull() {
     assert_eq!(convex_hull(&twice), Err(HullError::TooFewPoints { found: 3 }));
     let mut broken = cube.clone();
     broken[5].y = f32::NAN;
-    assert!(matches!(
-        convex_hull(&broken),
-        Err(HullError::NotFinite { index: 5, .. })
-    ));
+    assert!(matches!(convex_hull(&broken), Err(HullError::NotFinite { index: 5, .. })));
     let mut seed = 1;
     let many: Vec<Vec3> = (0..3 * MAX_HULL_VERTICES)
         .map(|_| {
@@ -164,26 +134,12 @@ fn degenerate_points_have_no_hull() {
 #[test]
 fn a_foreign_hull_is_checked() {
     let hull = convex_hull(&grid(2, 0.1, Vec3::ZERO)).expect("a cube is a solid");
-    let Shape::Hull {
-        planes,
-        vertices,
-        triangles,
-    } = hull.shape
-    else {
+    let Shape::Hull { planes, vertices, triangles } = hull.shape else {
         panic!("a hull has the shape of a hull")
     };
     let refusal = |planes: &[(Vec3, f32)], vertices: &[Vec3], triangles: &[[u32; 3]]| {
         let (planes, vertices, triangles) = (planes.to_vec(), vertices.to_vec(), triangles.to_vec());
-        let stone = body(
-            "stone",
-            BodyKind::Dynamic,
-            Shape::Hull {
-                planes,
-                vertices,
-                triangles,
-            },
-            Vec3::ZERO,
-        );
+        let stone = body("stone", BodyKind::Dynamic, Shape::Hull { planes, vertices, triangles }, Vec3::ZERO);
         match RapierEngine::new(GRAVITY, None, &[stone]) {
             Err(RigidError::Hull { body, source }) if body == "stone" => Some(source),
             Err(error) => panic!("another error: {error}"),
@@ -192,27 +148,12 @@ fn a_foreign_hull_is_checked() {
     };
     assert_eq!(refusal(&planes, &vertices, &triangles), None);
     let shifted: Vec<Vec3> = vertices.iter().map(|v| *v + Vec3::X * 0.01).collect();
-    assert!(matches!(
-        refusal(&planes, &shifted, &triangles),
-        Some(HullError::NotCentred { .. })
-    ));
-    assert_eq!(
-        refusal(&planes, &vertices, &triangles[1..]),
-        Some(HullError::NotClosed)
-    );
+    assert!(matches!(refusal(&planes, &shifted, &triangles), Some(HullError::NotCentred { .. })));
+    assert_eq!(refusal(&planes, &vertices, &triangles[1..]), Some(HullError::NotClosed));
     let inside_out: Vec<[u32; 3]> = triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
-    assert_eq!(
-        refusal(&planes, &vertices, &inside_out),
-        Some(HullError::NotClosed)
-    );
-    assert_eq!(
-        refusal(&planes[..3], &vertices, &triangles),
-        Some(HullError::NotClosed)
-    );
-    assert_eq!(
-        refusal(&planes, &vertices[..3], &[]),
-        Some(HullError::TooFewPoints { found: 3 })
-    );
+    assert_eq!(refusal(&planes, &vertices, &inside_out), Some(HullError::NotClosed));
+    assert_eq!(refusal(&planes[..3], &vertices, &triangles), Some(HullError::NotClosed));
+    assert_eq!(refusal(&planes, &vertices[..3], &[]), Some(HullError::TooFewPoints { found: 3 }));
     let flat: Vec<Vec3> = vertices.iter().map(|v| *v * Vec3::new(1.0, 1.0, 0.0)).collect();
     assert_eq!(refusal(&planes, &flat, &triangles), Some(HullError::Flat));
 }

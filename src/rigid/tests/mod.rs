@@ -1,5 +1,3 @@
-#![expect(clippy::expect_used, reason = "a test fails by panicking")]
-
 #[cfg(feature = "rigid")]
 mod bodies;
 #[cfg(feature = "rigid")]
@@ -7,11 +5,14 @@ mod contacts;
 mod errors;
 #[cfg(feature = "rigid")]
 mod hulls;
+#[cfg(feature = "rigid")]
+mod limits;
 mod scripts;
 
 use super::{BodyKind, BodySetup, BodyState, Motion, RigidEngine, Shape, Wrench};
 use glam::{DVec3, Quat, Vec3};
 
+#[cfg(feature = "rigid")]
 const GRAVITY: Vec3 = Vec3::new(0.0, -9.81, 0.0);
 
 fn at_rest(position: Vec3) -> BodyState {
@@ -37,39 +38,24 @@ fn body(name: &str, kind: BodyKind, shape: Shape, position: Vec3) -> BodySetup {
 }
 
 fn ball(position: Vec3) -> BodySetup {
-    body(
-        "ball",
-        BodyKind::Dynamic,
-        Shape::Sphere { radius: 0.02 },
-        position,
-    )
+    body("ball", BodyKind::Dynamic, Shape::Sphere { radius: 0.02 }, position)
 }
 
 fn plate(motions: Vec<Motion>) -> BodySetup {
     let half_extents = Vec3::new(0.1, 0.01, 0.1);
-    let plate = body(
-        "plate",
-        BodyKind::Kinematic,
-        Shape::Cuboid { half_extents },
-        Vec3::new(0.0, 0.1, 0.0),
-    );
+    let plate = body("plate", BodyKind::Kinematic, Shape::Cuboid { half_extents }, Vec3::new(0.0, 0.1, 0.0));
     BodySetup { motions, ..plate }
 }
 
 fn step(engine: &mut dyn RigidEngine, dt: f32, count: usize) {
     let wrenches = vec![Wrench::default(); engine.body_count()];
     for _ in 0..count {
-        engine
-            .step(dt, &wrenches)
-            .expect("a step without wrenches succeeds");
+        engine.step(dt, &wrenches).expect("a step without wrenches succeeds");
     }
 }
 
 fn impulse(x: f64, y: f64, z: f64) -> Wrench {
-    Wrench {
-        impulse: DVec3::new(x, y, z),
-        ..Wrench::default()
-    }
+    Wrench { impulse: DVec3::new(x, y, z), ..Wrench::default() }
 }
 
 fn bits(engine: &dyn RigidEngine) -> Vec<u32> {
@@ -85,8 +71,5 @@ fn bits(engine: &dyn RigidEngine) -> Vec<u32> {
 }
 
 fn assert_close(found: Vec3, expected: Vec3, tolerance: f32) {
-    assert!(
-        found.distance(expected) <= tolerance,
-        "found {found}, expected {expected} within {tolerance}"
-    );
+    assert!(found.distance(expected) <= tolerance, "found {found}, expected {expected} within {tolerance}");
 }

@@ -3,21 +3,11 @@ use crate::rigid::ScriptedEngine;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 fn lift() -> Motion {
-    Motion::Linear {
-        velocity: Vec3::new(0.0, 0.2, 0.0),
-        start: 0.5,
-        end: 1.5,
-    }
+    Motion::Linear { velocity: Vec3::new(0.0, 0.2, 0.0), start: 0.5, end: 1.5 }
 }
 
 fn turn() -> Motion {
-    Motion::Turn {
-        axis: Vec3::Z * 3.0,
-        pivot: Vec3::ZERO,
-        rate: FRAC_PI_2,
-        start: 1.0,
-        end: 3.0,
-    }
+    Motion::Turn { axis: Vec3::Z * 3.0, pivot: Vec3::ZERO, rate: FRAC_PI_2, start: 1.0, end: 3.0 }
 }
 
 fn engine(bodies: &[BodySetup]) -> ScriptedEngine {
@@ -56,19 +46,12 @@ fn a_turn_swings_the_body_about_its_pivot() {
     let bodies = [plate(vec![turn()])];
     let halfway = state_at(&bodies, 2.0);
     assert_close(halfway.position, Vec3::new(-0.1, 0.0, 0.0), 1e-7);
-    assert_close(
-        halfway.linear_velocity,
-        Vec3::new(0.0, -0.1 * FRAC_PI_2, 0.0),
-        1e-7,
-    );
+    assert_close(halfway.linear_velocity, Vec3::new(0.0, -0.1 * FRAC_PI_2, 0.0), 1e-7);
     assert_eq!(halfway.angular_velocity, Vec3::Z * FRAC_PI_2);
     let after = state_at(&bodies, 4.0);
     assert_close(after.position, Vec3::new(0.0, -0.1, 0.0), 1e-7);
     assert_close(after.rotation * Vec3::X, Vec3::NEG_X, 1e-6);
-    assert_eq!(
-        (after.linear_velocity, after.angular_velocity),
-        (Vec3::ZERO, Vec3::ZERO)
-    );
+    assert_eq!((after.linear_velocity, after.angular_velocity), (Vec3::ZERO, Vec3::ZERO));
 }
 
 #[test]
@@ -80,18 +63,11 @@ fn the_velocity_is_the_derivative_of_the_pose() {
         start: 0.0,
         end: f32::INFINITY,
     };
-    let drift = Motion::Linear {
-        velocity: Vec3::new(0.4, 0.1, -0.3),
-        start: 0.0,
-        end: 10.0,
-    };
+    let drift = Motion::Linear { velocity: Vec3::new(0.4, 0.1, -0.3), start: 0.0, end: 10.0 };
     let bodies = [plate(vec![drift, turn(), tilt, lift()])];
     let (time, step) = (1.25, 1.0 / 256.0);
-    let (before, now, after) = (
-        state_at(&bodies, time - step),
-        state_at(&bodies, time),
-        state_at(&bodies, time + step),
-    );
+    let (before, now, after) =
+        (state_at(&bodies, time - step), state_at(&bodies, time), state_at(&bodies, time + step));
     let slope = (after.position - before.position) / (2.0 * step);
     assert_close(now.linear_velocity, slope, 1e-4);
     let turned = (after.rotation * before.rotation.inverse()).normalize();
@@ -103,18 +79,8 @@ fn the_velocity_is_the_derivative_of_the_pose() {
 
 #[test]
 fn motions_apply_in_the_order_of_the_list() {
-    let along = Motion::Linear {
-        velocity: Vec3::X,
-        start: 0.0,
-        end: 1.0,
-    };
-    let half = Motion::Turn {
-        axis: Vec3::Y,
-        pivot: Vec3::ZERO,
-        rate: PI,
-        start: 0.0,
-        end: 1.0,
-    };
+    let along = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
+    let half = Motion::Turn { axis: Vec3::Y, pivot: Vec3::ZERO, rate: PI, start: 0.0, end: 1.0 };
     let shifted_then_turned = state_at(&[plate(vec![along, half])], 2.0);
     let turned_then_shifted = state_at(&[plate(vec![half, along])], 2.0);
     assert_close(shifted_then_turned.position, Vec3::new(-1.0, 0.1, 0.0), 1e-6);
@@ -124,47 +90,27 @@ fn motions_apply_in_the_order_of_the_list() {
 #[test]
 fn rounded_steps_do_not_prolong_a_motion() {
     for (dt, count) in [(0.01_f32, 100), (0.001, 1000), (1.0 / 60.0, 60), (0.1, 10)] {
-        let motion = Motion::Linear {
-            velocity: Vec3::X,
-            start: 0.0,
-            end: 1.0,
-        };
+        let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
         let mut engine = engine(&[plate(vec![motion])]);
         step(&mut engine, dt, count - 1);
-        assert_eq!(
-            engine.state(0).linear_velocity,
-            Vec3::X,
-            "one step of {dt} s before the end"
-        );
+        assert_eq!(engine.state(0).linear_velocity, Vec3::X, "one step of {dt} s before the end");
         step(&mut engine, dt, 1);
-        assert_eq!(
-            engine.state(0).linear_velocity,
-            Vec3::ZERO,
-            "after {count} steps of {dt} s"
-        );
+        assert_eq!(engine.state(0).linear_velocity, Vec3::ZERO, "after {count} steps of {dt} s");
         assert_eq!(engine.state(0).position.x, 1.0);
     }
 }
 
 #[test]
 fn fixed_bodies_stay_and_ignore_wrenches() {
-    let bodies = [
-        body("floor", BodyKind::Fixed, Shape::Plane, Vec3::Y),
-        plate(vec![lift()]),
-    ];
+    let bodies = [body("floor", BodyKind::Fixed, Shape::Plane, Vec3::Y), plate(vec![lift()])];
     let mut engine = engine(&bodies);
-    engine
-        .step(0.1, &[impulse(1.0, 2.0, 3.0), impulse(1.0, 0.0, 0.0)])
-        .expect("the wrenches are finite");
+    engine.step(0.1, &[impulse(1.0, 2.0, 3.0), impulse(1.0, 0.0, 0.0)]).expect("the wrenches are finite");
     assert_eq!(engine.state(0), at_rest(Vec3::Y));
     assert_eq!(
         (engine.body_count(), engine.kind(0), engine.kind(1)),
         (2, BodyKind::Fixed, BodyKind::Kinematic)
     );
-    assert_eq!(
-        (engine.inverse_mass(1), engine.inverse_inertia(1)),
-        (0.0, glam::Mat3::ZERO)
-    );
+    assert_eq!((engine.inverse_mass(1), engine.inverse_inertia(1)), (0.0, glam::Mat3::ZERO));
     assert!((engine.time() - 0.1).abs() < 1e-8);
 }
 

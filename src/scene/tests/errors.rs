@@ -14,9 +14,7 @@ fn syntax_errors_have_line_and_column() {
     assert!(text.starts_with("bath.toml:3:11: "), "{text}");
     let text = message("version = 1\nversion = 1\n");
     assert!(text.starts_with("bath.toml:2:1: duplicate key"), "{text}");
-    let text = Scene::from_json("{\n  \"version\": 1,,\n}", "bath.json")
-        .expect_err("two commas")
-        .to_string();
+    let text = Scene::from_json("{\n  \"version\": 1,,\n}", "bath.json").expect_err("two commas").to_string();
     assert!(text.starts_with("bath.json:2:16: "), "{text}");
 }
 
@@ -27,32 +25,18 @@ fn unknown_keys_propose_the_nearest_key() {
     assert!(text.starts_with(start), "{text}");
     let text = message("version = 1\n[fluid]\nspaceing = 1\n[time]\ncurrant = 1\n");
     assert_eq!(text.lines().count(), 2, "all unknown keys at once: {text}");
-    assert!(
-        text.contains("did you mean `spacing`?") && text.contains("did you mean `courant`?"),
-        "{text}"
-    );
+    assert!(text.contains("did you mean `spacing`?") && text.contains("did you mean `courant`?"), "{text}");
     let text = message("version = 1\nzzz = 1\n");
-    assert!(
-        text.contains("unknown key `zzz`; keys here:"),
-        "nothing is similar: {text}"
-    );
-    let text = message(&format!(
-        "{SPONGE}shape = {{ kind = \"cylinder\", axis = \"y\", radius = 1 }}\n"
-    ));
+    assert!(text.contains("unknown key `zzz`; keys here:"), "nothing is similar: {text}");
+    let text = message(&format!("{SPONGE}shape = {{ kind = \"cylinder\", axis = \"y\", radius = 1 }}\n"));
     assert!(text.contains("unknown key `sponges[0].shape.radius`"), "{text}");
 }
 
 #[test]
 fn wrong_types_are_named_by_their_key() {
     for (line, expected) in [
-        (
-            "edge = \"wide\"",
-            "`sponges[0].edge` = \"wide\" is text; expected a number",
-        ),
-        (
-            "cells = [8, 8]",
-            "`sponges[0].cells` = [8, 8] is an array; expected an array of 3 numbers",
-        ),
+        ("edge = \"wide\"", "`sponges[0].edge` = \"wide\" is text; expected a number"),
+        ("cells = [8, 8]", "`sponges[0].cells` = [8, 8] is an array; expected an array of 3 numbers"),
         (
             "cells = [8, 8.5, 8]",
             "`sponges[0].cells[1]` = 8.5 is a number with decimals; expected a whole number from 2 to 1024",
@@ -61,28 +45,19 @@ fn wrong_types_are_named_by_their_key() {
             "cells = [8, -8, 8]",
             "`sponges[0].cells[1]` = -8 is a whole number; expected a whole number from 2 to 1024",
         ),
-        (
-            "position = 3",
-            "`sponges[0].position` = 3 is a whole number; expected an array of 3 numbers",
-        ),
+        ("position = 3", "`sponges[0].position` = 3 is a whole number; expected an array of 3 numbers"),
         (
             "shape = \"block\"",
             "`sponges[0].shape` = \"block\" is text; expected a table with a `kind` of block, ellipsoid, cylinder",
         ),
-        (
-            "edge = 1979-05-27",
-            "`sponges[0].edge` = 1979-05-27 is a date; expected a number",
-        ),
+        ("edge = 1979-05-27", "`sponges[0].edge` = 1979-05-27 is a date; expected a number"),
     ] {
         let text = message(&format!("{SPONGE}{line}\n"));
         assert!(text.starts_with("bath.toml:5:"), "{text}");
         assert!(text.ends_with(expected), "{text}\n{expected}");
     }
     let text = message("version = 1\nfluid = [1]\n");
-    assert!(
-        text.ends_with("`fluid` = [1] is an array; expected a table"),
-        "{text}"
-    );
+    assert!(text.ends_with("`fluid` = [1] is an array; expected a table"), "{text}");
 }
 
 #[test]
@@ -92,10 +67,7 @@ fn unknown_choices_propose_the_nearest_choice() {
         choices: block, ellipsoid, cylinder";
     assert!(text.ends_with(end), "{text}");
     let text = message("version = 1\n[fluid]\nequation_of_state = \"tate\"\n");
-    assert!(
-        text.ends_with("did you mean `tait`?; choices: tait, linear"),
-        "{text}"
-    );
+    assert!(text.ends_with("did you mean `tait`?; choices: tait, linear"), "{text}");
 }
 
 #[test]
@@ -111,24 +83,12 @@ fn missing_keys_are_named() {
 fn ranges_are_checked_in_files() {
     let text = message(&format!("{SPONGE}porosity = 1.5\n\n[time]\ncourant = nan\n"));
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(
-        lines[0],
-        "bath.toml:8:1: `time.courant` = NaN is out of range 0.01 to 1"
-    );
-    assert_eq!(
-        lines[1],
-        "bath.toml:5:1: `sponges[0].porosity` = 1.5 is out of range 0.05 to 0.99"
-    );
+    assert_eq!(lines[0], "bath.toml:8:1: `time.courant` = NaN is out of range 0.01 to 1");
+    assert_eq!(lines[1], "bath.toml:5:1: `sponges[0].porosity` = 1.5 is out of range 0.05 to 0.99");
     let text = message(&format!("{SPONGE}density = 1e300\n"));
-    assert!(
-        text.ends_with("`sponges[0].density` = inf is out of range 1 to 5000 kg/m^3"),
-        "{text}"
-    );
+    assert!(text.ends_with("`sponges[0].density` = inf is out of range 1 to 5000 kg/m^3"), "{text}");
     let text = message(&format!("{SPONGE}position = [0, -inf, 0]\n"));
-    assert!(
-        text.starts_with("bath.toml:5:16: `sponges[0].position[1]` = -inf"),
-        "{text}"
-    );
+    assert!(text.starts_with("bath.toml:5:16: `sponges[0].position[1]` = -inf"), "{text}");
 }
 
 #[test]
@@ -143,37 +103,21 @@ fn another_version_is_refused_before_its_keys_are_read() {
 fn json_has_the_same_errors() {
     let error = |text: &str| Scene::from_json(text, "bath.json").expect_err(text).to_string();
     let text = error(r#"{"version": 1, "sponges": [{"name": "block", "permeabilty": 1e-9}]}"#);
-    assert!(
-        text.starts_with("bath.json: unknown key `sponges[0].permeabilty`; did you mean"),
-        "{text}"
-    );
+    assert!(text.starts_with("bath.json: unknown key `sponges[0].permeabilty`; did you mean"), "{text}");
     let text = error(r#"{"version": 1, "fluid": {"spacing": 5}}"#);
     assert_eq!(text, "bath.json: `fluid.spacing` = 5 is out of range 1e-4 to 1 m");
     assert_eq!(error("null"), "bath.json: missing key `version`");
     let text = error("{\"version\": 1,\n \"time\": {\"courant\": 0.1, \"courant\": 0.2}}");
-    assert!(
-        text.starts_with("bath.json:2:") && text.contains("key `courant` is given twice"),
-        "{text}"
-    );
+    assert!(text.starts_with("bath.json:2:") && text.contains("key `courant` is given twice"), "{text}");
 }
 
 #[test]
 fn files_that_cannot_be_read_are_named() {
     let missing = Scene::from_path("no/such/scene.toml").expect_err("no such file");
     assert!(matches!(missing, SceneError::Read { .. }));
-    assert!(
-        missing
-            .to_string()
-            .starts_with("no/such/scene.toml: cannot read: "),
-        "{missing}"
-    );
+    assert!(missing.to_string().starts_with("no/such/scene.toml: cannot read: "), "{missing}");
     let extension = Scene::from_path("scene.yaml").expect_err("not a scene file");
-    assert!(
-        extension
-            .to_string()
-            .starts_with("scene.yaml: unknown kind of scene file"),
-        "{extension}"
-    );
+    assert!(extension.to_string().starts_with("scene.yaml: unknown kind of scene file"), "{extension}");
 
     let folder = std::env::temp_dir();
     let file = folder.join(format!("sorb-scene-{}.json", std::process::id()));
@@ -185,25 +129,13 @@ fn files_that_cannot_be_read_are_named() {
 
 #[test]
 fn no_text_makes_the_reader_panic() {
-    let whole = presets()
-        .iter()
-        .find(|preset| preset.name == "wring")
-        .expect("exists")
-        .text;
-    for end in (0..whole.len())
-        .step_by(7)
-        .filter(|end| whole.is_char_boundary(*end))
-    {
+    let whole = presets().iter().find(|preset| preset.name == "wring").expect("exists").text;
+    for end in (0..whole.len()).step_by(7).filter(|end| whole.is_char_boundary(*end)) {
         let _ = Scene::from_toml(&whole[..end], "cut.toml");
     }
-    for text in [
-        "",
-        "\u{feff}version = 1",
-        "version = 99999999999",
-        "[[sponges]]",
-        "sponges = [[]]",
-        "a.b.c = 1",
-    ] {
+    for text in
+        ["", "\u{feff}version = 1", "version = 99999999999", "[[sponges]]", "sponges = [[]]", "a.b.c = 1"]
+    {
         let _ = Scene::from_toml(text, "odd.toml");
     }
     let deep = format!("{}1{}", "[".repeat(10_000), "]".repeat(10_000));

@@ -21,10 +21,7 @@ fn full() -> Scene {
     Scene::new("full")
         .in_box(Vec3::new(-0.1, 0.0, -0.1), Vec3::new(0.1, 0.2, 0.1))
         .with_fluid(Fluid {
-            blocks: vec![FluidBlock::new(
-                Vec3::new(-0.1, 0.0, -0.1),
-                Vec3::new(0.1, 0.03, 0.1),
-            )],
+            blocks: vec![FluidBlock::new(Vec3::new(-0.1, 0.0, -0.1), Vec3::new(0.1, 0.03, 0.1))],
             ..Fluid::default()
         })
         .with_sponge(Sponge::new("sponge", Vec3::new(-0.04, 0.0, -0.04)))

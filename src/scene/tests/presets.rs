@@ -17,19 +17,10 @@ fn every_preset_is_valid_and_has_the_stated_size() {
     assert_eq!(presets().len(), SIZES.len());
     for (known, (name, particles, nodes)) in presets().iter().zip(SIZES) {
         let scene = preset(name).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(
-            (known.name, known.title),
-            (scene.name.as_str(), scene.title.as_str())
-        );
+        assert_eq!((known.name, known.title), (scene.name.as_str(), scene.title.as_str()));
         let estimate = scene.estimate();
-        assert!(
-            estimate.particles.abs_diff(particles) * 4 <= particles,
-            "{name}: {estimate:?}"
-        );
-        assert!(
-            estimate.nodes.abs_diff(nodes) * 4 <= nodes,
-            "{name}: {estimate:?}"
-        );
+        assert!(estimate.particles.abs_diff(particles) * 4 <= particles, "{name}: {estimate:?}");
+        assert!(estimate.nodes.abs_diff(nodes) * 4 <= nodes, "{name}: {estimate:?}");
     }
 }
 
@@ -39,23 +30,14 @@ fn every_preset_can_be_refined_and_coarsened() {
         let scene = preset(known.name).unwrap_or_else(|error| panic!("{error}"));
         let count = scene.estimate().particles as f64;
         // A bar of 5 cells cannot become thinner than 2, so only validity is asked of the coarsest.
-        for (resolution, slack) in [
-            (0.25, 1.0),
-            (0.5, 0.4),
-            (0.8, 0.2),
-            (1.5, 0.25),
-            (2.0, 0.15),
-            (4.0, 0.25),
-        ] {
+        for (resolution, slack) in
+            [(0.25, 1.0), (0.5, 0.4), (0.8, 0.2), (1.5, 0.25), (2.0, 0.15), (4.0, 0.25)]
+        {
             let scaled = scene.scaled(resolution).unwrap_or_else(|error| panic!("{error}"));
             let expected = count * f64::from(resolution).powi(3);
             let particles = scaled.estimate().particles as f64;
             let error = (particles - expected).abs();
-            assert!(
-                error <= slack * expected,
-                "{} x {resolution}: {particles}, not {expected}",
-                known.name
-            );
+            assert!(error <= slack * expected, "{} x {resolution}: {particles}, not {expected}", known.name);
         }
     }
 }
@@ -66,9 +48,7 @@ fn grips_hold_the_ends_of_the_bar_and_nothing_else() {
     let bar = &scene.sponges[0];
     for body in &scene.bodies {
         assert!(body.grip);
-        let ShapeKind::Cuboid { half_extents } = body.shape else {
-            panic!("grips are cuboids")
-        };
+        let ShapeKind::Cuboid { half_extents } = body.shape else { panic!("grips are cuboids") };
         let held = (0..=bar.cells.x)
             .map(|layer| bar.position.x + layer as f32 * bar.edge)
             .filter(|x| (x - body.position.x).abs() <= half_extents.x);

@@ -23,17 +23,9 @@ fn the_unbroken_scenes_are_valid() {
 
 #[test]
 fn every_number_is_checked_at_both_ends_and_for_nan() {
-    for (value, text) in [
-        (9e-15, "9e-15"),
-        (1.1e-5, "1.1e-5"),
-        (f32::NAN, "NaN"),
-        (f32::INFINITY, "inf"),
-    ] {
+    for (value, text) in [(9e-15, "9e-15"), (1.1e-5, "1.1e-5"), (f32::NAN, "NaN"), (f32::INFINITY, "inf")] {
         let message = broken(|scene| scene.sponges[0].permeability = value);
-        assert_eq!(
-            message,
-            format!("`sponges[0].permeability` = {text} is out of range 1e-14 to 1e-5 m^2")
-        );
+        assert_eq!(message, format!("`sponges[0].permeability` = {text} is out of range 1e-14 to 1e-5 m^2"));
     }
     for end in [1e-14, 1e-5] {
         let mut scene = full();
@@ -45,14 +37,10 @@ fn every_number_is_checked_at_both_ends_and_for_nan() {
     let message = broken(|scene| scene.sponges[0].cells = UVec3::new(8, 1, 8));
     assert_eq!(message, "`sponges[0].cells[1]` = 1 is out of range 2 to 1024");
     let message = broken(|scene| {
-        scene.bodies[0].shape = ShapeKind::Hull {
-            vertices: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.0, f32::NAN, 0.0), Vec3::Z],
-        };
+        scene.bodies[0].shape =
+            ShapeKind::Hull { vertices: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.0, f32::NAN, 0.0), Vec3::Z] };
     });
-    assert_eq!(
-        message,
-        "`bodies[0].shape.vertices[2][1]` = NaN is out of range -100 to 100 m"
-    );
+    assert_eq!(message, "`bodies[0].shape.vertices[2][1]` = NaN is out of range -100 to 100 m");
 }
 
 #[test]
@@ -65,24 +53,15 @@ fn all_range_problems_are_reported_together() {
     assert_eq!(keys, ["time.courant", "fluid.support", "bodies[0].friction"]);
     let text = scene.validate().expect_err("three problems").to_string();
     assert_eq!(text.lines().count(), 3);
-    assert!(
-        text.lines().all(|line| line.starts_with("scene full: ")),
-        "{text}"
-    );
+    assert!(text.lines().all(|line| line.starts_with("scene full: ")), "{text}");
 }
 
 #[test]
 fn corners_are_ordered_and_inside() {
     let message = broken(|scene| fluid(scene).blocks[0].minimum.z = 0.1);
-    assert!(
-        message.starts_with("`fluid.blocks[0].minimum` = [-0.1, 0, 0.1]: must be below"),
-        "{message}"
-    );
+    assert!(message.starts_with("`fluid.blocks[0].minimum` = [-0.1, 0, 0.1]: must be below"), "{message}");
     let message = broken(|scene| fluid(scene).blocks[0].maximum.x = 0.11);
-    assert!(
-        message.contains("must be inside the container [-0.1, 0, -0.1] to [0.1, 0.2, 0.1]"),
-        "{message}"
-    );
+    assert!(message.contains("must be inside the container [-0.1, 0, -0.1] to [0.1, 0.2, 0.1]"), "{message}");
     let message = broken(|scene| scene.sponges[0].position.x = 0.03);
     assert!(message.starts_with("`sponges[0]` = (from [0.03"), "{message}");
     let message = broken(|scene| scene.bodies[0].position.y = 0.3);
@@ -96,34 +75,22 @@ fn overlaps_are_refused_and_contact_is_not() {
     let block = FluidBlock::new(Vec3::new(-0.1, 0.02, -0.1), Vec3::new(0.1, 0.05, 0.1));
     let message = broken(|scene| fluid(scene).blocks.push(block));
     assert!(message.contains("overlaps `fluid.blocks[0]`"), "{message}");
-    let message = broken(|scene| {
-        scene
-            .sponges
-            .push(Sponge::new("other", Vec3::new(0.0, 0.07, 0.0)))
-    });
+    let message = broken(|scene| scene.sponges.push(Sponge::new("other", Vec3::new(0.0, 0.07, 0.0))));
     assert!(message.contains("overlaps `sponges[0]`"), "{message}");
     let mut scene = full();
     let above = FluidBlock::new(Vec3::new(-0.1, 0.03, -0.1), Vec3::new(0.1, 0.05, 0.1));
     fluid(&mut scene).blocks.push(above);
-    scene
-        .sponges
-        .push(Sponge::new("other", Vec3::new(0.0, 0.08, 0.0)));
+    scene.sponges.push(Sponge::new("other", Vec3::new(0.0, 0.08, 0.0)));
     assert_eq!(scene.problems(), []);
 }
 
 #[test]
 fn names_are_unique_and_usable_in_keys() {
     let message = broken(|scene| scene.bodies[0].name = "sponge".to_owned());
-    assert_eq!(
-        message,
-        "`bodies[0].name` = \"sponge\": already the name of `sponges[0].name`"
-    );
+    assert_eq!(message, "`bodies[0].name` = \"sponge\": already the name of `sponges[0].name`");
     for name in ["", "7up", "a.b", "a b", "schw\u{e4}mmchen"] {
         let message = broken(|scene| scene.sponges[0].name = name.to_owned());
-        assert!(
-            message.starts_with(&format!("`sponges[0].name` = {name:?}")),
-            "{message}"
-        );
+        assert!(message.starts_with(&format!("`sponges[0].name` = {name:?}")), "{message}");
     }
 }
 
@@ -133,31 +100,17 @@ fn bodies_of_the_wrong_kind_are_refused() {
     assert!(message.contains("a plane has no mass"), "{message}");
     let message = broken(|scene| scene.bodies[0].grip = true);
     assert!(message.starts_with("`bodies[0].grip` = true"), "{message}");
-    let motion = Motion::Linear {
-        velocity: Vec3::X,
-        start: 0.0,
-        end: 1.0,
-    };
+    let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
     let message = broken(|scene| scene.bodies[0].motions.push(motion));
-    assert!(
-        message.contains("only a body of `kind` kinematic follows motions"),
-        "{message}"
-    );
+    assert!(message.contains("only a body of `kind` kinematic follows motions"), "{message}");
     let message = broken(|scene| {
         scene.bodies[0].kind = BodyKind::Fixed;
         scene.bodies[0].linear_velocity = Vec3::X;
     });
-    assert!(
-        message.starts_with("`bodies[0].linear_velocity` = [1, 0, 0]"),
-        "{message}"
-    );
+    assert!(message.starts_with("`bodies[0].linear_velocity` = [1, 0, 0]"), "{message}");
     let message = broken(|scene| {
         scene.bodies[0].kind = BodyKind::Kinematic;
-        scene.bodies[0].motions.push(Motion::Linear {
-            velocity: Vec3::X,
-            start: 1.0,
-            end: 1.0,
-        });
+        scene.bodies[0].motions.push(Motion::Linear { velocity: Vec3::X, start: 1.0, end: 1.0 });
     });
     assert!(message.contains("must be before `end` = 1"), "{message}");
 }
@@ -165,9 +118,7 @@ fn bodies_of_the_wrong_kind_are_refused() {
 #[test]
 fn degenerate_geometry_is_refused() {
     let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, 0.0)].map(|p| 0.02 * p);
-    let hull = |vertices: &[Vec3]| ShapeKind::Hull {
-        vertices: vertices.to_vec(),
-    };
+    let hull = |vertices: &[Vec3]| ShapeKind::Hull { vertices: vertices.to_vec() };
     assert!(broken(|scene| scene.bodies[0].shape = hull(&corners)).contains("lie in one plane"));
     assert!(broken(|scene| scene.bodies[0].shape = hull(&corners[..3])).contains("at least 4 points"));
     let mut scene = full();
@@ -175,12 +126,8 @@ fn degenerate_geometry_is_refused() {
     assert_eq!(scene.problems(), []);
     assert!(broken(|scene| scene.bodies[0].rotation.axis = Vec3::ZERO).contains("must not be zero"));
     assert!(
-        broken(|s| s.camera = Some(Camera {
-            eye: Vec3::X,
-            target: Vec3::X,
-            ..Camera::default()
-        }))
-        .contains("must not be `camera.target`")
+        broken(|s| s.camera = Some(Camera { eye: Vec3::X, target: Vec3::X, ..Camera::default() }))
+            .contains("must not be `camera.target`")
     );
 }
 
@@ -192,25 +139,16 @@ fn surprising_combinations_are_refused() {
     });
     assert!(message.contains("a scene without `fluid`"), "{message}");
     let message = broken(|scene| fluid(scene).spacing = 0.02);
-    assert_eq!(
-        message,
-        "`sponges[0].edge` = 0.01: must be 1 to 8 times `fluid.spacing` = 0.02"
-    );
+    assert_eq!(message, "`sponges[0].edge` = 0.01: must be 1 to 8 times `fluid.spacing` = 0.02");
     let message = broken(|scene| scene.time.minimum_step = 0.01);
-    assert!(
-        message.starts_with("`time.minimum_step` = 0.01: must not be above"),
-        "{message}"
-    );
+    assert!(message.starts_with("`time.minimum_step` = 0.01: must not be above"), "{message}");
     assert_eq!(full().with_body(Body::default()).problems(), []);
 }
 
 #[test]
 fn a_scene_of_another_version_is_refused() {
     let message = broken(|scene| scene.version = 7);
-    assert!(
-        message.contains("`version` = 7 is an unknown version"),
-        "{message}"
-    );
+    assert!(message.contains("`version` = 7 is an unknown version"), "{message}");
 }
 
 #[test]
@@ -220,10 +158,7 @@ fn too_many_particles_or_nodes_are_refused_before_anything_is_allocated() {
         fluid(scene).spacing = 2e-4;
     });
     assert!(message.contains("particles; at most 50000000"), "{message}");
-    let mut scene = Scene::default().with_sponge(Sponge {
-        cells: UVec3::splat(200),
-        ..Sponge::default()
-    });
+    let mut scene = Scene::default().with_sponge(Sponge { cells: UVec3::splat(200), ..Sponge::default() });
     assert!(only(&scene).to_string().contains("nodes; at most 10000000"));
     scene.sponges[0].cells = UVec3::splat(100);
     assert_eq!(scene.problems(), []);
@@ -233,14 +168,7 @@ fn too_many_particles_or_nodes_are_refused_before_anything_is_allocated() {
 fn counts_of_a_block_are_exact() {
     let scene = Scene::default().with_sponge(Sponge::default());
     // 9^3 + 8^3 - 8 nodes; 4 tets around each of 3 * 7 * 64 inner faces.
-    assert_eq!(
-        scene.estimate(),
-        Estimate {
-            particles: 0,
-            nodes: 1233,
-            tets: 5376
-        }
-    );
+    assert_eq!(scene.estimate(), Estimate { particles: 0, nodes: 1233, tets: 5376 });
     let block = FluidBlock::new(Vec3::splat(-0.1), Vec3::new(0.1, 0.02, 0.004));
     assert_eq!(block.counts(0.005), [40, 24, 20]);
     assert_eq!(FluidBlock::new(Vec3::ONE, Vec3::ZERO).counts(0.005), [0, 0, 0]);
@@ -259,10 +187,7 @@ fn twice_the_resolution_has_eight_times_the_particles() {
     assert!((6.5..8.0).contains(&ratio), "{ratio}");
     assert_eq!(scene.scaled(1.0).expect("unchanged"), scene);
     // Cells stay cubes, so an odd number of them keeps the length along x only.
-    let bar = Scene::default().with_sponge(Sponge {
-        cells: UVec3::new(4, 9, 3),
-        ..Sponge::default()
-    });
+    let bar = Scene::default().with_sponge(Sponge { cells: UVec3::new(4, 9, 3), ..Sponge::default() });
     let coarse = bar.scaled(0.5).expect("open domain");
     assert_eq!(coarse.sponges[0].cells, UVec3::new(2, 5, 2));
     assert_eq!(coarse.sponges[0].edge, 0.02);
@@ -287,19 +212,12 @@ fn the_automatic_camera_sees_the_whole_scene() {
     let half_angle = 0.5 * camera.field_of_view_degrees.to_radians();
     for corner in 0..8u32 {
         let pick = |axis: usize| {
-            if corner >> axis & 1 == 0 {
-                minimum[axis]
-            } else {
-                maximum[axis]
-            }
+            if corner >> axis & 1 == 0 { minimum[axis] } else { maximum[axis] }
         };
         let ray = (Vec3::new(pick(0), pick(1), pick(2)) - camera.eye).normalize();
         assert!(ray.dot(forward).acos() < half_angle, "corner {corner}");
     }
-    let chosen = Camera {
-        eye: Vec3::ONE,
-        ..Camera::default()
-    };
+    let chosen = Camera { eye: Vec3::ONE, ..Camera::default() };
     assert_eq!(scene.with_camera(chosen).viewpoint(), chosen);
 }
 

@@ -29,10 +29,7 @@ fn innermost(mut node: &'static Value) -> &'static Value {
     node
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "every number of a scene is an f32"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "every number of a scene is an f32")]
 fn single(number: &Value) -> f32 {
     number.as_f64().expect("a number") as f32
 }
@@ -50,10 +47,7 @@ fn every_number_has_its_range_and_every_range_its_number() {
         let node = innermost(property);
         if is_number(node) && name != "version" {
             numbers += 1;
-            assert!(
-                node.get("minimum").is_some() && node.get("maximum").is_some(),
-                "{name}: {node}"
-            );
+            assert!(node.get("minimum").is_some() && node.get("maximum").is_some(), "{name}: {node}");
             let minimum = single(&node["minimum"]);
             let maximum = single(&node["maximum"]);
             let listed = |limit: &Limit| {
@@ -61,10 +55,7 @@ fn every_number_has_its_range_and_every_range_its_number() {
                     && (limit.minimum, limit.maximum) == (minimum, maximum)
                     && node["x-unit"] == limit.unit
             };
-            assert!(
-                limits().any(listed),
-                "{name} has a range that is not in the table"
-            );
+            assert!(limits().any(listed), "{name} has a range that is not in the table");
         }
     });
     // `radius`, `start` and `end` are each in two variants.
@@ -78,17 +69,9 @@ fn the_docs_state_the_range_of_the_table() {
         if is_number(node) && name != "version" {
             let ends = [&node["minimum"], &node["maximum"]].map(|end| number_text(single(end)));
             let unit = node["x-unit"].as_str().expect("a unit");
-            let range = format!(
-                "Range {}",
-                with_unit(&format!("{} to {}", ends[0], ends[1]), unit)
-            );
-            let description = property["description"]
-                .as_str()
-                .unwrap_or_default()
-                .replace('\n', " ");
-            let stated = ['.', ';']
-                .iter()
-                .any(|end| description.contains(&format!("{range}{end}")));
+            let range = format!("Range {}", with_unit(&format!("{} to {}", ends[0], ends[1]), unit));
+            let description = property["description"].as_str().unwrap_or_default().replace('\n', " ");
+            let stated = ['.', ';'].iter().any(|end| description.contains(&format!("{range}{end}")));
             assert!(stated, "{name}: `{range}` is not in `{description}`");
         }
     });
@@ -104,14 +87,8 @@ fn the_docs_state_the_default() {
         if default.is_number() && name != "version" {
             checked += 1;
             let stated = format!("default {}", number_text(single(default)));
-            let description = property["description"]
-                .as_str()
-                .unwrap_or_default()
-                .replace('\n', " ");
-            assert!(
-                description.contains(&stated),
-                "{name}: `{stated}` is not in `{description}`"
-            );
+            let description = property["description"].as_str().unwrap_or_default().replace('\n', " ");
+            assert!(description.contains(&stated), "{name}: `{stated}` is not in `{description}`");
         }
     });
     assert!(checked > 30, "{checked}");
@@ -126,8 +103,5 @@ fn the_published_schema_is_current() {
     let published: Value =
         serde_json::from_str(&fs::read_to_string(&file).expect("published")).expect("valid JSON");
     // As values: the order of keys is a build option of serde_json that any crate of a build may switch on.
-    assert_eq!(
-        published, *SCHEMA,
-        "run the tests with SORB_BLESS=1 and commit scenes/schema.json"
-    );
+    assert_eq!(published, *SCHEMA, "run the tests with SORB_BLESS=1 and commit scenes/schema.json");
 }

@@ -17,39 +17,15 @@ fn scenes() -> Vec<Scene> {
     }
     let hull = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
     let motions = vec![
-        Motion::Linear {
-            velocity: Vec3::new(0.1, 1.0 / 3.0, -1e-7),
-            start: 0.3,
-            end: 0.7,
-        },
-        Motion::Turn {
-            axis: Vec3::X,
-            pivot: Vec3::ZERO,
-            rate: -2.0,
-            start: 0.0,
-            end: 1.0,
-        },
+        Motion::Linear { velocity: Vec3::new(0.1, 1.0 / 3.0, -1e-7), start: 0.3, end: 0.7 },
+        Motion::Turn { axis: Vec3::X, pivot: Vec3::ZERO, rate: -2.0, start: 0.0, end: 1.0 },
     ];
-    let capsule = ShapeKind::Capsule {
-        half_height: 0.01,
-        radius: 0.003,
-    };
+    let capsule = ShapeKind::Capsule { half_height: 0.01, radius: 0.003 };
     let rich = rich
-        .with_body(Body::kinematic(
-            "hull",
-            ShapeKind::Hull { vertices: hull },
-            Vec3::ZERO,
-            motions,
-        ))
-        .with_body(Body {
-            rotation: Rotation::new(Vec3::ONE, 12.5),
-            ..Body::fixed("pin", capsule, Vec3::X)
-        })
+        .with_body(Body::kinematic("hull", ShapeKind::Hull { vertices: hull }, Vec3::ZERO, motions))
+        .with_body(Body { rotation: Rotation::new(Vec3::ONE, 12.5), ..Body::fixed("pin", capsule, Vec3::X) })
         .with_body(Body::fixed("floor", ShapeKind::Plane, Vec3::ZERO));
-    let mut all: Vec<Scene> = presets()
-        .iter()
-        .filter_map(|known| preset(known.name).ok())
-        .collect();
+    let mut all: Vec<Scene> = presets().iter().filter_map(|known| preset(known.name).ok()).collect();
     all.extend([rich, full(), Scene::default()]);
     all
 }
@@ -83,11 +59,8 @@ fn a_written_scene_shows_a_change() {
 fn absent_keys_have_their_defaults() {
     let scene = Scene::from_toml("version = 1\nname = \"scene\"\n", "short").expect("valid");
     assert_eq!(scene, Scene::default());
-    let scene = Scene::from_toml(
-        "version = 1\n[[sponges]]\nname = \"sponge\"\nedge = 0.01\n",
-        "short",
-    )
-    .expect("valid");
+    let scene = Scene::from_toml("version = 1\n[[sponges]]\nname = \"sponge\"\nedge = 0.01\n", "short")
+        .expect("valid");
     assert_eq!(scene.sponges, [Sponge::default()]);
     let json = r#"{"version": 1, "fluid": null, "camera": null, "title": null}"#;
     assert_eq!(Scene::from_json(json, "short").expect("valid"), Scene::default());
@@ -95,10 +68,7 @@ fn absent_keys_have_their_defaults() {
 
 #[test]
 fn whole_numbers_are_numbers() {
-    let scene = Scene::from_toml(
-        "version = 1\ngravity = [0, -10, 0]\n[time]\nduration = 3\n",
-        "whole",
-    )
-    .expect("valid");
+    let scene = Scene::from_toml("version = 1\ngravity = [0, -10, 0]\n[time]\nduration = 3\n", "whole")
+        .expect("valid");
     assert_eq!((scene.gravity.y, scene.time.duration), (-10.0, 3.0));
 }

@@ -11,15 +11,10 @@ fn fault(lattice: &Lattice, color: usize, cut: &[TetChunk], target: u32) -> Opti
             return Some("gap");
         }
         next = chunk.tets.end;
-        if lattice.tet_sponge[tets.clone()]
-            .iter()
-            .any(|&sponge| sponge != chunk.sponge)
-        {
+        if lattice.tet_sponge[tets.clone()].iter().any(|&sponge| sponge != chunk.sponge) {
             return Some("two sponges");
         }
-        let last_of_sponge = cut
-            .get(index + 1)
-            .is_none_or(|other| other.sponge != chunk.sponge);
+        let last_of_sponge = cut.get(index + 1).is_none_or(|other| other.sponge != chunk.sponge);
         if chunk.tets.end - chunk.tets.start < target && !last_of_sponge {
             return Some("too small");
         }
@@ -59,11 +54,7 @@ fn chunks_of_a_color_share_no_nodes() {
         for target in [0, 1, 7, 30, 1_000_000] {
             let cut = chunks(&built, target as usize);
             for (color, cut) in cut.iter().enumerate() {
-                assert_eq!(
-                    fault(&built, color, cut, target),
-                    None,
-                    "colour {color}, target {target}"
-                );
+                assert_eq!(fault(&built, color, cut, target), None, "colour {color}, target {target}");
             }
         }
     }
@@ -81,15 +72,9 @@ fn a_planted_fault_is_found() {
     };
     assert_eq!(plant(&|_| ()), None);
     assert_eq!(plant(&|cut| cut.truncate(cut.len() - 1)), Some("tets left over"));
-    assert_eq!(
-        plant(&|cut| cut.retain(|chunk| chunk.tets != good[1].tets)),
-        Some("gap")
-    );
+    assert_eq!(plant(&|cut| cut.retain(|chunk| chunk.tets != good[1].tets)), Some("gap"));
     assert_eq!(plant(&|cut| cut[1].nodes[2].end += 1), Some("wrong node range"));
-    assert_eq!(
-        plant(&|cut| cut[0].tets.end = built.color_start[4]),
-        Some("two sponges")
-    );
+    assert_eq!(plant(&|cut| cut[0].tets.end = built.color_start[4]), Some("two sponges"));
     assert_eq!(fault(&built, 3, &good, 100), Some("too small"));
     let mut mixed_up = built.clone();
     let tets = good[0].tets.end as usize - 1..good[0].tets.end as usize + 1;

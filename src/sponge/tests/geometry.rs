@@ -5,10 +5,7 @@ use crate::sponge::{CLASS_FRAME, CLASS_OFFSET, COLOR_COUNT};
 fn rest_error([p0, p1, p2, p3]: [DVec3; 4], edge: f64, class: usize) -> f64 {
     let gradient = [p1 - p0, p2 - p3, p2 + p3 - p0 - p1];
     let frame = CLASS_FRAME[class].map(|column| DVec3::from_array(column.map(f64::from)));
-    let off = gradient
-        .iter()
-        .zip(frame)
-        .map(|(column, axis)| (*column / edge - axis).abs().max_element());
+    let off = gradient.iter().zip(frame).map(|(column, axis)| (*column / edge - axis).abs().max_element());
     off.fold(0.0, f64::max)
 }
 
@@ -106,21 +103,13 @@ fn tets_tile_the_block() {
         assert_eq!(holders(&cube, &cube.tets, point), 1, "at {point}");
     }
 
-    let lost = cube
-        .tets
-        .iter()
-        .position(|tet| holders(&cube, &[*tet], points[0]) == 1)
-        .expect("found above");
+    let lost = cube.tets.iter().position(|tet| holders(&cube, &[*tet], points[0]) == 1).expect("found above");
     let mut holed = cube.tets.clone();
     holed.remove(lost);
     assert_eq!(holders(&cube, &holed, points[0]), 0, "the control has a hole");
     let mut doubled = cube.tets.clone();
     doubled.push(cube.tets[lost]);
-    assert_eq!(
-        holders(&cube, &doubled, points[0]),
-        2,
-        "the control has an overlap"
-    );
+    assert_eq!(holders(&cube, &doubled, points[0]), 2, "the control has an overlap");
 }
 
 #[test]
@@ -143,10 +132,7 @@ fn open_edges(triangles: &[[u32; 3]]) -> (usize, usize) {
     let count = |edge: [u32; 2]| {
         directed.partition_point(|&other| other <= edge) - directed.partition_point(|&other| other < edge)
     };
-    let open = directed
-        .iter()
-        .filter(|&&[a, b]| count([a, b]) != count([b, a]))
-        .count();
+    let open = directed.iter().filter(|&&[a, b]| count([a, b]) != count([b, a])).count();
     let most = directed.iter().map(|&[a, b]| count([a, b]) + count([b, a])).max();
     (open, most.unwrap_or(0))
 }
@@ -167,11 +153,7 @@ fn the_surface_is_closed_and_outward() {
     for built in cubes.iter().chain([&mixed()]) {
         for (index, summary) in (0..).zip(&built.sponges) {
             let range = summary.triangles.start as usize..summary.triangles.end as usize;
-            assert!(
-                built.triangle_sponge[range.clone()]
-                    .iter()
-                    .all(|&sponge| sponge == index)
-            );
+            assert!(built.triangle_sponge[range.clone()].iter().all(|&sponge| sponge == index));
             let triangles = &built.triangles[range];
             let (open, most) = open_edges(triangles);
             assert_eq!(open, 0, "sponge {index} has open edges");
@@ -179,18 +161,12 @@ fn the_surface_is_closed_and_outward() {
                 assert_eq!(most, 2, "a block has two triangles at each edge");
             }
             let volume = enclosed(built, triangles);
-            assert!(
-                (volume / summary.rest_volume - 1.0).abs() < 1e-5,
-                "sponge {index} encloses {volume}"
-            );
+            assert!((volume / summary.rest_volume - 1.0).abs() < 1e-5, "sponge {index} encloses {volume}");
 
             assert!(open_edges(&triangles[1..]).0 > 0, "the control has a hole");
             let mut turned = triangles.to_vec();
             turned[0].swap(1, 2);
-            assert!(
-                open_edges(&turned).0 > 0,
-                "the control has a triangle turned over"
-            );
+            assert!(open_edges(&turned).0 > 0, "the control has a triangle turned over");
         }
     }
 }
@@ -206,11 +182,8 @@ fn the_surface_holds_the_faces_used_once() {
     let mut faces: Vec<[u32; 3]> = built.tets.iter().flat_map(of_tet).collect();
     faces.sort_unstable();
     assert!(faces.chunk_by(|a, b| a == b).all(|same| same.len() <= 2));
-    let once: Vec<[u32; 3]> = faces
-        .chunk_by(|a, b| a == b)
-        .filter(|same| same.len() == 1)
-        .map(|same| same[0])
-        .collect();
+    let once: Vec<[u32; 3]> =
+        faces.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]).collect();
     let mut surface: Vec<[u32; 3]> = built.triangles.iter().copied().map(sorted).collect();
     surface.sort_unstable();
     assert_eq!(surface, once);

@@ -57,17 +57,10 @@ fn the_24_colors_share_no_nodes() {
     let inner = |tet: &[u32; 4]| tet.iter().all(|&node| cube.node_tet_count[node as usize] == 24);
     let [first, second] = [0, 1].map(|color| {
         let [start, end] = [color, color + 1].map(|color: usize| cube.color_start[color] as usize);
-        start
-            + cube.tets[start..end]
-                .iter()
-                .position(inner)
-                .expect("a cube of four cells has inner tets")
+        start + cube.tets[start..end].iter().position(inner).expect("a cube of four cells has inner tets")
     });
     swapped.swap(first, second);
-    assert!(
-        clash(&swapped, &cube.color_start, cube.node_count()).is_some(),
-        "the control must clash"
-    );
+    assert!(clash(&swapped, &cube.color_start, cube.node_count()).is_some(), "the control must clash");
 }
 
 #[test]
@@ -79,19 +72,11 @@ fn each_slot_has_one_vertex_color_and_rising_nodes() {
     let cube = cube(4);
     let mut slots = cube.tets.clone();
     slots[100].swap(0, 1);
-    assert_eq!(
-        disorder(&cube, &slots),
-        Some(100),
-        "the control has two slots exchanged"
-    );
+    assert_eq!(disorder(&cube, &slots), Some(100), "the control has two slots exchanged");
     let mut order = cube.tets.clone();
     let start = cube.color_start[5] as usize;
     order.swap(start, start + 1);
-    assert_eq!(
-        disorder(&cube, &order),
-        Some(start + 1),
-        "the control has two tets exchanged"
-    );
+    assert_eq!(disorder(&cube, &order), Some(start + 1), "the control has two tets exchanged");
 }
 
 #[test]
@@ -99,10 +84,7 @@ fn slots_follow_the_documented_rule() {
     for (color, slots) in SLOT_VERTEX_COLOR.iter().enumerate() {
         let parity = color % 2;
         assert_eq!(
-            slots[..2]
-                .iter()
-                .map(|&slot| usize::from(slot))
-                .collect::<Vec<_>>(),
+            slots[..2].iter().map(|&slot| usize::from(slot)).collect::<Vec<_>>(),
             [parity, 1 - parity]
         );
         assert_eq!(slots[2] + slots[3], 5, "one of each B colour");
@@ -144,10 +126,7 @@ fn vertex_colors_are_sublattice_and_parity() {
         assert!(odd == [0.0; 3] || odd == [1.0; 3], "node at {doubled}");
         let index_sum = ((doubled - odd[0]) / 2.0).element_sum();
         let wanted = 2.0 * odd[0] + index_sum.rem_euclid(2.0);
-        assert_eq!(
-            vertex_color(&cube, node),
-            [0.0, 1.0, 2.0, 3.0].iter().position(|&color| color == wanted)
-        );
+        assert_eq!(vertex_color(&cube, node), [0.0, 1.0, 2.0, 3.0].iter().position(|&color| color == wanted));
     }
 }
 

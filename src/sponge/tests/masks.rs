@@ -24,23 +24,16 @@ fn symmetric(lattice: &Lattice, cells: [u32; 3], axis: usize) -> bool {
 #[test]
 fn shapes_are_as_symmetric_as_the_lattice() {
     for n in [3, 5, 6, 10] {
-        for (axis, cells) in [[n; 3], [n, 4, 3]]
-            .into_iter()
-            .flat_map(|cells| (0..3).map(move |axis| (axis, cells)))
+        for (axis, cells) in
+            [[n; 3], [n, 4, 3]].into_iter().flat_map(|cells| (0..3).map(move |axis| (axis, cells)))
         {
             for keep in [&ellipsoid as &dyn Fn(Vec3) -> bool, &cylinder(Axis::Z), &block] {
-                assert!(
-                    symmetric(&lattice(&[sponge(cells, keep)]), cells, axis),
-                    "{cells:?} across {axis}"
-                );
+                assert!(symmetric(&lattice(&[sponge(cells, keep)]), cells, axis), "{cells:?} across {axis}");
             }
         }
     }
     let lopsided = |centroid: Vec3| centroid.x < 0.6;
-    assert!(
-        !symmetric(&lattice(&[sponge([5; 3], &lopsided)]), [5; 3], 0),
-        "the control is lopsided"
-    );
+    assert!(!symmetric(&lattice(&[sponge([5; 3], &lopsided)]), [5; 3], 0), "the control is lopsided");
 }
 
 #[test]
@@ -48,10 +41,7 @@ fn shapes_approach_their_volume() {
     let cells = [16, 12, 14];
     let share = |keep: &dyn Fn(Vec3) -> bool| {
         let built = lattice(&[sponge(cells, keep)]);
-        let box_volume = cells
-            .iter()
-            .map(|&n| f64::from(n) * f64::from(EDGE))
-            .product::<f64>();
+        let box_volume = cells.iter().map(|&n| f64::from(n) * f64::from(EDGE)).product::<f64>();
         built.sponges[0].rest_volume / box_volume
     };
     let sphere = std::f64::consts::PI / 6.0;
@@ -60,10 +50,7 @@ fn shapes_approach_their_volume() {
     for (axis, n) in [(Axis::X, 16.0), (Axis::Y, 12.0), (Axis::Z, 14.0)] {
         let wanted = std::f64::consts::PI / 4.0 * (1.0 - 1.0 / (3.0 * n));
         let found = share(&cylinder(axis));
-        assert!(
-            (found / wanted - 1.0).abs() < 0.02,
-            "{axis:?}: {found} and not {wanted}"
-        );
+        assert!((found / wanted - 1.0).abs() < 0.02, "{axis:?}: {found} and not {wanted}");
     }
 }
 
@@ -75,10 +62,7 @@ fn a_mask_is_asked_once_for_each_tet_in_the_unit_cube() {
         true
     };
     let cells = [4, 2, 8];
-    let built = lattice(&[LatticeSponge {
-        origin: Vec3::new(3.0, -1.0, 2.0),
-        ..sponge(cells, &keep)
-    }]);
+    let built = lattice(&[LatticeSponge { origin: Vec3::new(3.0, -1.0, 2.0), ..sponge(cells, &keep) }]);
     let asked = asked.into_inner();
     assert_eq!(asked.len(), built.tet_count());
     let inside = |centroid: &Vec3| centroid.min_element() > 0.0 && centroid.max_element() < 1.0;

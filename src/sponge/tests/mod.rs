@@ -15,12 +15,7 @@ use super::{Lattice, LatticeSponge, block};
 const EDGE: f32 = 0.0625;
 
 fn sponge<'a>(cells: [u32; 3], keep: &'a dyn Fn(Vec3) -> bool) -> LatticeSponge<'a> {
-    LatticeSponge {
-        edge: EDGE,
-        cells,
-        origin: Vec3::ZERO,
-        keep,
-    }
+    LatticeSponge { edge: EDGE, cells, origin: Vec3::ZERO, keep }
 }
 
 fn lattice(sponges: &[LatticeSponge<'_>]) -> Lattice {
@@ -40,12 +35,7 @@ fn mixed() -> Lattice {
             origin: Vec3::new(-0.3, 0.1, 0.7),
             keep: &super::ellipsoid,
         },
-        LatticeSponge {
-            edge: 0.02,
-            cells: [3, 5, 2],
-            origin: Vec3::new(0.5, 0.0, -0.2),
-            keep: &block,
-        },
+        LatticeSponge { edge: 0.02, cells: [3, 5, 2], origin: Vec3::new(0.5, 0.0, -0.2), keep: &block },
         LatticeSponge {
             edge: 0.013,
             cells: [7, 4, 6],
@@ -71,8 +61,6 @@ fn volume([p0, p1, p2, p3]: [DVec3; 4]) -> f64 {
 
 /// Numbers in [0, 1) from a linear congruential generator.
 fn random(seed: &mut u64) -> f64 {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     f64::from(u32::try_from(*seed >> 32).expect("half of the bits remain")) / 4_294_967_296.0
 }
