@@ -5,6 +5,7 @@ use glam::{DVec3, Mat3, Quat, Vec3};
 use crate::{
     columns::ColumnData,
     lanes::{self, Simd, f32x8, prelude::*, select},
+    vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };
 
 /// Geometry of a rigid body, in its own frame, centre of mass at the origin.
@@ -115,8 +116,7 @@ impl Body {
     #[must_use]
     pub fn distance(&self, point: Vec3) -> f32 {
         lanes::dispatch!(fearless_simd::Level::baseline(), simd => {
-            let point = point.to_array().map(|value| lanes::splat(simd, value));
-            Placed::new(simd, self).distance(point).0[0]
+            Placed::new(simd, self).distance(vector::splat(simd, point.to_array())).0[0]
         })
     }
 }
@@ -140,21 +140,6 @@ impl ColumnData for Bodies {
     }
 }
 
-/// A vector of eight points or directions.
-pub(crate) type Vec3x8<S> = [f32x8<S>; 3];
-
-/// Dot product, lane by lane.
-#[inline(always)]
-pub(crate) fn dot<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> f32x8<S> {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Cross product, lane by lane.
-#[inline(always)]
-pub(crate) fn cross<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> Vec3x8<S> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// A body placed in the world, ready to be asked for distances.
 pub(crate) struct Placed<'a, S: Simd> {
     simd: S,
@@ -169,7 +154,7 @@ pub(crate) struct Placed<'a, S: Simd> {
 impl<'a, S: Simd> Placed<'a, S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, body: &'a Body) -> Self {
-        let splat = |vector: Vec3| vector.to_array().map(|value| lanes::splat(simd, value));
+        let splat = |vector: Vec3| vector::splat(simd, vector.to_array());
         let matrix = Mat3::from_quat(body.state.rotation);
         Self {
             simd,
@@ -184,9 +169,7 @@ impl<'a, S: Simd> Placed<'a, S> {
     /// Velocity of the body's material at world points.
     #[inline(always)]
     pub(crate) fn velocity(&self, point: Vec3x8<S>) -> Vec3x8<S> {
-        let arm = [0, 1, 2].map(|axis| point[axis] - self.position[axis]);
-        let turn = cross(self.angular, arm);
-        [0, 1, 2].map(|axis| self.linear[axis] + turn[axis])
+        plus(self.linear, cross(self.angular, minus(point, self.position)))
     }
 
     /// Signed distance from the surface (negative inside) and outward normal, at world points.
@@ -194,12 +177,10 @@ impl<'a, S: Simd> Placed<'a, S> {
     /// Beside a hull's edge the distance is that to the nearest face plane, less than the true one.
     #[inline(always)]
     pub(crate) fn distance(&self, point: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
-        let arm = [0, 1, 2].map(|axis| point[axis] - self.position[axis]);
-        let local = [0, 1, 2].map(|axis| dot(self.axes[axis], arm));
-        let (distance, normal) = self.local_distance(local);
-        let world = [0, 1, 2].map(|axis| {
-            self.axes[0][axis] * normal[0] + self.axes[1][axis] * normal[1] + self.axes[2][axis] * normal[2]
-        });
+        let arm = minus(point, self.position);
+        let [x, y, z] = self.axes;
+        let (distance, normal) = self.local_distance([dot(x, arm), dot(y, arm), dot(z, arm)]);
+        let world = plus(plus(times(x, normal[0]), times(y, normal[1])), times(z, normal[2]));
         (distance, world)
     }
 
@@ -221,11 +202,11 @@ impl<'a, S: Simd> Placed<'a, S> {
                 let mut nearest = lanes::splat(simd, f32::MIN);
                 let mut normal = [zero, one, zero];
                 for (plane, offset) in planes {
-                    let direction = plane.to_array().map(|value| lanes::splat(simd, value));
+                    let direction = vector::splat(simd, plane.to_array());
                     let distance = dot(local, direction) - *offset;
                     let closer = distance.simd_gt(nearest);
                     nearest = select(closer, distance, nearest);
-                    normal = [0, 1, 2].map(|axis| select(closer, direction[axis], normal[axis]));
+                    normal = choose(closer, direction, normal);
                 }
                 (nearest, normal)
             }
@@ -239,19 +220,23 @@ impl<'a, S: Simd> Placed<'a, S> {
         let length = dot(local, local).sqrt();
         let off_centre = length.simd_gt(lanes::splat(self.simd, 1.0e-12));
         let scale = one / select(off_centre, length, one);
-        let up = [zero, one, zero];
-        let normal = [0, 1, 2].map(|axis| select(off_centre, local[axis] * scale, up[axis]));
-        (length - radius, normal)
+        (length - radius, choose(off_centre, times(local, scale), [zero, one, zero]))
     }
 
     #[inline(always)]
     fn cuboid(&self, local: Vec3x8<S>, half_extents: Vec3) -> (f32x8<S>, Vec3x8<S>) {
         let simd = self.simd;
         let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        let half = half_extents.to_array();
-        let sign = local.map(|value| select(value.simd_lt(zero), -one, one));
-        let beyond = [0, 1, 2].map(|axis| local[axis] * sign[axis] - half[axis]);
-        let outside = beyond.map(|value| lanes::positive(simd, value));
+        let half = vector::splat(simd, half_extents.to_array());
+        let sign_of = |value: f32x8<S>| select(value.simd_lt(zero), -one, one);
+        let sign = [sign_of(local[0]), sign_of(local[1]), sign_of(local[2])];
+        let beyond =
+            [local[0] * sign[0] - half[0], local[1] * sign[1] - half[1], local[2] * sign[2] - half[2]];
+        let outside = [
+            lanes::positive(simd, beyond[0]),
+            lanes::positive(simd, beyond[1]),
+            lanes::positive(simd, beyond[2]),
+        ];
         let length = dot(outside, outside).sqrt();
         let is_outside = length.simd_gt(zero);
         let scale = one / select(is_outside, length, one);
@@ -259,9 +244,10 @@ impl<'a, S: Simd> Placed<'a, S> {
         let x_first = beyond[0].simd_ge(beyond[1]) & beyond[0].simd_ge(beyond[2]);
         let y_first = !x_first & beyond[1].simd_ge(beyond[2]);
         let z_first = !x_first & !y_first;
-        let face = [x_first, y_first, z_first].map(|mask| select(mask, one, zero));
+        let face = [select(x_first, one, zero), select(y_first, one, zero), select(z_first, one, zero)];
         let depth = select(x_first, beyond[0], select(y_first, beyond[1], beyond[2]));
-        let normal = [0, 1, 2].map(|axis| sign[axis] * select(is_outside, outside[axis] * scale, face[axis]));
+        let unsigned = choose(is_outside, times(outside, scale), face);
+        let normal = [sign[0] * unsigned[0], sign[1] * unsigned[1], sign[2] * unsigned[2]];
         (select(is_outside, length, depth), normal)
     }
 }
@@ -289,7 +275,7 @@ mod tests {
             let Some(token) = level.token() else { continue };
             results.push(dispatch!(token, simd => {
                 let (distance, normal) =
-                    Placed::new(simd, &body).distance(point.map(|value| lanes::splat(simd, value)));
+                    Placed::new(simd, &body).distance(vector::splat(simd, point));
                 let lane = LANES - 1;
                 (distance[lane], Vec3::new(normal[0][lane], normal[1][lane], normal[2][lane]))
             }));

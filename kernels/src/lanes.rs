@@ -7,7 +7,7 @@
 use std::fmt;
 
 use fearless_simd::{Level, f32x4};
-pub(crate) use fearless_simd::{Simd, dispatch, f32x8, prelude, u32x8};
+pub(crate) use fearless_simd::{Simd, dispatch, f32x8, mask32x8, prelude, u32x8};
 use prelude::*;
 
 /// Number of lanes of a vector.
@@ -128,11 +128,7 @@ pub(crate) fn positive<S: Simd>(simd: S, lanes: f32x8<S>) -> f32x8<S> {
 
 /// Lanes where `condition` holds from `yes`, else from `no`.
 #[inline(always)]
-pub(crate) fn select<S: Simd>(
-    condition: fearless_simd::mask32x8<S>,
-    yes: f32x8<S>,
-    no: f32x8<S>,
-) -> f32x8<S> {
+pub(crate) fn select<S: Simd>(condition: mask32x8<S>, yes: f32x8<S>, no: f32x8<S>) -> f32x8<S> {
     condition.select(yes, no)
 }
 
@@ -163,9 +159,14 @@ pub(crate) fn load_rows<S: Simd>(simd: S, rows: &[[f32; 4]], start: usize) -> [f
 /// Stores vectors of x, y, z and w to rows `start..start + 8`.
 #[inline(always)]
 pub(crate) fn store_rows<S: Simd>(rows: &mut [[f32; 4]], start: usize, vectors: [f32x8<S>; 4]) {
-    let halves = vectors.map(|vector| vector.split());
-    let low = transpose_four(halves.map(|(low, _)| low));
-    let high = transpose_four(halves.map(|(_, high)| high));
+    let ([x, y, z, w], [x_high, y_high, z_high, w_high]) = {
+        let [x, y, z, w] = vectors;
+        let ((x, x_high), (y, y_high), (z, z_high), (w, w_high)) =
+            (x.split(), y.split(), z.split(), w.split());
+        ([x, y, z, w], [x_high, y_high, z_high, w_high])
+    };
+    let low = transpose_four([x, y, z, w]);
+    let high = transpose_four([x_high, y_high, z_high, w_high]);
     let rows = &mut rows[start..start + LANES];
     for lane in 0..4 {
         low[lane].store_slice(&mut rows[lane]);

@@ -18,5 +18,6 @@ pub mod smoothing;
 pub mod sph;
 #[cfg(test)]
 mod testing;
+mod vector;
 
 pub use lanes::{LANES, SimdLevel};

@@ -14,6 +14,7 @@ use crate::{
     kernel::{Kernel, Need},
     lanes::{self, LANES, prelude::*, select, with_lanes},
     params::Params,
+    vector::{minus, times},
 };
 
 /// `couple::drag`.
@@ -65,10 +66,10 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let chi = lanes::load(simd, interior, first + row);
                 let inside = chi.simd_gt(lanes::splat(simd, OUTSIDE));
                 let inverse = one / select(inside, chi, one);
-                let sponge = sum.map(|value| value * kernel.value_scale() * inverse);
+                let sponge = times(sum, kernel.value_scale() * inverse);
                 let rate = lanes::load(simd, drag_rate, first + row) * step;
                 let strength = select(inside, rate / (one + rate) * mass * inverse, zero);
-                let lost = [vx - sponge[0], vy - sponge[1], vz - sponge[2]].map(|value| value * strength);
+                let lost = times(minus([vx, vy, vz], sponge), strength);
                 lanes::store_rows(drag, row, [lost[0], lost[1], lost[2], strength]);
             }
         });

@@ -15,6 +15,7 @@ use crate::{
     lanes::{self, LANES, Simd, f32x8, with_lanes},
     params::Params,
     smoothing::WendlandLanes,
+    vector::{minus, plus, times},
 };
 
 /// `couple::velocity_filter`.
@@ -40,7 +41,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let (u, old) = ([ux, uy, uz], [ox, oy, oz]);
                 let received = received(simd, kernel, (position, first + row), (&fluid.position, &fluid.drag), lists, row);
                 let inverse = one / (one + w * received[3]);
-                let new = [0, 1, 2].map(|axis| u[axis] + (old[axis] - u[axis] + w * received[axis]) * inverse);
+                let [jx, jy, jz, _] = received;
+ let lacking = plus(minus(old, u), times([jx, jy, jz], w));
+                let new = plus(u, times(lacking, inverse));
                 lanes::store_rows(velocity, row, [new[0], new[1], new[2], w]);
             }
         });
@@ -64,7 +67,13 @@ pub(super) fn received<S: Simd>(
         let drag = lanes::gather_rows(simd, drag, entry);
         let (dx, dy, dz) = (x - xi, y - yi, z - zi);
         let weight = kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
-        sum = [0, 1, 2, 3].map(|column| sum[column] + weight * drag[column]);
+        sum = [
+            sum[0] + weight * drag[0],
+            sum[1] + weight * drag[1],
+            sum[2] + weight * drag[2],
+            sum[3] + weight * drag[3],
+        ];
     }
-    sum.map(|value| value * kernel.value_scale() * volume)
+    let scale = kernel.value_scale() * volume;
+    [sum[0] * scale, sum[1] * scale, sum[2] * scale, sum[3] * scale]
 }

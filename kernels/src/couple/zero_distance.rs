@@ -15,6 +15,7 @@ use crate::{
     kernel::{Kernel, Need},
     lanes::{self, LANES, with_lanes},
     params::Params,
+    vector::times,
 };
 
 /// `couple::zero_distance`.
@@ -56,7 +57,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     sum = [sum[0] + spring * dx, sum[1] + spring * dy, sum[2] + spring * dz];
                 }
                 let scale = lanes::load(simd, &controls.suction, first + row) * kernel.gradient_scale() * volume;
-                let sum = sum.map(|value| value * scale);
+                let sum = times(sum, scale);
                 lanes::store_rows(force, row, [sum[0], sum[1], sum[2], zero]);
             }
         });

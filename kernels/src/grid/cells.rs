@@ -69,13 +69,13 @@ impl Cells {
         }
     }
 
-    /// Calls `visit` with every run of sorted rows that may lie in the box; runs do not overlap, and their order
-    /// is a function of the box and the points alone.
-    #[inline(always)]
-    pub(crate) fn spans(&self, low: [f32; 3], high: [f32; 3], visit: impl FnMut(usize, usize)) {
+    /// Replaces `spans` by the runs of sorted rows that may lie in the box; runs do not overlap, and their order is
+    /// a function of the box and the points alone.
+    pub(crate) fn spans(&self, low: [f32; 3], high: [f32; 3], spans: &mut Vec<[u32; 2]>) {
+        spans.clear();
         match self.scheme {
-            Scheme::Dense => self.dense.spans(low, high, visit),
-            Scheme::Hashed => self.hashed.spans(low, high, visit),
+            Scheme::Dense => self.dense.spans(low, high, spans),
+            Scheme::Hashed => self.hashed.spans(low, high, spans),
         }
     }
 }
@@ -272,8 +272,7 @@ impl Dense {
         }
     }
 
-    #[inline(always)]
-    fn spans(&self, low: [f32; 3], high: [f32; 3], mut visit: impl FnMut(usize, usize)) {
+    fn spans(&self, low: [f32; 3], high: [f32; 3], spans: &mut Vec<[u32; 2]>) {
         let from = [0, 1, 2].map(|axis| self.coordinate(axis, low[axis]));
         let to = [0, 1, 2].map(|axis| self.coordinate(axis, high[axis]));
         for z in from[2]..=to[2] {
@@ -285,7 +284,7 @@ impl Dense {
                 let starts = &self.bin_start[row * (self.size[0] + 1)..][..=self.size[0]];
                 let (begin, end) = (starts[from[0]], starts[to[0] + 1]);
                 if begin < end {
-                    visit(begin as usize, end as usize);
+                    spans.push([begin, end]);
                 }
             }
         }
@@ -370,8 +369,7 @@ impl Hashed {
         }
     }
 
-    #[inline(always)]
-    fn spans(&self, low: [f32; 3], high: [f32; 3], mut visit: impl FnMut(usize, usize)) {
+    fn spans(&self, low: [f32; 3], high: [f32; 3], spans: &mut Vec<[u32; 2]>) {
         if self.table.is_empty() {
             return;
         }
@@ -385,8 +383,7 @@ impl Hashed {
                     for row in first..last {
                         // Different cells may share a hash: a run of a few cells, told apart by their keys.
                         if self.cell_keys[row as usize] == key {
-                            let [begin, end] = self.cells[row as usize];
-                            visit(begin as usize, end as usize);
+                            spans.push(self.cells[row as usize]);
                         }
                     }
                 }
@@ -424,8 +421,11 @@ mod tests {
     use crate::{lanes::SimdLevel, testing::random_points};
 
     fn rows_in_box(cells: &Cells, points: &[[f32; 4]], low: [f32; 3], high: [f32; 3]) -> Vec<u32> {
-        let mut found = Vec::new();
-        cells.spans(low, high, |begin, end| found.extend_from_slice(&cells.order[begin..end]));
+        let (mut found, mut spans) = (Vec::new(), Vec::new());
+        cells.spans(low, high, &mut spans);
+        for [begin, end] in spans {
+            found.extend_from_slice(&cells.order[begin as usize..end as usize]);
+        }
         found.sort_unstable();
         let all = found.len();
         found.dedup();

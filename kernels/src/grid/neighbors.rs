@@ -8,7 +8,8 @@ use super::cells::Cells;
 use crate::{
     columns::{ColumnData, FAR},
     cpu::{CHUNK, Cpu, PerChunk},
-    lanes::{self, LANES, Simd, f32x8, prelude::*, u32x8, with_lanes},
+    lanes::{self, LANES, Simd, prelude::*, u32x8, with_lanes},
+    vector,
 };
 
 const GROUPS: usize = CHUNK / LANES;
@@ -110,6 +111,7 @@ struct Candidates {
     z: Vec<f32>,
     row: Vec<u32>,
     count: usize,
+    spans: Vec<[u32; 2]>,
     lists: [Vec<u32>; LANES],
     lengths: [usize; LANES],
 }
@@ -174,37 +176,38 @@ impl Task<'_> {
     fn collect<S: Simd>(&self, simd: S, low: [f32; 3], high: [f32; 3], candidates: &mut Candidates) {
         let radius = self.radius;
         let splat = |value| lanes::splat(simd, value);
-        let (lows, highs) = (low.map(splat), high.map(splat));
-        let square = splat(radius * radius);
+        let (lows, highs) = (vector::splat(simd, low), vector::splat(simd, high));
+        let (zero, square) = (splat(0.0), splat(radius * radius));
         let lane_index = u32x8::from_fn(simd, |lane| lane as u32);
+        let last = self.targets.len() - LANES;
         candidates.count = 0;
-        self.cells.spans(low.map(|x| x - radius), high.map(|x| x + radius), |begin, end| {
-            let mut row = begin;
-            while row < end {
-                let [x, y, z, _] = lanes::load_rows(simd, self.targets, row.min(self.targets.len() - LANES));
+        self.cells.spans(low.map(|x| x - radius), high.map(|x| x + radius), &mut candidates.spans);
+        for span in 0..candidates.spans.len() {
+            let [begin, end] = candidates.spans[span];
+            for row in (begin..end).step_by(LANES) {
                 // Near the end of the array the last eight rows are loaded; those before `row` were seen already.
-                let loaded = row.min(self.targets.len() - LANES);
+                let loaded = (row as usize).min(last);
+                let [x, y, z, _] = lanes::load_rows(simd, self.targets, loaded);
                 let rows = lane_index + loaded as u32;
-                let outside = |axis: usize, value: f32x8<S>| {
-                    (lows[axis] - value).max(value - highs[axis]).max(splat(0.0))
-                };
-                let (dx, dy, dz) = (outside(0, x), outside(1, y), outside(2, z));
+                let dx = (lows[0] - x).max(x - highs[0]).max(zero);
+                let dy = (lows[1] - y).max(y - highs[1]).max(zero);
+                let dz = (lows[2] - z).max(z - highs[2]).max(zero);
                 let near = (dx * dx + dy * dy + dz * dz).simd_lt(square)
-                    & rows.simd_ge(u32x8::splat(simd, row as u32))
-                    & rows.simd_lt(u32x8::splat(simd, end as u32));
+                    & rows.simd_ge(u32x8::splat(simd, row))
+                    & rows.simd_lt(u32x8::splat(simd, end));
                 let hits = near.to_bitmask().count_ones() as usize;
-                if hits > 0 {
-                    candidates.reserve();
-                    let at = candidates.count..candidates.count + LANES;
-                    simd.compress_f32x8(x, near).store_slice(&mut candidates.x[at.clone()]);
-                    simd.compress_f32x8(y, near).store_slice(&mut candidates.y[at.clone()]);
-                    simd.compress_f32x8(z, near).store_slice(&mut candidates.z[at.clone()]);
-                    simd.compress_u32x8(rows, near).store_slice(&mut candidates.row[at]);
-                    candidates.count += hits;
+                if hits == 0 {
+                    continue;
                 }
-                row = loaded + LANES;
+                candidates.reserve();
+                let at = candidates.count..candidates.count + LANES;
+                simd.compress_f32x8(x, near).store_slice(&mut candidates.x[at.clone()]);
+                simd.compress_f32x8(y, near).store_slice(&mut candidates.y[at.clone()]);
+                simd.compress_f32x8(z, near).store_slice(&mut candidates.z[at.clone()]);
+                simd.compress_u32x8(rows, near).store_slice(&mut candidates.row[at]);
+                candidates.count += hits;
             }
-        });
+        }
         candidates.reserve();
         candidates.x[candidates.count..candidates.count + LANES].fill(FAR);
     }
@@ -219,9 +222,10 @@ impl Task<'_> {
         candidates: &mut Candidates,
     ) {
         let square = lanes::splat(simd, self.radius * self.radius);
-        let Candidates { x, y, z, row, count, lists, lengths } = candidates;
+        let Candidates { x, y, z, row, count, lists, lengths, .. } = candidates;
         for lane in range {
-            let query = [0, 1, 2].map(|axis| lanes::splat(simd, queries[lane][axis]));
+            let [x_own, y_own, z_own, _] = queries[lane];
+            let query = vector::splat(simd, [x_own, y_own, z_own]);
             let list = &mut lists[lane];
             if list.len() < *count + LANES {
                 list.resize(*count + LANES, 0);

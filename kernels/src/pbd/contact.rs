@@ -7,12 +7,13 @@
 use glam::{DVec3, Vec3};
 
 use crate::{
-    body::{Body, Placed, Vec3x8, Wrench, dot},
+    body::{Body, Placed, Wrench},
     columns::{Column::*, Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
+    vector::{Vec3x8, dot, minus, plus, times},
 };
 
 /// `pbd::contact`.
@@ -58,13 +59,13 @@ impl Task<'_> {
             let (mut point, old) = ([x, y, z], [ox, oy, oz]);
             for (index, placed) in &placed {
                 let body = &self.bodies[*index];
-                let drift = placed.velocity(point).map(|value| value * self.params.step);
+                let drift = times(placed.velocity(point), lanes::splat(simd, self.params.step));
                 // The body stands where it began the step: so is the node, in the body's frame.
-                let (distance, normal) = placed.distance([0, 1, 2].map(|axis| point[axis] - drift[axis]));
+                let (distance, normal) = placed.distance(minus(point, drift));
                 let depth = lanes::positive(simd, -distance) * touchable(simd, w);
-                let slide = [0, 1, 2].map(|axis| point[axis] - old[axis] - drift[axis]);
+                let slide = minus(minus(point, old), drift);
                 let change = contact(simd, depth, normal, slide, lanes::splat(simd, body.friction));
-                point = [0, 1, 2].map(|axis| point[axis] + change[axis]);
+                point = plus(point, change);
                 self.react(depth.to_array(), change, w, point, body.state.position, &mut wrenches[*index]);
             }
             self.walls(simd, first + row, w, old, &mut point);
@@ -90,9 +91,9 @@ impl Task<'_> {
                 let depth = lanes::positive(simd, -distance) * touchable(simd, w);
                 let mut normal = [zero; 3];
                 normal[axis] = lanes::splat(simd, sign);
-                let slide = [0, 1, 2].map(|axis| point[axis] - old[axis]);
+                let slide = minus(*point, old);
                 let change = contact(simd, depth, normal, slide, friction);
-                *point = [0, 1, 2].map(|axis| point[axis] + change[axis]);
+                *point = plus(*point, change);
             }
         }
     }
@@ -136,7 +137,7 @@ fn contact<S: Simd>(
 ) -> Vec3x8<S> {
     let one = lanes::splat(simd, 1.0);
     let along = dot(slide, normal);
-    let tangent = [0, 1, 2].map(|axis| slide[axis] - along * normal[axis]);
+    let tangent = minus(slide, times(normal, along));
     let length = dot(tangent, tangent).sqrt();
     let reach = depth * friction;
     let slips = length.simd_gt(reach);
@@ -144,5 +145,5 @@ fn contact<S: Simd>(
     let undone = select(slips, reach / select(slips, length, one), one);
     let touches = depth.simd_gt(lanes::splat(simd, 0.0));
     let undone = select(touches, undone, lanes::splat(simd, 0.0));
-    [0, 1, 2].map(|axis| depth * normal[axis] - undone * tangent[axis])
+    minus(times(normal, depth), times(tangent, undone))
 }

@@ -19,13 +19,13 @@
 //! between 0 and 1 (compliance of [MMC16]), so that the sponge does not stiffen when the step shrinks.
 
 use crate::{
-    body::{Vec3x8, cross, dot},
     columns::{Column::*, Columns, Nodes},
     cpu::Cpu,
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::{Params, SpongeParams},
     pbd::lattice::{COLORS, TetChunk},
+    vector::{Vec3x8, cross, dot, minus, negative, plus, times},
 };
 
 /// `pbd::strain`: one sweep over all colours.
@@ -102,6 +102,21 @@ impl Task<'_> {
         );
     }
 
+    /// Predicted positions and inverse masses of one slot of eight tets.
+    #[inline(always)]
+    fn gather<S: Simd>(
+        &self,
+        simd: S,
+        nodes: &NodeSlices<'_>,
+        rows: &[[u32; LANES]; 4],
+        slot: usize,
+    ) -> (Vec3x8<S>, f32x8<S>) {
+        let color = self.slots[slot];
+        let first = nodes.first[color] as u32;
+        let [x, y, z, w] = lanes::gather_rows(simd, nodes.nodes[color], &rows[slot].map(|row| row - first));
+        ([x, y, z], w)
+    }
+
     #[inline(always)]
     fn chunk<S: Simd>(&self, simd: S, sponge: &SpongeParams, chunk: &TetChunk, nodes: &mut NodeSlices<'_>) {
         let solver = Solver::new(simd, sponge, self.params.step);
@@ -111,17 +126,16 @@ impl Task<'_> {
             let tet = |lane: usize| &tets[lane.min(tets.len() - 1)];
             let row = |slot: usize| std::array::from_fn(|lane| tet(lane)[slot]);
             let rows: [[u32; LANES]; 4] = [row(0), row(1), row(2), row(3)];
-            let gather = |slot: usize| {
-                let color = self.slots[slot];
-                let first = nodes.first[color] as u32;
-                lanes::gather_rows(simd, nodes.nodes[color], &rows[slot].map(|row| row - first))
-            };
-            let p = [gather(0), gather(1), gather(2), gather(3)];
-            let old = [0, 1, 2, 3].map(|slot| {
+            let (p0, w0) = self.gather(simd, nodes, &rows, 0);
+            let (p1, w1) = self.gather(simd, nodes, &rows, 1);
+            let (p2, w2) = self.gather(simd, nodes, &rows, 2);
+            let (p3, w3) = self.gather(simd, nodes, &rows, 3);
+            let old = |slot: usize| {
                 let [x, y, z, _] = lanes::gather_rows(simd, self.position, &rows[slot]);
                 [x, y, z]
-            });
-            let mut state = TetLanes { p: p.map(|[x, y, z, _]| [x, y, z]), old, w: p.map(|[_, _, _, w]| w) };
+            };
+            let mut state =
+                TetLanes { p: [p0, p1, p2, p3], old: [old(0), old(1), old(2), old(3)], w: [w0, w1, w2, w3] };
             solver.solve(&mut state);
             for slot in 0..4 {
                 let [x, y, z] = state.p[slot];
@@ -184,7 +198,7 @@ impl<S: Simd> Solver<S> {
             let length = dot(f, f).sqrt();
             let is_long = length.simd_gt(lanes::splat(self.simd, 1.0e-6));
             let inverse = one / select(is_long, length, one);
-            let n = f.map(|value| value * inverse);
+            let n = times(f, inverse);
             let gradient = match column {
                 0 => [negative(n), n, zero, zero],
                 1 => [zero, zero, n, negative(n)],
@@ -207,8 +221,11 @@ impl<S: Simd> Solver<S> {
     #[inline(always)]
     fn columns(&self, tet: &TetLanes<S>) -> [Vec3x8<S>; 3] {
         let [p0, p1, p2, p3] = tet.p;
-        let scale = |v: Vec3x8<S>| v.map(|value| value * self.inverse_edge);
-        [scale(minus(p1, p0)), scale(minus(p2, p3)), scale(minus(plus(p2, p3), plus(p0, p1)))]
+        [
+            times(minus(p1, p0), self.inverse_edge),
+            times(minus(p2, p3), self.inverse_edge),
+            times(minus(plus(p2, p3), plus(p0, p1)), self.inverse_edge),
+        ]
     }
 
     /// Gradients of `f_k . f_l`, times the edge.
@@ -243,23 +260,7 @@ impl<S: Simd> Solver<S> {
         let denominator = (one + self.damping) * (weight * (scale * scale)) + compliance;
         let impulse = -(numerator / denominator) * scale;
         for vertex in 0..4 {
-            let step = impulse * tet.w[vertex];
-            (0..3).for_each(|axis| tet.p[vertex][axis] += step * gradient[vertex][axis]);
+            tet.p[vertex] = plus(tet.p[vertex], times(gradient[vertex], impulse * tet.w[vertex]));
         }
     }
-}
-
-#[inline(always)]
-fn plus<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> Vec3x8<S> {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn minus<S: Simd>(a: Vec3x8<S>, b: Vec3x8<S>) -> Vec3x8<S> {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn negative<S: Simd>(a: Vec3x8<S>) -> Vec3x8<S> {
-    [-a[0], -a[1], -a[2]]
 }

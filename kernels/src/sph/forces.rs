@@ -14,6 +14,7 @@ use crate::{
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, with_lanes},
     params::Params,
+    vector::{self, plus, times},
 };
 
 /// `sph::forces`.
@@ -48,7 +49,7 @@ fn chunk<S: Simd>(
     let pressure_scale = kernel.gradient_scale() * fluid.particle_mass;
     // mu / rho_i = mu V_i / m.
     let viscosity_scale = kernel.viscosity_scale() * (fluid.viscosity / fluid.particle_mass);
-    let gravity = params.gravity.to_array();
+    let gravity = vector::splat(simd, params.gravity.to_array());
     for row in (0..acceleration.len()).step_by(LANES) {
         let [x, y, z, p] = lanes::load_rows(simd, position, first + row);
         let [vx, vy, vz, volume] = lanes::load_rows(simd, velocity, first + row);
@@ -70,8 +71,7 @@ fn chunk<S: Simd>(
             ];
         }
         let viscosity_scale = viscosity_scale * volume;
-        let sum = [0, 1, 2]
-            .map(|axis| pressure[axis] * pressure_scale + viscosity[axis] * viscosity_scale + gravity[axis]);
+        let sum = plus(plus(times(pressure, pressure_scale), times(viscosity, viscosity_scale)), gravity);
         lanes::store_rows(acceleration, row, [sum[0], sum[1], sum[2], zero]);
     }
 }

@@ -9,12 +9,13 @@
 use glam::DVec3;
 
 use crate::{
-    body::{Body, Placed, Vec3x8, Wrench, dot},
+    body::{Body, Placed, Wrench},
     columns::{Column::*, Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, prelude::*, select, with_lanes},
     params::Params,
+    vector::{Vec3x8, dot, minus, plus, times},
 };
 
 /// `sph::repulsion`.
@@ -67,10 +68,9 @@ impl Task<'_> {
             self.walls(simd, point, velocity, &mut sum);
             for (body, placed) in &placed {
                 let (distance, normal) = placed.distance(point);
-                let speed_of_body = placed.velocity(point);
-                let approach = [0, 1, 2].map(|axis| velocity[axis] - speed_of_body[axis]);
+                let approach = minus(velocity, placed.velocity(point));
                 let push = self.push(simd, distance, dot(approach, normal));
-                sum = [0, 1, 2].map(|axis| sum[axis] + push * normal[axis]);
+                sum = plus(sum, times(normal, push));
                 self.react(
                     push.to_array(),
                     point,

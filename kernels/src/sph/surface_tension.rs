@@ -7,13 +7,13 @@
 //! Not an exchange between pairs: momentum is kept only on average.
 
 use crate::{
-    body::dot,
     columns::{Column::*, Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, prelude::*, select, with_lanes},
     params::Params,
+    vector::{dot, times},
 };
 
 /// Length of the normal times the support radius below which a particle is not at the surface.
@@ -64,7 +64,7 @@ fn chunk<S: Simd>(
             normal = [normal[0] - slope * dx, normal[1] - slope * dy, normal[2] - slope * dz];
             laplacian -= weight * (u + u - one);
         }
-        let normal = normal.map(|value| value * kernel.gradient_scale());
+        let normal = times(normal, kernel.gradient_scale());
         let length = dot(normal, normal).sqrt();
         let at_surface = length.simd_gt(lanes::splat(simd, threshold));
         let strength =
