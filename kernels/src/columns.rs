@@ -10,7 +10,10 @@
 
 use crate::{
     body::Bodies,
-    grid::{cells::Cells, neighbors::Neighbors},
+    grid::{
+        cells::Cells,
+        neighbors::{ListValues, Neighbors},
+    },
     pbd::lattice::Topology,
     reduce::{Extremes, Wrenches},
 };
@@ -166,6 +169,8 @@ columns! {
         FluidAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// For every particle, the control rows within the suction radius.
         FluidControls = controls: Neighbors, "1", Scratch;
+        /// For every entry of those lists, node volume times kernel.
+        FluidControlWeights = control_weights: ListValues, "1", Scratch;
         /// How far inside a sponge the particle is: sum of node volume times kernel, 0 outside, 1 inside.
         FluidInterior = interior: Vec<f32>, "1", Scratch;
         /// Rate at which drag takes the particle to the velocity of the sponge.
@@ -218,6 +223,8 @@ columns! {
         ControlCells = cells: Cells, "1", Scratch;
         /// For every control, the particles within the suction radius.
         ControlFluid = fluid: Neighbors, "1", Scratch;
+        /// For every entry of those lists, node volume times kernel.
+        ControlFluidWeights = fluid_weights: ListValues, "1", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         ControlSaturation = saturation: Vec<f32>, "1", Scratch;
         /// Control pressure times volume: negative, so that it sucks.

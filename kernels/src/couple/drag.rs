@@ -22,12 +22,11 @@ pub static KERNEL: Kernel = Kernel {
     name: "couple::drag",
     needs: &[Need::Fluid, Need::Sponge],
     reads: &[
-        FluidPosition,
         FluidVelocity,
         FluidControls,
+        FluidControlWeights,
         FluidInterior,
         FluidDragRate,
-        ControlPosition,
         ControlVelocity,
     ],
     writes: &[FluidDrag],
@@ -38,14 +37,14 @@ pub static KERNEL: Kernel = Kernel {
 const OUTSIDE: f32 = 1.0e-3;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid { position, velocity, controls: lists, interior, drag_rate, drag, .. } = &mut columns.fluid;
-    let (controls, control_velocity) = (&columns.controls.position, &columns.controls.velocity);
+    let Fluid { velocity, controls: lists, control_weights, interior, drag_rate, drag, .. } =
+        &mut columns.fluid;
+    let control_velocity = &columns.controls.velocity;
     let (step, mass) = (params.step, params.fluid.particle_mass);
-    drag.resize(position.len(), [0.0; 4]);
+    drag.resize(velocity.len(), [0.0; 4]);
     cpu.for_chunks(&mut drag[..], |first, drag| {
-        let lists = lists.chunk(first);
+        let (lists, weights) = (lists.chunk(first), control_weights.chunk(first));
         with_lanes!(cpu, simd => {
-            let kernel = params.coupling.lanes(simd);
             let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
             for row in (0..drag.len()).step_by(LANES) {
                 let group = lists.group(row);
@@ -53,20 +52,17 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     drag[row..row + LANES].fill([0.0; 4]);
                     continue;
                 }
-                let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
                 let mut sum = [zero; 3];
-                for entry in group {
-                    let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
+                for (entry, weight) in group.iter().zip(&weights[lists.range(row)]) {
                     let [ux, uy, uz, _] = lanes::gather_rows(simd, control_velocity, entry);
-                    let (dx, dy, dz) = (x - xa, y - ya, z - za);
-                    let weight = volume * kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                    let weight = lanes::load(simd, weight, 0);
                     sum = [sum[0] + weight * ux, sum[1] + weight * uy, sum[2] + weight * uz];
                 }
                 let chi = lanes::load(simd, interior, first + row);
                 let inside = chi.simd_gt(lanes::splat(simd, OUTSIDE));
                 let inverse = one / select(inside, chi, one);
-                let sponge = times(sum, kernel.value_scale() * inverse);
+                let sponge = times(sum, inverse);
                 let rate = lanes::load(simd, drag_rate, first + row) * step;
                 let strength = select(inside, rate / (one + rate) * mass * inverse, zero);
                 let lost = times(minus([vx, vy, vz], sponge), strength);

@@ -14,20 +14,21 @@ use crate::{
     params::Params,
 };
 
+use super::velocity_filter::received;
+
 /// `couple::exchange`.
 pub static KERNEL: Kernel = Kernel {
     name: "couple::exchange",
     needs: &[Need::Fluid, Need::Sponge],
     reads: &[
-        FluidPosition,
         FluidVelocity,
         FluidInterior,
         FluidDrag,
         ControlNode,
-        ControlPosition,
         ControlVelocity,
         ControlUnfiltered,
         ControlFluid,
+        ControlFluidWeights,
         NodeVelocity,
     ],
     writes: &[FluidVelocity, ControlVelocity, NodeVelocity],
@@ -36,19 +37,14 @@ pub static KERNEL: Kernel = Kernel {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (fluid, controls, nodes) = (&mut columns.fluid, &mut columns.controls, &mut columns.nodes);
-    let (position, unfiltered, lists) = (&controls.position, &controls.unfiltered, &controls.fluid);
-    let (particles, drag, interior) = (&fluid.position, &fluid.drag, &fluid.interior);
+    let (unfiltered, drag, interior) = (&controls.unfiltered, &fluid.drag, &fluid.interior);
     cpu.for_chunks(&mut controls.velocity[..], |first, velocity| {
-        let lists = lists.chunk(first);
+        let (lists, weights) = (controls.fluid.chunk(first), controls.fluid_weights.chunk(first));
         with_lanes!(cpu, simd => {
-            let kernel = params.coupling.lanes(simd);
             for row in (0..velocity.len()).step_by(LANES) {
                 let [ox, oy, oz, w] = lanes::load_rows(simd, unfiltered, first + row);
-                let received = super::velocity_filter::received(
-                    simd, kernel, (position, first + row), (particles, drag), lists, row,
-                );
-                let new = [ox + w * received[0], oy + w * received[1], oz + w * received[2], w];
-                lanes::store_rows(velocity, row, new);
+                let [jx, jy, jz, _] = received(simd, drag, lists, weights, row);
+                lanes::store_rows(velocity, row, [ox + w * jx, oy + w * jy, oz + w * jz, w]);
             }
         });
     });

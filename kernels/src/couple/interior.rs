@@ -21,12 +21,12 @@ pub static KERNEL: Kernel = Kernel {
     name: "couple::interior",
     needs: &[Need::Fluid, Need::Sponge],
     reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodeSponge],
-    writes: &[FluidInterior, FluidDragRate],
+    writes: &[FluidControlWeights, FluidInterior, FluidDragRate],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid { position, controls: lists, interior, drag_rate, .. } = &mut columns.fluid;
+    let Fluid { position, controls: lists, control_weights, interior, drag_rate, .. } = &mut columns.fluid;
     let controls = &columns.controls.position;
     // One rate per control row; padding rows weigh nothing.
     let mut rate = vec![0.0; controls.len()];
@@ -35,23 +35,26 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
     interior.resize(position.len(), 0.0);
     drag_rate.resize(position.len(), 0.0);
-    cpu.for_chunks((&mut interior[..], &mut drag_rate[..]), |first, (interior, drag_rate)| {
-        let lists = lists.chunk(first);
+    let rows = (&mut interior[..], &mut drag_rate[..], control_weights.match_lists(lists));
+    cpu.for_chunks(rows, |first, (interior, drag_rate, weights)| {
+        let (lists, weights) = (lists.chunk(first), &mut weights.0[0]);
         with_lanes!(cpu, simd => {
             let kernel = params.coupling.lanes(simd);
             for row in (0..interior.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let mut sum = lanes::splat(simd, 0.0);
                 let mut drag = lanes::splat(simd, 0.0);
-                for entry in lists.group(row) {
+                for (entry, stored) in lists.group(row).iter().zip(&mut weights[lists.range(row)]) {
                     let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
                     let (dx, dy, dz) = (x - xa, y - ya, z - za);
-                    let weight = volume * kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                    let shape = kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                    let weight = volume * kernel.value_scale() * shape;
+                    lanes::store(stored, 0, weight);
                     sum += weight;
                     drag += weight * lanes::gather(simd, &rate, entry);
                 }
-                lanes::store(interior, row, sum * kernel.value_scale());
-                lanes::store(drag_rate, row, drag * kernel.value_scale());
+                lanes::store(interior, row, sum);
+                lanes::store(drag_rate, row, drag);
             }
         });
     });

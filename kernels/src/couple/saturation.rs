@@ -28,30 +28,35 @@ pub static KERNEL: Kernel = Kernel {
         NodeSuction,
         NodeInterior,
     ],
-    writes: &[ControlSaturation, ControlSuction, NodeSaturation],
+    writes: &[ControlFluidWeights, ControlSaturation, ControlSuction, NodeSaturation],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let particles = &columns.fluid.position;
     let nodes = &mut columns.nodes;
-    let Controls { node, position, fluid: lists, saturation, suction, .. } = &mut columns.controls;
+    let Controls { node, position, fluid: lists, fluid_weights, saturation, suction, .. } =
+        &mut columns.controls;
     let volume = params.fluid.particle_mass / params.fluid.rest_density;
     saturation.clear();
     saturation.resize(position.len(), 0.0);
     suction.clear();
     suction.resize(position.len(), 0.0);
-    cpu.for_chunks((&mut saturation[..], &mut suction[..]), |first, (saturation, suction)| {
-        let lists = lists.chunk(first);
+    let rows = (&mut saturation[..], &mut suction[..], fluid_weights.match_lists(lists));
+    cpu.for_chunks(rows, |first, (saturation, suction, weights)| {
+        let (lists, weights) = (lists.chunk(first), &mut weights.0[0]);
         with_lanes!(cpu, simd => {
             let kernel = params.coupling.lanes(simd);
             for row in (0..saturation.len()).step_by(LANES) {
-                let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+                let [x, y, z, node_volume] = lanes::load_rows(simd, position, first + row);
+                let scale = node_volume * kernel.value_scale();
                 let mut sum = lanes::splat(simd, 0.0);
-                for entry in lists.group(row) {
+                for (entry, stored) in lists.group(row).iter().zip(&mut weights[lists.range(row)]) {
                     let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
                     let (dx, dy, dz) = (x - xi, y - yi, z - zi);
-                    sum += kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                    let shape = kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                    lanes::store(stored, 0, scale * shape);
+                    sum += shape;
                 }
                 lanes::store(saturation, row, sum * kernel.value_scale() * volume);
             }

@@ -14,7 +14,6 @@ use crate::{
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, with_lanes},
     params::Params,
-    smoothing::WendlandLanes,
     vector::{minus, plus, times},
 };
 
@@ -22,28 +21,25 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::velocity_filter",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidDrag, ControlPosition, ControlVelocity, ControlUnfiltered, ControlFluid],
+    reads: &[FluidDrag, ControlVelocity, ControlUnfiltered, ControlFluid, ControlFluidWeights],
     writes: &[ControlVelocity],
     cpu,
 };
 
-fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let fluid = &columns.fluid;
-    let Controls { position, velocity, unfiltered, fluid: lists, .. } = &mut columns.controls;
+fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
+    let drag = &columns.fluid.drag;
+    let Controls { velocity, unfiltered, fluid: lists, fluid_weights, .. } = &mut columns.controls;
     cpu.for_chunks(&mut velocity[..], |first, velocity| {
-        let lists = lists.chunk(first);
+        let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
         with_lanes!(cpu, simd => {
-            let kernel = params.coupling.lanes(simd);
             let one = lanes::splat(simd, 1.0);
             for row in (0..velocity.len()).step_by(LANES) {
                 let [ux, uy, uz, w] = lanes::load_rows(simd, velocity, row);
                 let [ox, oy, oz, _] = lanes::load_rows(simd, unfiltered, first + row);
                 let (u, old) = ([ux, uy, uz], [ox, oy, oz]);
-                let received = received(simd, kernel, (position, first + row), (&fluid.position, &fluid.drag), lists, row);
-                let inverse = one / (one + w * received[3]);
-                let [jx, jy, jz, _] = received;
- let lacking = plus(minus(old, u), times([jx, jy, jz], w));
-                let new = plus(u, times(lacking, inverse));
+                let [jx, jy, jz, strength] = received(simd, drag, lists, weights, row);
+                let lacking = plus(minus(old, u), times([jx, jy, jz], w));
+                let new = plus(u, times(lacking, one / (one + w * strength)));
                 lanes::store_rows(velocity, row, [new[0], new[1], new[2], w]);
             }
         });
@@ -54,19 +50,15 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 #[inline(always)]
 pub(super) fn received<S: Simd>(
     simd: S,
-    kernel: WendlandLanes<S>,
-    (controls, control): (&[[f32; 4]], usize),
-    (particles, drag): (&[[f32; 4]], &[[f32; 4]]),
+    drag: &[[f32; 4]],
     lists: &ChunkLists,
+    weights: &[[f32; LANES]],
     row: usize,
 ) -> [f32x8<S>; 4] {
-    let [x, y, z, volume] = lanes::load_rows(simd, controls, control);
     let mut sum = [lanes::splat(simd, 0.0); 4];
-    for entry in lists.group(row) {
-        let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
+    for (entry, weight) in lists.group(row).iter().zip(&weights[lists.range(row)]) {
         let drag = lanes::gather_rows(simd, drag, entry);
-        let (dx, dy, dz) = (x - xi, y - yi, z - zi);
-        let weight = kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+        let weight = lanes::load(simd, weight, 0);
         sum = [
             sum[0] + weight * drag[0],
             sum[1] + weight * drag[1],
@@ -74,6 +66,5 @@ pub(super) fn received<S: Simd>(
             sum[3] + weight * drag[3],
         ];
     }
-    let scale = kernel.value_scale() * volume;
-    [sum[0] * scale, sum[1] * scale, sum[2] * scale, sum[3] * scale]
+    sum
 }

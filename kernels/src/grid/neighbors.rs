@@ -4,12 +4,14 @@
 //! and adds up each particle's list in order: the width of the machine's vectors cannot change the sum. Shorter
 //! lists of a group are filled up with a padding row, which adds exact zeros.
 
+use std::ops::Range;
+
 use super::cells::Cells;
 use crate::{
     columns::{ColumnData, FAR},
     cpu::{CHUNK, Cpu, PerChunk},
     lanes::{self, LANES, Simd, prelude::*, u32x8, with_lanes},
-    vector,
+    vector::{self, dot, minus},
 };
 
 const GROUPS: usize = CHUNK / LANES;
@@ -18,6 +20,8 @@ const GROUPS: usize = CHUNK / LANES;
 #[derive(Clone, Debug, Default)]
 pub struct Neighbors {
     chunks: Vec<ChunkLists>,
+    /// Coordinates of the targets, one array per axis: candidates are read in order, and many times.
+    planes: [Vec<f32>; 3],
 }
 
 /// Lists of the queries of one chunk.
@@ -39,8 +43,14 @@ impl ChunkLists {
     /// The list entries of the group of eight queries that begins at `row` of the chunk.
     #[inline(always)]
     pub(crate) fn group(&self, row: usize) -> &[[u32; LANES]] {
+        &self.entries[self.range(row)]
+    }
+
+    /// Where the entries of that group are, among those of the chunk.
+    #[inline(always)]
+    pub(crate) fn range(&self, row: usize) -> Range<usize> {
         let group = row / LANES;
-        &self.entries[self.start[group] as usize..self.start[group + 1] as usize]
+        self.start[group] as usize..self.start[group + 1] as usize
     }
 }
 
@@ -73,13 +83,52 @@ impl Neighbors {
         cells: &Cells,
         radius: f32,
     ) {
-        self.chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
-        cpu.for_chunks(PerChunk(&mut self.chunks), |first, lists| {
+        let Self { chunks, planes } = self;
+        chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
+        planes.iter_mut().for_each(|plane| plane.resize(targets.len(), FAR));
+        let [x, y, z] = planes;
+        cpu.for_chunks((&mut x[..], &mut y[..], &mut z[..]), |first, (x, y, z)| {
+            for (row, target) in targets[first..].iter().take(x.len()).enumerate() {
+                (x[row], y[row], z[row]) = (target[0], target[1], target[2]);
+            }
+        });
+        let planes = [&x[..], &y[..], &z[..]];
+        cpu.for_chunks(PerChunk(chunks), |first, lists| {
             let end = queries.len().min(first + CHUNK);
-            let task = Task { targets, padding: target_count as u32, cells, radius };
+            let task = Task { planes, padding: target_count as u32, cells, radius };
             let used = count.saturating_sub(first).min(end - first);
             with_lanes!(cpu, simd => task.chunk(simd, &queries[first..end], used, &mut lists.0[0]));
         });
+    }
+}
+
+/// One value for every entry of neighbour lists, so that passes that repeat need not compute it again.
+#[derive(Clone, Debug, Default)]
+pub struct ListValues(pub(crate) Vec<Vec<[f32; LANES]>>);
+
+impl ListValues {
+    /// Makes room for the values of `lists`, one vector per chunk.
+    pub(crate) fn match_lists(&mut self, lists: &Neighbors) -> PerChunk<'_, Vec<[f32; LANES]>> {
+        self.0.resize_with(lists.chunks.len(), Vec::new);
+        for (values, lists) in self.0.iter_mut().zip(&lists.chunks) {
+            values.resize(lists.entries.len(), [0.0; LANES]);
+        }
+        PerChunk(&mut self.0)
+    }
+
+    /// The values of the chunk that begins at query `first`.
+    #[inline(always)]
+    pub(crate) fn chunk(&self, first: usize) -> &[[f32; LANES]] {
+        &self.0[first / CHUNK]
+    }
+}
+
+impl ColumnData for ListValues {
+    fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
+        self.0.iter().flatten().flatten().for_each(|value| visit(value.to_bits()));
+    }
+    fn poison(&mut self) {
+        self.0.iter_mut().for_each(|chunk| chunk.fill([f32::NAN; LANES]));
     }
 }
 
@@ -97,7 +146,7 @@ impl ColumnData for Neighbors {
 
 /// What all groups of a build share.
 struct Task<'a> {
-    targets: &'a [[f32; 4]],
+    planes: [&'a [f32]; 3],
     padding: u32,
     cells: &'a Cells,
     radius: f32,
@@ -179,7 +228,7 @@ impl Task<'_> {
         let (lows, highs) = (vector::splat(simd, low), vector::splat(simd, high));
         let (zero, square) = (splat(0.0), splat(radius * radius));
         let lane_index = u32x8::from_fn(simd, |lane| lane as u32);
-        let last = self.targets.len() - LANES;
+        let last = self.planes[0].len() - LANES;
         candidates.count = 0;
         self.cells.spans(low.map(|x| x - radius), high.map(|x| x + radius), &mut candidates.spans);
         for span in 0..candidates.spans.len() {
@@ -187,14 +236,17 @@ impl Task<'_> {
             for row in (begin..end).step_by(LANES) {
                 // Near the end of the array the last eight rows are loaded; those before `row` were seen already.
                 let loaded = (row as usize).min(last);
-                let [x, y, z, _] = lanes::load_rows(simd, self.targets, loaded);
+                let x = lanes::load(simd, self.planes[0], loaded);
+                let y = lanes::load(simd, self.planes[1], loaded);
+                let z = lanes::load(simd, self.planes[2], loaded);
                 let rows = lane_index + loaded as u32;
                 let dx = (lows[0] - x).max(x - highs[0]).max(zero);
                 let dy = (lows[1] - y).max(y - highs[1]).max(zero);
                 let dz = (lows[2] - z).max(z - highs[2]).max(zero);
-                let near = (dx * dx + dy * dy + dz * dz).simd_lt(square)
-                    & rows.simd_ge(u32x8::splat(simd, row))
-                    & rows.simd_lt(u32x8::splat(simd, end));
+                let mut near = (dx * dx + dy * dy + dz * dz).simd_lt(square);
+                if row + 8 > end || loaded < row as usize {
+                    near &= rows.simd_ge(u32x8::splat(simd, row)) & rows.simd_lt(u32x8::splat(simd, end));
+                }
                 let hits = near.to_bitmask().count_ones() as usize;
                 if hits == 0 {
                     continue;
@@ -214,33 +266,45 @@ impl Task<'_> {
 
     /// Appends to the lists of `range` the candidates within the radius.
     #[inline(always)]
-    fn test<S: Simd>(
-        &self,
-        simd: S,
-        queries: &[[f32; 4]],
-        range: std::ops::Range<usize>,
-        candidates: &mut Candidates,
-    ) {
+    fn test<S: Simd>(&self, simd: S, queries: &[[f32; 4]], range: Range<usize>, candidates: &mut Candidates) {
         let square = lanes::splat(simd, self.radius * self.radius);
         let Candidates { x, y, z, row, count, lists, lengths, .. } = candidates;
-        for lane in range {
-            let [x_own, y_own, z_own, _] = queries[lane];
-            let query = vector::splat(simd, [x_own, y_own, z_own]);
-            let list = &mut lists[lane];
-            if list.len() < *count + LANES {
-                list.resize(*count + LANES, 0);
+        let room = *count + LANES;
+        for list in &mut lists[range.clone()] {
+            if list.len() < room {
+                list.resize(room, 0);
             }
-            let mut length = 0;
+        }
+        // Two queries at a time share the loads of the candidates.
+        for lane in range.clone().step_by(2) {
+            let other = (lane + 1).min(range.end - 1);
+            let query = |lane: usize| {
+                let [x, y, z, _] = queries[lane];
+                vector::splat(simd, [x, y, z])
+            };
+            let (a, b) = (query(lane), query(other));
+            let (left, right) = lists.split_at_mut(lane + 1);
+            let mut unused = Vec::new();
+            let list_a = &mut left[lane];
+            let list_b = if other > lane { &mut right[0] } else { &mut unused };
+            list_b.resize(list_b.len().max(room), 0);
+            let (mut length_a, mut length_b) = (0, 0);
             for at in (0..*count).step_by(LANES) {
-                let dx = lanes::load(simd, x, at) - query[0];
-                let dy = lanes::load(simd, y, at) - query[1];
-                let dz = lanes::load(simd, z, at) - query[2];
-                let near = (dx * dx + dy * dy + dz * dz).simd_lt(square);
+                let (xs, ys, zs) =
+                    (lanes::load(simd, x, at), lanes::load(simd, y, at), lanes::load(simd, z, at));
                 let rows = u32x8::from_slice(simd, &row[at..at + LANES]);
-                simd.compress_u32x8(rows, near).store_slice(&mut list[length..length + LANES]);
-                length += near.to_bitmask().count_ones() as usize;
+                let to_a = minus([xs, ys, zs], a);
+                let to_b = minus([xs, ys, zs], b);
+                let (near_a, near_b) = (dot(to_a, to_a).simd_lt(square), dot(to_b, to_b).simd_lt(square));
+                simd.compress_u32x8(rows, near_a).store_slice(&mut list_a[length_a..length_a + LANES]);
+                simd.compress_u32x8(rows, near_b).store_slice(&mut list_b[length_b..length_b + LANES]);
+                length_a += near_a.to_bitmask().count_ones() as usize;
+                length_b += near_b.to_bitmask().count_ones() as usize;
             }
-            lengths[lane] = length;
+            lengths[lane] = length_a;
+            if other > lane {
+                lengths[other] = length_b;
+            }
         }
     }
 
