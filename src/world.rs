@@ -314,6 +314,12 @@ impl World {
         self.runner.times()
     }
 
+    /// Time spent in whole steps.
+    #[must_use]
+    pub fn step_time(&self) -> &PhaseTime {
+        self.runner.step_time()
+    }
+
     /// Threads and SIMD level.
     #[must_use]
     pub fn cpu(&self) -> &Cpu {

@@ -19,11 +19,13 @@ mod sponge;
 mod stage;
 mod surface;
 mod visibility;
+mod world;
 
 pub use animation::Animation;
 pub use camera::Camera;
 pub use error::RenderError;
 pub use image::Image;
+pub use world::draw_world;
 
 use crate::body::{BodyState, Shape};
 use glam::Vec3;
