@@ -23,7 +23,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let measures = world.measures();
     #[expect(clippy::print_stdout, reason = "an example shows its result")]
     {
-        println!("{:.1} g of {:.1} g of water absorbed", measures.absorbed_mass * 1e3, measures.water_mass * 1e3);
+        println!(
+            "{:.1} g of {:.1} g of water absorbed",
+            measures.absorbed_mass * 1e3,
+            measures.water_mass * 1e3
+        );
     }
     assert!(measures.absorbed_mass > 0.01, "the sponge drinks");
     assert!(measures.saturation < 1.5 && measures.mean_density_error < 0.05, "and the water stays water");

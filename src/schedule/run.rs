@@ -16,7 +16,7 @@ pub struct PhaseTime {
     pub name: &'static str,
     /// Calls so far.
     pub calls: u64,
-    /// Time of all calls [s].
+    /// Time of all calls \[s\].
     pub total_s: f64,
     recent_ms: Vec<f32>,
 }
@@ -26,7 +26,7 @@ impl PhaseTime {
         Self { name, calls: 0, total_s: 0.0, recent_ms: Vec::with_capacity(RECENT) }
     }
 
-    /// Median over the last calls [ms]; 0 if there were none.
+    /// Median over the last calls \[ms\]; 0 if there were none.
     #[must_use]
     pub fn median_ms(&self) -> f32 {
         let mut sorted = self.recent_ms.clone();
