@@ -13,7 +13,7 @@ pub enum Bound {
     Maximum,
     /// The end of the frame.
     Frame,
-    /// Sound and flow cross a support radius [M92].
+    /// Sound and flow cross a support radius \[M92\].
     Courant,
     /// Acceleration over a support radius.
     Acceleration,
@@ -47,17 +47,17 @@ impl Bound {
 /// Time since the start, and what the last step found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
-    /// Simulated time [s].
+    /// Simulated time \[s\].
     pub time: f64,
     /// Steps taken.
     pub steps: u64,
     /// Frames completed by [`crate::World::advance_frame`].
     pub frames: u64,
-    /// Largest speed of a particle after the last step [m/s].
+    /// Largest speed of a particle after the last step \[m/s\].
     pub(crate) fluid_speed: f32,
-    /// Largest acceleration of a particle in the last step [m/s^2].
+    /// Largest acceleration of a particle in the last step \[m/s^2\].
     pub(crate) fluid_acceleration: f32,
-    /// Largest speed of a node after the last step [m/s].
+    /// Largest speed of a node after the last step \[m/s\].
     pub(crate) node_speed: f32,
 }
 
@@ -110,7 +110,7 @@ impl Steps {
         if f64::from(step) * 2.0 > left { ((left * 0.5) as f32, Bound::Frame) } else { (step, bound) }
     }
 
-    /// Shortest step that is allowed [s].
+    /// Shortest step that is allowed \[s\].
     pub(crate) fn minimum(&self) -> f32 {
         self.time.minimum_step
     }

@@ -18,3 +18,9 @@ pub use sorb_kernels::{SimdLevel, body, columns, cpu, kernel, params};
 pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+#[derive(Debug)]
+pub struct Readme;

@@ -10,35 +10,35 @@ const INSIDE: f32 = 0.5;
 /// Masses, momenta, energies and errors of one state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measures {
-    /// Simulated time [s].
+    /// Simulated time \[s\].
     pub time: f64,
-    /// Mass of all water [kg].
+    /// Mass of all water \[kg\].
     pub water_mass: f64,
-    /// Mass of the water inside sponges [kg].
+    /// Mass of the water inside sponges \[kg\].
     pub absorbed_mass: f64,
-    /// Pore volume filled with water over pore volume, mean over the nodes [1].
+    /// Pore volume filled with water over pore volume, mean over the nodes \[1\].
     pub saturation: f64,
-    /// Height of the highest node that is more than half saturated above the lowest node [m].
+    /// Height of the highest node that is more than half saturated above the lowest node \[m\].
     pub wicking_height: f64,
-    /// Volume of all sponges [m^3].
+    /// Volume of all sponges \[m^3\].
     pub sponge_volume: f64,
-    /// Centre of mass of the dry sponges [m].
+    /// Centre of mass of the dry sponges \[m\].
     pub sponge_centre: DVec3,
-    /// Momentum of water, sponges and bodies [kg m/s].
+    /// Momentum of water, sponges and bodies \[kg m/s\].
     pub linear_momentum: DVec3,
-    /// Angular momentum about the origin [kg m^2/s].
+    /// Angular momentum about the origin \[kg m^2/s\].
     pub angular_momentum: DVec3,
-    /// Kinetic energy [J].
+    /// Kinetic energy \[J\].
     pub kinetic_energy: f64,
-    /// Energy of height in the field of gravity, zero at the origin [J].
+    /// Energy of height in the field of gravity, zero at the origin \[J\].
     pub potential_energy: f64,
-    /// Energy of the strained sponges [J].
+    /// Energy of the strained sponges \[J\].
     pub elastic_energy: f64,
-    /// Largest speed of particles and nodes [m/s].
+    /// Largest speed of particles and nodes \[m/s\].
     pub maximum_speed: f64,
-    /// Mean of max(rho / rho_0 - 1, 0) over the particles [1].
+    /// Mean of `max(rho / rho_0 - 1, 0)` over the particles \[1\].
     pub mean_density_error: f64,
-    /// Largest rho / rho_0 - 1, not below zero [1].
+    /// Largest `rho / rho_0 - 1`, not below zero \[1\].
     pub maximum_density_error: f64,
 }
 

@@ -67,7 +67,7 @@ pub enum StepError {
         id: u32,
         /// Steps taken.
         step: u64,
-        /// Simulated time [s].
+        /// Simulated time \[s\].
         time: f64,
     },
     /// A node's position is not a finite number.
@@ -77,7 +77,7 @@ pub enum StepError {
         node: u32,
         /// Steps taken.
         step: u64,
-        /// Simulated time [s].
+        /// Simulated time \[s\].
         time: f64,
     },
     /// Stability asks for a step below `time.minimum_step`.
@@ -88,13 +88,13 @@ pub enum StepError {
     TooSmall {
         /// What asks for it.
         bound: Bound,
-        /// The step it asks for [s].
+        /// The step it asks for \[s\].
         needed: f32,
-        /// `time.minimum_step` [s].
+        /// `time.minimum_step` \[s\].
         minimum: f32,
         /// Steps taken.
         step: u64,
-        /// Simulated time [s].
+        /// Simulated time \[s\].
         time: f64,
     },
     /// The engine of the bodies failed.
@@ -116,28 +116,28 @@ pub struct Options {
 /// What a step did.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport {
-    /// Length of the step [s].
+    /// Length of the step \[s\].
     pub step: f32,
     /// What limited it.
     pub bound: Bound,
-    /// Time after the step [s].
+    /// Time after the step \[s\].
     pub time: f64,
-    /// Largest speed of particles and nodes after the step [m/s].
+    /// Largest speed of particles and nodes after the step \[m/s\].
     pub maximum_speed: f32,
 }
 
 /// What the steps of a frame did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameReport {
-    /// Time after the frame [s].
+    /// Time after the frame \[s\].
     pub time: f64,
     /// Steps of the frame.
     pub steps: u32,
-    /// Shortest step of the frame [s].
+    /// Shortest step of the frame \[s\].
     pub shortest_step: f32,
     /// What limited most of the steps.
     pub bound: Bound,
-    /// Largest speed of particles and nodes in the frame [m/s].
+    /// Largest speed of particles and nodes in the frame \[m/s\].
     pub maximum_speed: f32,
 }
 
@@ -314,6 +314,12 @@ impl World {
         self.runner.times()
     }
 
+    /// Time spent in whole steps.
+    #[must_use]
+    pub fn step_time(&self) -> &PhaseTime {
+        self.runner.step_time()
+    }
+
     /// Threads and SIMD level.
     #[must_use]
     pub fn cpu(&self) -> &Cpu {
@@ -338,13 +344,13 @@ impl World {
         &self.columns
     }
 
-    /// Positions of the particles [m], in the order of their cells; w: pressure over squared density.
+    /// Positions of the particles \[m\], in the order of their cells; w: pressure over squared density.
     #[must_use]
     pub fn particle_positions(&self) -> &[[f32; 4]] {
         &self.columns.fluid.position[..self.columns.rows.fluid]
     }
 
-    /// Velocities of the particles [m/s]; w: volume [m^3].
+    /// Velocities of the particles \[m/s\]; w: volume \[m^3\].
     #[must_use]
     pub fn particle_velocities(&self) -> &[[f32; 4]] {
         &self.columns.fluid.velocity[..self.columns.rows.fluid]
@@ -356,19 +362,19 @@ impl World {
         &self.columns.fluid.id[..self.columns.rows.fluid]
     }
 
-    /// Positions of the sponge nodes [m], of all sponges; w: inverse mass [1/kg].
+    /// Positions of the sponge nodes \[m\], of all sponges; w: inverse mass \[1/kg\].
     #[must_use]
     pub fn node_positions(&self) -> &[[f32; 4]] {
         &self.columns.nodes.position[..self.columns.rows.nodes]
     }
 
-    /// Velocities of the sponge nodes [m/s].
+    /// Velocities of the sponge nodes \[m/s\].
     #[must_use]
     pub fn node_velocities(&self) -> &[[f32; 4]] {
         &self.columns.nodes.velocity[..self.columns.rows.nodes]
     }
 
-    /// Saturation of the sponge nodes [1], about 0 to 1; empty before the first step or without fluid.
+    /// Saturation of the sponge nodes \[1\], about 0 to 1; empty before the first step or without fluid.
     #[must_use]
     pub fn node_saturations(&self) -> &[f32] {
         let saturation = &self.columns.nodes.saturation;

@@ -1,1 +1,72 @@
-fn main() {}
+//! The command `sorb`: runs, checks and pictures sponge scenes.
+
+mod check;
+mod choice;
+mod doctor;
+mod error;
+mod output;
+mod plan;
+mod run;
+mod scenes;
+mod schema;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// What the exit codes mean, at the end of the help.
+const EXIT_CODES: &str =
+    "Exit codes: 0 ok, 1 a check failed, 2 wrong usage or scene, 3 the simulation diverged.";
+
+/// Simulates absorbent sponges, the water they drink and the bodies that squeeze them.
+#[derive(Debug, Parser)]
+#[command(name = "sorb", version, about, after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Lists the scenes that come with the program
+    Scenes(scenes::Arguments),
+    /// Names everything that is wrong with a scene
+    Check(check::Arguments),
+    /// Prints the JSON schema of scene files
+    Schema,
+    /// Shows what a step of a scene runs, and what it skips and why
+    Plan(plan::Arguments),
+    /// Simulates a scene and writes measures and pictures
+    Run(Box<run::Arguments>),
+    /// Shows what this machine and this build offer
+    Doctor(doctor::Arguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        None => scenes::welcome(),
+        Some(Command::Scenes(arguments)) => scenes::run(&arguments),
+        Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::Schema) => schema::run(),
+        Some(Command::Plan(arguments)) => plan::run(&arguments),
+        Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Doctor(arguments)) => doctor::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            output::complain(&error.to_string());
+            ExitCode::from(error.code())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

@@ -15,26 +15,26 @@ pub enum Shape {
     Plane,
     /// Ball around the origin.
     Sphere {
-        /// Radius [m].
+        /// Radius \[m\].
         radius: f32,
     },
     /// Box around the origin.
     Cuboid {
-        /// Distance of the faces from the origin [m].
+        /// Distance of the faces from the origin \[m\].
         half_extents: Vec3,
     },
     /// Segment along the local y axis, swept by a ball.
     Capsule {
-        /// Half the length of the segment [m].
+        /// Half the length of the segment \[m\].
         half_height: f32,
-        /// Radius of the ball [m].
+        /// Radius of the ball \[m\].
         radius: f32,
     },
     /// Convex hull.
     Hull {
-        /// Outward unit normals and offsets [m]: a point is inside where `normal . x <= offset` for all.
+        /// Outward unit normals and offsets \[m\]: a point is inside where `normal . x <= offset` for all.
         planes: Vec<(Vec3, f32)>,
-        /// Corners [m].
+        /// Corners \[m\].
         vertices: Vec<Vec3>,
         /// Faces as triangles of corners, outward winding.
         triangles: Vec<[u32; 3]>,
@@ -42,7 +42,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Radius of the ball around the origin that holds the shape [m]; infinite for a plane.
+    /// Radius of the ball around the origin that holds the shape \[m\]; infinite for a plane.
     #[must_use]
     pub fn bounding_radius(&self) -> f32 {
         match self {
@@ -69,22 +69,22 @@ pub enum BodyKind {
 /// Pose and velocity of a body at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
-    /// Centre of mass, world [m].
+    /// Centre of mass, world \[m\].
     pub position: Vec3,
     /// Rotation from the body's frame to the world.
     pub rotation: Quat,
-    /// Velocity of the centre of mass [m/s].
+    /// Velocity of the centre of mass \[m/s\].
     pub linear_velocity: Vec3,
-    /// Angular velocity, world [rad/s].
+    /// Angular velocity, world \[rad/s\].
     pub angular_velocity: Vec3,
 }
 
 /// Impulses that fluid and sponges gave to a body in one step, summed in f64 in a fixed order.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
-    /// Impulse [N s].
+    /// Impulse \[N s\].
     pub impulse: DVec3,
-    /// Angular impulse about the centre of mass [N m s].
+    /// Angular impulse about the centre of mass \[N m s\].
     pub angular_impulse: DVec3,
 }
 
@@ -105,14 +105,14 @@ pub struct Body {
     pub kind: BodyKind,
     /// Pose and velocity.
     pub state: BodyState,
-    /// Coulomb friction against sponge nodes [1].
+    /// Coulomb friction against sponge nodes \[1\].
     pub friction: f32,
     /// Whether sponge nodes are kept out; a body that grips a sponge lets them in.
     pub touches_nodes: bool,
 }
 
 impl Body {
-    /// Signed distance of a world point from the surface [m], negative inside.
+    /// Signed distance of a world point from the surface \[m\], negative inside.
     #[must_use]
     pub fn distance(&self, point: Vec3) -> f32 {
         lanes::dispatch!(fearless_simd::Level::baseline(), simd => {

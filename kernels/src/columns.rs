@@ -18,7 +18,7 @@ use crate::{
     reduce::{Extremes, Wrenches},
 };
 
-/// Coordinate of padding rows [m]: beyond every support radius, with a square that is still finite.
+/// Coordinate of padding rows \[m\]: beyond every support radius, with a square that is still finite.
 pub const FAR: f32 = 1.0e15;
 
 /// A row at [`FAR`].
@@ -153,9 +153,9 @@ macro_rules! columns {
 columns! {
     /// The fluid, one row per particle, in the order of its cells.
     fluid: Fluid {
-        /// Centre of the particle; w: pressure over density squared, p/rho^2 [Pa m^6/kg^2].
+        /// Centre of the particle; w: pressure over density squared, p/rho^2 \[Pa m^6/kg^2\].
         FluidPosition = position: Vec<[f32; 4]>, "m", State;
-        /// Velocity of the particle; w: its volume m/rho [m^3].
+        /// Velocity of the particle; w: its volume m/rho \[m^3\].
         FluidVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
         /// Identity of the particle, kept while rows are re-ordered.
         FluidId = id: Vec<u32>, "1", State;
@@ -175,14 +175,14 @@ columns! {
         FluidInterior = interior: Vec<f32>, "1", Scratch;
         /// Rate at which drag takes the particle to the velocity of the sponge.
         FluidDragRate = drag_rate: Vec<f32>, "1/s", Scratch;
-        /// Impulse that the particle loses to the sponge, over its interior value; w: the same per velocity [kg].
+        /// Impulse that the particle loses to the sponge, over its interior value; w: the same per velocity \[kg\].
         FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
         /// Extremes over chunks of particles, for the time step.
         FluidExtremes = extremes: Extremes, "m/s", Scratch;
     }
     /// The sponges, one row per lattice node, in the order of the vertex colours.
     nodes: Nodes {
-        /// Position of the node; w: inverse mass [1/kg], 0 for a held node.
+        /// Position of the node; w: inverse mass \[1/kg\], 0 for a held node.
         NodePosition = position: Vec<[f32; 4]>, "m", State;
         /// Velocity of the node; w: unused.
         NodeVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
@@ -200,7 +200,7 @@ columns! {
         NodeGripOffset = grip_offset: Vec<[f32; 4]>, "m", Constant;
         /// Tets, their colours and the chunks that colours are solved in.
         NodeTopology = topology: Topology, "1", Constant;
-        /// Predicted position, corrected by the constraints; w: inverse mass [1/kg].
+        /// Predicted position, corrected by the constraints; w: inverse mass \[1/kg\].
         NodePredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
         /// External acceleration, by gravity and the fluid; w: unused.
         NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
@@ -213,9 +213,9 @@ columns! {
     controls: Controls {
         /// Row of the node.
         ControlNode = node: Vec<u32>, "1", Scratch;
-        /// Position of the node; w: its volume [m^3].
+        /// Position of the node; w: its volume \[m^3\].
         ControlPosition = position: Vec<[f32; 4]>, "m", Scratch;
-        /// Velocity of the node, filtered by the drag of the fluid; w: inverse mass [1/kg].
+        /// Velocity of the node, filtered by the drag of the fluid; w: inverse mass \[1/kg\].
         ControlVelocity = velocity: Vec<[f32; 4]>, "m/s", Scratch;
         /// Velocity of the node before the filter; w: unused.
         ControlUnfiltered = unfiltered: Vec<[f32; 4]>, "m/s", Scratch;
@@ -271,7 +271,7 @@ mod tests {
     #[test]
     fn padding_always_leaves_a_spare_row() {
         for rows in 0..100 {
-            assert!(padded(rows) > rows && padded(rows) % 8 == 0 && padded(rows) <= rows + 8);
+            assert!(padded(rows) > rows && padded(rows).is_multiple_of(8) && padded(rows) <= rows + 8);
         }
     }
 

@@ -7,9 +7,9 @@ use crate::{grid::cells::Domain, smoothing::Wendland};
 /// Everything that kernels need to know beside the columns.
 #[derive(Clone, Debug)]
 pub struct Params {
-    /// Length of the step [s].
+    /// Length of the step \[s\].
     pub step: f32,
-    /// Acceleration of free fall [m/s^2].
+    /// Acceleration of free fall \[m/s^2\].
     pub gravity: Vec3,
     /// Where points may be, for the search.
     pub domain: Domain,
@@ -26,64 +26,64 @@ pub struct Params {
 /// How pressure follows from density.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EquationOfState {
-    /// p = c^2 (rho - rho_0).
+    /// `p = c^2 (rho - rho_0)`.
     Linear,
-    /// p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1).
+    /// `p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)`.
     Tait,
 }
 
 /// The fluid.
 #[derive(Clone, Debug)]
 pub struct FluidParams {
-    /// Distance of particles at rest [m].
+    /// Distance of particles at rest \[m\].
     pub spacing: f32,
-    /// Density at rest [kg/m^3].
+    /// Density at rest \[kg/m^3\].
     pub rest_density: f32,
-    /// Mass of a particle [kg], such that a lattice at rest has the rest density.
+    /// Mass of a particle \[kg\], such that a lattice at rest has the rest density.
     pub particle_mass: f32,
     /// Smoothing between particles.
     pub smoothing: Wendland,
     /// How pressure follows from density.
     pub equation_of_state: EquationOfState,
-    /// Speed of sound c [m/s].
+    /// Speed of sound c \[m/s\].
     pub sound_speed: f32,
-    /// Dynamic viscosity, numerical viscosity included [Pa s].
+    /// Dynamic viscosity, numerical viscosity included \[Pa s\].
     pub viscosity: f32,
-    /// Surface tension [N/m].
+    /// Surface tension \[N/m\].
     pub surface_tension: f32,
-    /// Distance at which walls and bodies begin to push [m].
+    /// Distance at which walls and bodies begin to push \[m\].
     pub repulsion_range: f32,
-    /// Acceleration per depth into that range [1/s^2].
+    /// Acceleration per depth into that range \[1/s^2\].
     pub repulsion_stiffness: f32,
-    /// Deceleration per approach speed inside that range [1/s].
+    /// Deceleration per approach speed inside that range \[1/s\].
     pub repulsion_damping: f32,
 }
 
 /// One sponge.
 #[derive(Clone, Debug)]
 pub struct SpongeParams {
-    /// Lattice constant [m].
+    /// Lattice constant \[m\].
     pub edge: f32,
-    /// Energy density per squared stretch [Pa].
+    /// Energy density per squared stretch \[Pa\].
     pub stretch_modulus: f32,
-    /// Energy density per squared shear [Pa].
+    /// Energy density per squared shear \[Pa\].
     pub shear_modulus: f32,
-    /// Energy density per squared change of volume [Pa].
+    /// Energy density per squared change of volume \[Pa\].
     pub volume_modulus: f32,
-    /// Ratio of viscous to elastic stress per strain rate [s].
+    /// Ratio of viscous to elastic stress per strain rate \[s\].
     pub damping_time: f32,
     /// Solver iterations of a step.
     pub iterations: u32,
-    /// Coulomb friction of nodes against the walls [1].
+    /// Coulomb friction of nodes against the walls \[1\].
     pub friction: f32,
-    /// Pore volume over volume [1].
+    /// Pore volume over volume \[1\].
     pub porosity: f32,
-    /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) [1/s].
+    /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
     pub drag_rate: f32,
-    /// Suction of a saturated node [Pa].
+    /// Suction of a saturated node \[Pa\].
     pub entry_pressure: f32,
-    /// Further suction of a dry node, over the entry pressure [1].
+    /// Further suction of a dry node, over the entry pressure \[1\].
     pub saturation_gain: f32,
-    /// Stiffness of the zero-distance constraint over that of the exact reaction [1].
+    /// Stiffness of the zero-distance constraint over that of the exact reaction \[1\].
     pub reaction: f32,
 }

@@ -7,9 +7,9 @@ use crate::{body::Wrench, columns::ColumnData};
 /// What bounds the time step, over one chunk of rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
-    /// Largest squared speed [m^2/s^2].
+    /// Largest squared speed \[m^2/s^2\].
     pub speed_squared: f32,
-    /// Largest squared acceleration [m^2/s^4].
+    /// Largest squared acceleration \[m^2/s^4\].
     pub acceleration_squared: f32,
     /// A row whose position or velocity is not finite, plus one; 0 if there is none.
     pub not_finite: u32,

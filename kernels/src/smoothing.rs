@@ -1,4 +1,4 @@
-//! The smoothing function: Wendland's C2 kernel [W95; DA12].
+//! The smoothing function: Wendland's C2 kernel \[W95; DA12\].
 //!
 //! ```text
 //! W(r) = 21 / (2 pi H^3) (1 - q)^4 (4 q + 1),   q = r / H < 1
@@ -15,7 +15,7 @@ use crate::lanes::{self, Simd, f32x8, prelude::*};
 /// Wendland's C2 kernel for one support radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wendland {
-    /// Distance at which the kernel becomes zero, H [m].
+    /// Distance at which the kernel becomes zero, H \[m\].
     pub support_radius: f32,
     inverse_radius: f32,
     value: f32,
@@ -25,7 +25,7 @@ pub struct Wendland {
 }
 
 impl Wendland {
-    /// The kernel with the given support radius H [m].
+    /// The kernel with the given support radius H \[m\].
     #[must_use]
     pub fn new(support_radius: f32) -> Self {
         let h = f64::from(support_radius);
@@ -130,7 +130,7 @@ impl<S: Simd> WendlandLanes<S> {
         self.laplacian
     }
 
-    /// The Laplacian of the viscosity kernel of [MCG03, eq. 22] is `viscosity_scale u`, never negative.
+    /// The Laplacian of the viscosity kernel of \[MCG03, eq. 22\] is `viscosity_scale u`, never negative.
     #[inline(always)]
     pub(crate) fn viscosity_scale(self) -> f32x8<S> {
         self.viscosity

@@ -3,6 +3,11 @@
 //! [`draw`] turns a [`Picture`] (borrowed positions, triangles and bodies) and a [`Camera`] into an [`Image`].
 //! An [`Animation`] appends images to one animated PNG file. The pixels are the same for every number of threads.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "pictures do not feed the simulation: the platform's sine will do"
+)]
+
 mod animation;
 mod bands;
 mod camera;
@@ -19,11 +24,13 @@ mod sponge;
 mod stage;
 mod surface;
 mod visibility;
+mod world;
 
 pub use animation::Animation;
 pub use camera::Camera;
 pub use error::RenderError;
 pub use image::Image;
+pub use world::draw_world;
 
 use crate::body::{BodyState, Shape};
 use glam::Vec3;

@@ -153,14 +153,18 @@ impl Plan {
 }
 
 impl PlanLine {
-    fn reads(&self) -> &'static [Column] {
+    /// Columns that the phase reads.
+    #[must_use]
+    pub fn reads(&self) -> &'static [Column] {
         match self.work {
             Work::Kernel(kernel) => kernel.reads,
             Work::Host(host) => host.reads,
         }
     }
 
-    fn writes(&self) -> &'static [Column] {
+    /// Columns that the phase writes.
+    #[must_use]
+    pub fn writes(&self) -> &'static [Column] {
         match self.work {
             Work::Kernel(kernel) => kernel.writes,
             Work::Host(host) => host.writes,

@@ -16,13 +16,17 @@ pub struct PhaseTime {
     pub name: &'static str,
     /// Calls so far.
     pub calls: u64,
-    /// Time of all calls [s].
+    /// Time of all calls \[s\].
     pub total_s: f64,
     recent_ms: Vec<f32>,
 }
 
 impl PhaseTime {
-    /// Median over the last calls [ms]; 0 if there were none.
+    fn new(name: &'static str) -> Self {
+        Self { name, calls: 0, total_s: 0.0, recent_ms: Vec::with_capacity(RECENT) }
+    }
+
+    /// Median over the last calls \[ms\]; 0 if there were none.
     #[must_use]
     pub fn median_ms(&self) -> f32 {
         let mut sorted = self.recent_ms.clone();
@@ -50,18 +54,19 @@ pub struct Runner {
     /// (first, last, times) of consecutive kernels.
     groups: Vec<(usize, usize, u32)>,
     times: Vec<PhaseTime>,
+    step: PhaseTime,
 }
 
 impl Runner {
     /// The runner of a plan.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        let mut runner = Self { kernels: Vec::new(), groups: Vec::new(), times: Vec::new() };
+        let mut runner =
+            Self { kernels: Vec::new(), groups: Vec::new(), times: Vec::new(), step: PhaseTime::new("step") };
         let mut group = None;
         for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
             let time = runner.times.iter().position(|time| time.name == line.name).unwrap_or_else(|| {
-                let recent_ms = Vec::with_capacity(RECENT);
-                runner.times.push(PhaseTime { name: line.name, calls: 0, total_s: 0.0, recent_ms });
+                runner.times.push(PhaseTime::new(line.name));
                 runner.times.len() - 1
             });
             let at = runner.kernels.len();
@@ -83,8 +88,9 @@ impl Runner {
         columns: &mut Columns,
         mut host: impl FnMut(&mut Columns) + Send,
     ) {
-        let Self { kernels, groups, times } = self;
-        cpu.enter(|| {
+        let Self { kernels, groups, times, step } = self;
+        let start_of_step = Instant::now();
+        let work = || {
             for (first, last, repeat) in &*groups {
                 for _ in 0..*repeat {
                     for (work, time) in &kernels[*first..*last] {
@@ -97,7 +103,18 @@ impl Runner {
                     }
                 }
             }
-        });
+        };
+        // Waking the threads would be all the cost of an empty scene.
+        if !kernels.is_empty() {
+            cpu.enter(work);
+        }
+        step.record(start_of_step);
+    }
+
+    /// Time spent in whole steps.
+    #[must_use]
+    pub fn step_time(&self) -> &PhaseTime {
+        &self.step
     }
 
     /// Time spent in every phase that runs, in the order of the step.

@@ -4,7 +4,7 @@
 //! v_i -= J_i / m,   u_a = u0_a + sum_i w_ia J_i / m_a
 //! ```
 //!
-//! Both sides use the same J_i, so that momentum is kept at any number of sweeps of the filter.
+//! Both sides use the same `J_i`, so that momentum is kept at any number of sweeps of the filter.
 
 use crate::{
     columns::{Column::*, Columns},

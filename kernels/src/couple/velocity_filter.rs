@@ -4,7 +4,7 @@
 //! u_a += (m_a (u0_a - u_a) + sum_i w_ia J_i) / (m_a + sum_i w_ia k_i),   w_ia = V_a W_ia / chi_i
 //! ```
 //!
-//! with J_i and k_i = dJ_i/dv_i from `couple::drag`. A node weighs a fraction of the water around it: without
+//! with `J_i` and `k_i = dJ_i/dv_i` from `couple::drag`. A node weighs a fraction of the water around it: without
 //! the implicit denominator it would be thrown back and forth.
 
 use crate::{

@@ -24,7 +24,7 @@ const CELL_LIMIT: f32 = (1 << 20) as f32;
 /// The part of space that points lie in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Domain {
-    /// A known box [m].
+    /// A known box \[m\].
     Bounded {
         /// Corner with the smallest coordinates.
         minimum: Vec3,

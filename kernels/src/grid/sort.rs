@@ -101,7 +101,7 @@ mod tests {
             let cpu = Cpu::with_threads(SimdLevel::Fallback, threads).expect("the fallback is always there");
             for rows in [0_u64, 1, 2, 4095, 4097, 30_000] {
                 let keys: Vec<u64> =
-                    (0..rows).map(|i| (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) % 97 << 20).collect();
+                    (0..rows).map(|i| ((i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) % 97) << 20).collect();
                 let mut order = Vec::new();
                 cpu.enter(|| Sort::default().stable_by_key(&cpu, &keys, &mut order));
                 let mut expected: Vec<u32> = (0..rows as u32).collect();

@@ -1,4 +1,4 @@
-//! Strain constraints of the tets, colour by colour [MCKM14; the paper, section 3.2].
+//! Strain constraints of the tets, colour by colour \[MCKM14; the paper, section 3.2\].
 //!
 //! All tets have the same shape at rest, so the deformation gradient needs no matrix: in the frame of the tet
 //! its columns are
@@ -15,8 +15,8 @@
 //! p += w dl grad C
 //! ```
 //!
-//! Differs from the paper: a constraint has a modulus M [Pa] and a damping time tau [s] instead of a stiffness
-//! between 0 and 1 (compliance of [MMC16]), so that the sponge does not stiffen when the step shrinks.
+//! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\] instead of a stiffness
+//! between 0 and 1 (compliance of \[MMC16\]), so that the sponge does not stiffen when the step shrinks.
 
 use crate::{
     columns::{Column::*, Columns, Nodes},
@@ -118,6 +118,7 @@ impl Task<'_> {
     }
 
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "the slot is an index into several arrays")]
     fn chunk<S: Simd>(&self, simd: S, sponge: &SpongeParams, chunk: &TetChunk, nodes: &mut NodeSlices<'_>) {
         let solver = Solver::new(simd, sponge, self.params.step);
         let tets = &self.tets[chunk.tets.start as usize..chunk.tets.end as usize];
@@ -240,6 +241,7 @@ impl<S: Simd> Solver<S> {
 
     /// Moves the nodes along the gradient of one constraint; `gradient` is given times the edge.
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "the vertex is an index into several arrays")]
     fn correct(
         &self,
         tet: &mut TetLanes<S>,

@@ -1,4 +1,4 @@
-//! Mass density by summation [MCG03, eq. 3].
+//! Mass density by summation \[MCG03, eq. 3\].
 //!
 //! ```text
 //! rho_i = sum_j m W(|x_i - x_j|)

@@ -1,4 +1,4 @@
-//! Acceleration by gravity, pressure [M92, eq. 3.3] and viscosity [MCG03, eq. 14, made symmetric].
+//! Acceleration by gravity, pressure \[M92, eq. 3.3\] and viscosity \[MCG03, eq. 14, made symmetric\].
 //!
 //! ```text
 //! a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij

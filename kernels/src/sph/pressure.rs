@@ -1,4 +1,4 @@
-//! Pressure by an equation of state, not below zero [MCG03, eq. 12; M94].
+//! Pressure by an equation of state, not below zero \[MCG03, eq. 12; M94\].
 //!
 //! ```text
 //! linear:  p = c^2 (rho - rho_0)
@@ -40,7 +40,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// Pressure at a density [Pa].
+/// Pressure at a density \[Pa\].
 #[must_use]
 pub fn pressure(fluid: &FluidParams, density: f32) -> f32 {
     let square = fluid.sound_speed * fluid.sound_speed;

@@ -1,4 +1,4 @@
-//! Surface tension from the colour field [MCG03, eqs. 15 to 19].
+//! Surface tension from the colour field \[MCG03, eqs. 15 to 19\].
 //!
 //! ```text
 //! n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1

@@ -1,0 +1,61 @@
+//! Why the command fails, and with which exit code.
+
+use std::{io, path::PathBuf};
+
+use sorb::{StepError, WorldError, render::RenderError, scene::SceneError};
+
+/// Why the command fails.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum CliError {
+    /// A scene that `sorb check` looked at is bad.
+    #[error("{0}")]
+    CheckFailed(String),
+    /// A scene cannot be read or used.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A scene cannot be built, or the machine lacks what was asked for.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A picture cannot be written.
+    #[error(transparent)]
+    Picture(#[from] RenderError),
+    /// A file or folder of the results cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Standard output cannot be written.
+    #[error("cannot write to standard output: {0}")]
+    Output(io::Error),
+    /// The results cannot be put into words; never for finite or missing numbers.
+    #[error("cannot write the summary: {0}")]
+    Summary(#[from] serde_json::Error),
+    /// The simulation went wrong; everything up to there has been written.
+    #[error("the simulation diverged: {error}\nwhat it did until then is in {}", folder.display())]
+    Diverged {
+        /// What went wrong, where and when.
+        error: StepError,
+        /// The out folder.
+        folder: PathBuf,
+    },
+}
+
+impl CliError {
+    /// Makes a file's error out of the system's.
+    pub(crate) fn write(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> Self {
+        let path = path.into();
+        |source| Self::Write { path, source }
+    }
+
+    /// Exit code of the command.
+    pub(crate) fn code(&self) -> u8 {
+        match self {
+            Self::CheckFailed(_) => 1,
+            Self::Diverged { .. } => 3,
+            _ => 2,
+        }
+    }
+}

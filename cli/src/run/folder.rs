@@ -1,0 +1,80 @@
+//! The folder that holds the results of one run.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::error::CliError;
+
+/// The folder that holds the results of one run.
+#[derive(Debug)]
+pub(super) struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Creates the folder, or empties it of the results of an earlier run.
+    ///
+    /// # Errors
+    /// The system refuses to create the folder or to remove what is in it.
+    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+        fs::create_dir_all(path).map_err(CliError::write(path))?;
+        let folder = Self { path: path.to_owned() };
+        // Without a table these files are not ours.
+        if folder.table().exists() {
+            for old in folder.earlier() {
+                fs::remove_file(&old).map_err(CliError::write(old))?;
+            }
+        }
+        Ok(folder)
+    }
+
+    /// Results of an earlier run that this one may not overwrite by itself.
+    fn earlier(&self) -> Vec<PathBuf> {
+        let is_number = |path: &Path| {
+            let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+            stem.len() >= 5 && stem.bytes().all(|byte| byte.is_ascii_digit())
+        };
+        let frames = fs::read_dir(self.frames()).into_iter().flatten().flatten();
+        frames
+            .map(|entry| entry.path())
+            .filter(|path| is_number(path) && path.extension().is_some_and(|extension| extension == "png"))
+            .chain([self.summary(), self.animation()].into_iter().filter(|path| path.exists()))
+            .collect()
+    }
+
+    /// The folder itself.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A row of measures for every frame.
+    pub(super) fn table(&self) -> PathBuf {
+        self.path.join("measures.csv")
+    }
+
+    /// The run in one JSON object.
+    pub(super) fn summary(&self) -> PathBuf {
+        self.path.join("summary.json")
+    }
+
+    /// The folder of the pictures.
+    pub(super) fn frames(&self) -> PathBuf {
+        self.path.join("frames")
+    }
+
+    /// All pictures as one animated PNG.
+    pub(super) fn animation(&self) -> PathBuf {
+        self.path.join("animation.png")
+    }
+
+    /// Names of what is in the folder.
+    pub(super) fn contents(&self, pictures: bool) -> &'static str {
+        if pictures {
+            "measures.csv, summary.json, animation.png, frames/"
+        } else {
+            "measures.csv, summary.json"
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! `sorb run`: simulates a scene, and writes measures and pictures.
+
+mod folder;
+mod options;
+mod pictures;
+mod progress;
+mod summary;
+mod table;
+
+use std::time::{Duration, Instant};
+
+use sorb::{FrameReport, Measures, Options, StepError, World};
+
+use crate::{error::CliError, output};
+use folder::Folder;
+pub(crate) use options::Arguments;
+use pictures::Pictures;
+use progress::Progress;
+use summary::Summary;
+use table::Table;
+
+/// What the frames so far took and gave.
+#[derive(Debug, Default)]
+struct Record {
+    /// Time in the simulation alone.
+    wall: Duration,
+    /// Time in drawing and writing pictures.
+    picture: Duration,
+    /// Time of every frame in the simulation \[ms\].
+    frames_ms: Vec<f64>,
+    /// The last row of the table.
+    measures: Measures,
+}
+
+/// Simulates.
+///
+/// # Errors
+/// The scene or the options are bad, results cannot be written, or the simulation diverged.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let scene = arguments.choice.load()?;
+    let frames = arguments.frames(&scene);
+    let options = Options { threads: arguments.threads, simd: arguments.simd.0, ..Options::default() };
+    let mut world = World::with_options(&scene, &options)?;
+    let folder = Folder::create(&arguments.folder(&scene))?;
+    let mut table = Table::create(&folder.table())?;
+    let mut pictures = None;
+    if arguments.pictures {
+        pictures = Some(Pictures::create(&folder, arguments, &scene, frames)?);
+    }
+    let progress = Progress::new(&scene, frames, arguments.quiet);
+    let mut record = Record::default();
+    record.frame(&world, None, &mut table, pictures.as_mut())?;
+    let mut failure = None;
+    for _ in 0..frames {
+        let start = Instant::now();
+        match world.advance_frame() {
+            Ok(report) => {
+                record.advanced(start.elapsed());
+                record.frame(&world, Some(&report), &mut table, pictures.as_mut())?;
+                progress.frame(&report, start.elapsed());
+            }
+            Err(error) => {
+                record.wall += start.elapsed();
+                failure = Some(error);
+                break;
+            }
+        }
+    }
+    progress.finish();
+    if let Some(pictures) = pictures {
+        pictures.finish()?;
+    }
+    finish(arguments, &world, &record, &folder, failure)
+}
+
+impl Record {
+    /// Takes over what a frame took.
+    fn advanced(&mut self, time: Duration) {
+        self.wall += time;
+        self.frames_ms.push(time.as_secs_f64() * 1e3);
+    }
+
+    /// Writes the row of a frame, and its picture if it is due; no report for the state at time zero.
+    fn frame(
+        &mut self,
+        world: &World,
+        report: Option<&FrameReport>,
+        table: &mut Table,
+        pictures: Option<&mut Pictures>,
+    ) -> Result<(), CliError> {
+        self.measures = world.measures();
+        table.row(self.frames_ms.len(), &self.measures, report)?;
+        let start = Instant::now();
+        if let Some(pictures) = pictures {
+            pictures.frame(world, self.frames_ms.len())?;
+        }
+        self.picture += start.elapsed();
+        Ok(())
+    }
+}
+
+/// Writes the summary, and says how it went.
+fn finish(
+    arguments: &Arguments,
+    world: &World,
+    record: &Record,
+    folder: &Folder,
+    failure: Option<StepError>,
+) -> Result<(), CliError> {
+    let summary = Summary::new(world, record, arguments.choice.resolution, failure.as_ref());
+    let mut json = serde_json::to_string_pretty(&summary)?;
+    json.push('\n');
+    std::fs::write(folder.summary(), &json).map_err(CliError::write(folder.summary()))?;
+    if arguments.json {
+        output::print(&json)?;
+    } else if !arguments.quiet {
+        let path = folder.path().display();
+        output::print(&format!("{summary}results in {path}: {}\n", folder.contents(arguments.pictures)))?;
+    }
+    match failure {
+        None => Ok(()),
+        Some(error) => Err(CliError::Diverged { error, folder: folder.path().to_owned() }),
+    }
+}

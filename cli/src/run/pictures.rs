@@ -1,0 +1,81 @@
+//! PNG frames and the animation.
+
+use std::{fs, path::PathBuf};
+
+use sorb::{
+    World,
+    render::{self, Animation, Camera, Style},
+    scene::Scene,
+};
+
+use super::{folder::Folder, options::Arguments};
+use crate::error::CliError;
+
+/// PNG frames and the animation, while they are written.
+#[derive(Debug)]
+pub(super) struct Pictures {
+    frames: PathBuf,
+    animation: Animation,
+    camera: Camera,
+    style: Style,
+    size: (u32, u32),
+    /// Simulated frames from one picture to the next.
+    every: usize,
+}
+
+impl Pictures {
+    /// Creates the folder of the frames and the animation.
+    ///
+    /// # Errors
+    /// The system refuses to create them.
+    pub(super) fn create(
+        folder: &Folder,
+        arguments: &Arguments,
+        scene: &Scene,
+        frames: u32,
+    ) -> Result<Self, CliError> {
+        fs::create_dir_all(folder.frames()).map_err(CliError::write(folder.frames()))?;
+        let rate = scene.time.frame_rate;
+        // Whole frames, so that pictures are evenly spaced; rounding up keeps the rate below what was asked for.
+        let every = (rate / arguments.picture_rate - 1e-3).ceil().max(1.0) as u32;
+        let (width, height) = (arguments.size.0, arguments.size.1);
+        let animation = Animation::create(
+            folder.animation(),
+            width,
+            height,
+            (rate / every as f32).clamp(0.02, 1e3),
+            1 + frames / every,
+        )?;
+        Ok(Self {
+            frames: folder.frames(),
+            animation,
+            camera: scene.viewpoint().into(),
+            style: arguments.style.into(),
+            size: (width, height),
+            every: every as usize,
+        })
+    }
+
+    /// Draws the world if a picture is due at this frame.
+    ///
+    /// # Errors
+    /// The picture cannot be written.
+    pub(super) fn frame(&mut self, world: &World, frame: usize) -> Result<(), CliError> {
+        if !frame.is_multiple_of(self.every) {
+            return Ok(());
+        }
+        let image = render::draw_world(world, &self.camera, self.style, self.size.0, self.size.1);
+        image.write_png(self.frames.join(format!("{:05}.png", frame / self.every)))?;
+        self.animation.append(&image)?;
+        Ok(())
+    }
+
+    /// Completes the animation.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn finish(self) -> Result<(), CliError> {
+        self.animation.finish()?;
+        Ok(())
+    }
+}

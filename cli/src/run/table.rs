@@ -1,0 +1,99 @@
+//! `measures.csv`: a row for every frame.
+
+use std::{
+    fmt::Write as _,
+    fs::File,
+    io::Write as _,
+    path::{Path, PathBuf},
+};
+
+use serde::{Serialize, Serializer};
+use sorb::{FrameReport, Measures};
+
+use crate::error::CliError;
+
+/// A column of measures: its name, and how to read it.
+type Column = (&'static str, fn(&Measures) -> f64);
+
+/// The measures, in the order of the table and of the summary.
+const COLUMNS: [Column; 22] = [
+    ("time_s", |m| m.time),
+    ("water_mass_kg", |m| m.water_mass),
+    ("absorbed_mass_kg", |m| m.absorbed_mass),
+    ("free_mass_kg", |m| m.water_mass - m.absorbed_mass),
+    ("saturation", |m| m.saturation),
+    ("wicking_height_m", |m| m.wicking_height),
+    ("sponge_volume_m3", |m| m.sponge_volume),
+    ("sponge_centre_x_m", |m| m.sponge_centre.x),
+    ("sponge_centre_y_m", |m| m.sponge_centre.y),
+    ("sponge_centre_z_m", |m| m.sponge_centre.z),
+    ("momentum_x_kg_m_per_s", |m| m.linear_momentum.x),
+    ("momentum_y_kg_m_per_s", |m| m.linear_momentum.y),
+    ("momentum_z_kg_m_per_s", |m| m.linear_momentum.z),
+    ("angular_momentum_x_kg_m2_per_s", |m| m.angular_momentum.x),
+    ("angular_momentum_y_kg_m2_per_s", |m| m.angular_momentum.y),
+    ("angular_momentum_z_kg_m2_per_s", |m| m.angular_momentum.z),
+    ("kinetic_J", |m| m.kinetic_energy),
+    ("potential_J", |m| m.potential_energy),
+    ("elastic_J", |m| m.elastic_energy),
+    ("maximum_speed_m_per_s", |m| m.maximum_speed),
+    ("mean_density_error", |m| m.mean_density_error),
+    ("maximum_density_error", |m| m.maximum_density_error),
+];
+
+/// The table while it is written. Every row reaches the file at once, so that an end by force leaves all of them.
+#[derive(Debug)]
+pub(super) struct Table {
+    path: PathBuf,
+    file: File,
+}
+
+impl Table {
+    /// Creates the file with its heading.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+        let file = File::create(path).map_err(CliError::write(path))?;
+        let mut table = Self { path: path.to_owned(), file };
+        let names = COLUMNS.map(|(name, _)| name).join(",");
+        table.line(&format!("frame,{names},steps,shortest_step_s,bound\n"))?;
+        Ok(table)
+    }
+
+    /// Writes the row of a frame; no report for the state at time zero.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn row(
+        &mut self,
+        frame: usize,
+        measures: &Measures,
+        report: Option<&FrameReport>,
+    ) -> Result<(), CliError> {
+        let mut line = frame.to_string();
+        for (_, value) in COLUMNS {
+            // Shortest digits that give the same number back, with an exponent where that is shorter to read.
+            let _ = write!(line, ",{:?}", value(measures));
+        }
+        line += &match report {
+            Some(report) => format!(",{},{:?},{}\n", report.steps, report.shortest_step, report.bound.name()),
+            None => ",0,,\n".to_owned(),
+        };
+        self.line(&line)
+    }
+
+    fn line(&mut self, line: &str) -> Result<(), CliError> {
+        self.file.write_all(line.as_bytes()).map_err(CliError::write(&self.path))
+    }
+}
+
+/// Measures as a JSON object with the names of the table.
+#[derive(Debug)]
+pub(super) struct Named(pub(super) Measures);
+
+impl Serialize for Named {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(COLUMNS.iter().map(|(name, value)| (name, value(&self.0))))
+    }
+}

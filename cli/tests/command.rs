@@ -1,0 +1,10 @@
+//! The command as a user meets it: exit codes, messages, files.
+
+#[path = "command/runs.rs"]
+mod runs;
+#[path = "command/scenes.rs"]
+mod scenes;
+#[path = "command/support.rs"]
+mod support;
+#[path = "command/usage.rs"]
+mod usage;

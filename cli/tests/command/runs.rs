@@ -1,0 +1,147 @@
+//! `sorb run`: what it computes and what it leaves.
+
+use std::{collections::BTreeSet, fs::File, io::BufReader};
+
+use crate::support::{Answer, Scratch, sorb};
+
+const KEYS: [&str; 20] = [
+    "backend",
+    "digest",
+    "diverged",
+    "frame_ms_median",
+    "frames",
+    "measures",
+    "nodes",
+    "particle_steps_per_s",
+    "particles",
+    "phases",
+    "picture_s",
+    "resolution",
+    "scene",
+    "simd",
+    "simulated_s",
+    "step_ms_median",
+    "steps",
+    "tets",
+    "threads",
+    "wall_s",
+];
+
+/// A short run of a small scene.
+fn run(scratch: &Scratch, scene: &str, more: &[&str]) -> Answer {
+    let out = scratch.path("out");
+    sorb(&[&["run", scene, "--resolution", "0.3", "--out", &out], more].concat())
+}
+
+#[test]
+fn json_is_one_object_with_all_keys_and_nothing_else() {
+    let scratch = Scratch::new("json");
+    let answer = run(&scratch, "ball_drop", &["--frames", "3", "--json"]);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
+    let json = answer.json();
+    let keys: Vec<_> = json.as_object().expect("an object").keys().map(String::as_str).collect();
+    assert_eq!(keys, KEYS);
+    assert!(answer.out.starts_with("{\n  \"scene\""), "the order is for people");
+    assert_eq!(answer.out, scratch.read("out/summary.json"));
+    assert_eq!((&json["frames"], &json["backend"]), (&3.into(), &"cpu".into()));
+    assert!((json["simulated_s"].as_f64().expect("a number") - 0.05).abs() < 1e-6);
+    assert!(json["measures"]["water_mass_kg"].as_f64().expect("a number") > 0.1);
+    let phases = json["phases"].as_array().expect("an array");
+    let names: BTreeSet<_> = phases.iter().map(|phase| phase["name"].as_str()).collect();
+    assert_eq!(names.len(), phases.len(), "every phase once");
+    for phase in phases {
+        assert_eq!(phase["skipped"], phase["why"].is_string(), "{phase}");
+        assert_eq!(phase["skipped"], phase["calls"] == 0, "{phase}");
+    }
+}
+
+#[test]
+fn the_table_has_a_row_for_every_frame() {
+    let scratch = Scratch::new("table");
+    let answer = run(&scratch, "dry", &["--time", "0.1"]);
+    assert_eq!(answer.code, Some(0));
+    let table = scratch.read("out/measures.csv");
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 1 + 7, "the heading, time zero, six frames");
+    for (frame, row) in rows[1..].iter().enumerate() {
+        assert_eq!((row.len(), row[0]), (rows[0].len(), frame.to_string().as_str()));
+        let time: f64 = row[1].parse().expect("a number");
+        assert!((time - frame as f64 / 60.0).abs() < 1e-6, "{row:?}");
+    }
+    assert!(!answer.out.contains('\u{1b}') && answer.err.is_empty(), "no progress bar in a pipe");
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let scratch = Scratch::new("quiet");
+    let answer = run(&scratch, "empty", &["--frames", "2", "--quiet"]);
+    assert_eq!((answer.code, answer.out.as_str(), answer.err.as_str()), (Some(0), "", ""));
+    assert!(scratch.read("out/summary.json").contains("\"frames\": 2"));
+}
+
+#[test]
+fn pictures_exist_and_the_animation_decodes() {
+    let scratch = Scratch::new("pictures");
+    let small = ["--pictures", "--size", "64x48", "--frames"];
+    let answer = run(&scratch, "ball_drop", &[&small[..], &["7"]].concat());
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    assert_eq!(
+        decoded(&scratch.path("out/animation.png")),
+        ((64, 48), 4),
+        "every second frame, and time zero"
+    );
+    for picture in ["00000", "00003"] {
+        assert_eq!(decoded(&scratch.path(&format!("out/frames/{picture}.png"))), ((64, 48), 1));
+    }
+    // A shorter run does not leave pictures of the longer one.
+    let answer = run(&scratch, "ball_drop", &[&small[..], &["2", "--style", "surface"]].concat());
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    let pictures = std::fs::read_dir(scratch.path("out/frames")).expect("the folder is there");
+    assert_eq!(pictures.count(), 2);
+}
+
+/// Size, and number of frames that can be read to their end.
+fn decoded(path: &str) -> ((u32, u32), u32) {
+    let file = BufReader::new(File::open(path).expect("the file is there"));
+    let mut reader = png::Decoder::new(file).read_info().expect("a PNG file");
+    let info = reader.info();
+    let (size, frames) = (info.size(), info.animation_control().map_or(1, |control| control.num_frames));
+    let mut buffer = vec![0; reader.output_buffer_size().expect("a size that fits")];
+    for _ in 0..frames {
+        reader.next_frame(&mut buffer).expect("a whole frame");
+    }
+    assert!(reader.next_frame(&mut buffer).is_err(), "no more frames than declared");
+    (size, frames)
+}
+
+#[test]
+fn a_run_that_diverges_exits_with_3_and_leaves_what_it_has() {
+    let scratch = Scratch::new("diverges");
+    // Water that falls freely gets faster, until the speed bound asks for a step that is not allowed.
+    let sets = ["--set", "domain={kind=\"open\"}", "--set", "time.minimum_step=0.0005"];
+    let answer =
+        run(&scratch, "water", &[&sets[..], &["--frames", "60", "--pictures", "--size", "32x32"]].concat());
+    assert_eq!(answer.code, Some(3), "{answer:?}");
+    assert!(answer.err.contains("time.minimum_step"), "{}", answer.err);
+    let rows = scratch.read("out/measures.csv").lines().count();
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("out/summary.json")).expect("JSON");
+    assert!(rows > 3 && rows < 60, "{rows}");
+    assert_eq!(summary["frames"], rows - 2);
+    assert!(summary["diverged"].as_str().is_some_and(|why| why.contains("courant")), "{summary}");
+    assert!(decoded(&scratch.path("out/animation.png")).1 > 1);
+}
+
+#[test]
+fn digests_do_not_depend_on_threads_and_simd_level() {
+    let scratch = Scratch::new("digests");
+    let digest = |more: &[&str]| {
+        let answer = run(&scratch, "standing", &[&["--frames", "5", "--json"], more].concat());
+        assert_eq!(answer.code, Some(0), "{answer:?}");
+        answer.json()["digest"].as_str().expect("text").to_owned()
+    };
+    let first = digest(&["--threads", "1", "--simd", "fallback"]);
+    assert_eq!(first.len(), 16);
+    assert_eq!(first, digest(&["--threads", "2"]));
+    assert_eq!(first, digest(&["--threads", "1", "--simd", "auto"]));
+    assert_ne!(first, digest(&["--set", "sponges.sponge.permeability=2e-9"]), "the digest sees the state");
+}
