@@ -25,7 +25,6 @@ pub static KERNEL: Kernel = Kernel {
         FluidDrag,
         ControlNode,
         ControlPosition,
-        ControlVelocity,
         ControlUnfiltered,
         ControlFluid,
         NodeVelocity,
