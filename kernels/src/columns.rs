@@ -217,7 +217,7 @@ columns! {
         ControlPosition = position: Vec<[f32; 4]>, "m", Scratch;
         /// Velocity of the node, filtered by the drag of the fluid; w: inverse mass \[1/kg\].
         ControlVelocity = velocity: Vec<[f32; 4]>, "m/s", Scratch;
-        /// Velocity of the node before the filter; w: unused.
+        /// Velocity of the node before the filter; w: inverse mass [1/kg].
         ControlUnfiltered = unfiltered: Vec<[f32; 4]>, "m/s", Scratch;
         /// Cells over the controls.
         ControlCells = cells: Cells, "1", Scratch;

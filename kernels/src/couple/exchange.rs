@@ -25,7 +25,6 @@ pub static KERNEL: Kernel = Kernel {
         FluidInterior,
         FluidDrag,
         ControlNode,
-        ControlVelocity,
         ControlUnfiltered,
         ControlFluid,
         ControlFluidWeights,

@@ -71,6 +71,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             suction[row] = pressure * nodes.suction[node] * position[first + row][3];
         }
     });
+    nodes.saturation.clear();
     nodes.saturation.resize(nodes.position.len(), 0.0);
     for (node, saturation) in node.iter().zip(&*saturation) {
         nodes.saturation[*node as usize] = *saturation;

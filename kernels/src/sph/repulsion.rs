@@ -28,6 +28,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
     let Fluid { position, velocity, acceleration, .. } = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.wrenches.fluid;
@@ -40,7 +41,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     };
     let rows = (&mut acceleration[..], PerChunk(&mut per_chunk));
     cpu.for_chunks(rows, |first, (acceleration, wrenches)| {
-        let task = Task { params, bodies, position, velocity };
+        let task = Task { params, bodies, position, velocity, count };
         with_lanes!(cpu, simd => task.chunk(simd, first, acceleration, wrenches.0[0]));
     });
 }
@@ -50,6 +51,8 @@ struct Task<'a> {
     bodies: &'a [Body],
     position: &'a [[f32; 4]],
     velocity: &'a [[f32; 4]],
+    /// Rows in use: padding rows lie far away, where a plane may be solid.
+    count: usize,
 }
 
 impl Task<'_> {
@@ -65,6 +68,7 @@ impl Task<'_> {
             let (point, velocity) = ([x, y, z], [vx, vy, vz]);
             let [ax, ay, az, aw] = lanes::load_rows(simd, acceleration, row);
             let mut sum = [ax, ay, az];
+            let used = self.count.saturating_sub(first + row).min(LANES);
             self.walls(simd, point, velocity, &mut sum);
             for (body, placed) in &placed {
                 let (distance, normal) = placed.distance(point);
@@ -72,7 +76,7 @@ impl Task<'_> {
                 let push = self.push(simd, distance, dot(approach, normal));
                 sum = plus(sum, times(normal, push));
                 self.react(
-                    push.to_array(),
+                    &push.to_array()[..used],
                     point,
                     distance,
                     normal,
@@ -127,14 +131,14 @@ impl Task<'_> {
     #[inline(always)]
     fn react<S: Simd>(
         &self,
-        push: [f32; LANES],
+        push: &[f32],
         point: Vec3x8<S>,
         distance: lanes::f32x8<S>,
         normal: Vec3x8<S>,
         centre: glam::Vec3,
         wrench: &mut Wrench,
     ) {
-        for lane in (0..LANES).filter(|lane| push[*lane] > 0.0) {
+        for lane in (0..push.len()).filter(|lane| push[*lane] > 0.0) {
             let lane_of = |vector: Vec3x8<S>| {
                 DVec3::new(f64::from(vector[0][lane]), f64::from(vector[1][lane]), f64::from(vector[2][lane]))
             };
