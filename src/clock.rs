@@ -23,6 +23,8 @@ pub enum Bound {
     SurfaceTension,
     /// Suction against the mass of a dry node.
     Suction,
+    /// Elastic waves of a dry sponge cross the lattice constant.
+    Elasticity,
     /// Nodes cross a quarter of the lattice constant.
     SpongeSpeed,
 }
@@ -39,6 +41,7 @@ impl Bound {
             Self::Viscosity => "viscosity",
             Self::SurfaceTension => "surface_tension",
             Self::Suction => "suction",
+            Self::Elasticity => "elasticity",
             Self::SpongeSpeed => "sponge_speed",
         }
     }
@@ -87,13 +90,18 @@ impl Steps {
                 bounds.push((1.0 / frequency, Bound::Suction));
             }
         }
+        for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
+            // The solver is stable beyond, but one sweep a step no longer carries a force through a tet.
+            let modulus = sponge.stretch_modulus.max(sponge.shear_modulus).max(sponge.volume_modulus);
+            bounds.push((sponge.edge * (scene.density / modulus).sqrt(), Bound::Elasticity));
+        }
         let constant = smallest(&bounds);
         let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
         Self { time: scene.time, constant, edge }
     }
 
-    /// Longest stable step after the last one, not beyond the time that is left of a frame.
-    pub(crate) fn next(&self, params: &Params, clock: &Clock, left: f64) -> (f32, Bound) {
+    /// Longest stable step after the last one, and what bounds it.
+    pub(crate) fn stable(&self, params: &Params, clock: &Clock) -> (f32, Bound) {
         let mut bounds = vec![self.constant];
         let fluid = &params.fluid;
         let h = fluid.smoothing.support_radius;
@@ -102,17 +110,24 @@ impl Steps {
             bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
         }
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
-        let (step, bound) = smallest(&bounds);
-        if f64::from(step) >= left {
-            return (left as f32, Bound::Frame);
-        }
-        // Two equal steps instead of a whole one and a sliver.
-        if f64::from(step) * 2.0 > left { ((left * 0.5) as f32, Bound::Frame) } else { (step, bound) }
+        smallest(&bounds)
     }
 
     /// Shortest step that is allowed \[s\].
     pub(crate) fn minimum(&self) -> f32 {
         self.time.minimum_step
+    }
+}
+
+/// Cuts a step to what is left of a frame: two equal steps instead of a whole one and a sliver.
+pub(crate) fn within((step, bound): (f32, Bound), left: f64) -> (f32, Bound) {
+    let whole = f64::from(step);
+    if whole >= left {
+        (left as f32, Bound::Frame)
+    } else if whole * 2.0 > left {
+        ((left * 0.5) as f32, Bound::Frame)
+    } else {
+        (step, bound)
     }
 }
 
@@ -130,6 +145,15 @@ fn smallest(bounds: &[(f32, Bound)]) -> (f32, Bound) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_frame_is_filled_without_slivers() {
+        let step = (0.4, Bound::Courant);
+        assert_eq!(within(step, 1.0), step);
+        assert_eq!(within(step, 0.6), (0.3, Bound::Frame));
+        assert_eq!(within(step, 0.4), (0.4, Bound::Frame));
+        assert_eq!(within(step, 0.1), (0.1, Bound::Frame));
+    }
 
     #[test]
     fn the_smallest_bound_wins_and_not_a_number_never_does() {

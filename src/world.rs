@@ -5,17 +5,20 @@ use sorb_kernels::{
     SimdLevel,
     body::Body,
     columns::{Column, Columns},
+    couple,
     cpu::{Cpu, CpuError},
+    grid,
     params::Params,
+    sph,
 };
 
 use crate::{
-    clock::{Bound, Clock, Steps},
+    clock::{Bound, Clock, Steps, within},
     digest,
     measure::Measures,
     rigid::{RigidEngine, RigidError},
     scene::{Scene, SceneError},
-    schedule::{Content, PhaseTime, Plan, PlanError, Runner, STEP},
+    schedule::{Content, PhaseTime, Plan, PlanError, PlanLine, Runner, STEP, Verdict},
     setup::Setup,
     sponge::{Lattice, LatticeError},
 };
@@ -141,6 +144,9 @@ pub struct FrameReport {
     pub maximum_speed: f32,
 }
 
+/// Particles and nodes below which one thread is faster than waking others.
+const ROWS_FOR_THREADS: u64 = 1000;
+
 /// A scene in motion.
 ///
 /// A clone continues with the same bits: keep one to go back to it.
@@ -184,6 +190,9 @@ impl World {
     /// As [`Self::new`].
     pub fn on(scene: &Scene, cpu: Cpu, observed: &[Column]) -> Result<Self, WorldError> {
         scene.validate()?;
+        let estimate = scene.estimate();
+        let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
+        let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
         let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu)?;
         let content = Content {
             fluid: columns.rows.fluid > 0,
@@ -210,7 +219,27 @@ impl World {
         world.clock.fluid_speed = fastest(&world.columns.fluid.velocity[..world.columns.rows.fluid]);
         world.clock.fluid_acceleration = scene.gravity.length();
         world.clock.node_speed = fastest(&world.columns.nodes.velocity[..world.columns.rows.nodes]);
+        world.look();
         Ok(world)
+    }
+
+    /// Runs the phases that measures depend on, so that they hold at time zero as well.
+    fn look(&mut self) {
+        let phases = [
+            &grid::sort_fluid::KERNEL,
+            &grid::fluid_neighbors::KERNEL,
+            &sph::density::KERNEL,
+            &couple::controls::KERNEL,
+            &couple::saturation::KERNEL,
+            &couple::interior::KERNEL,
+        ];
+        let Self { cpu, params, columns, plan, .. } = self;
+        for kernel in phases {
+            let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
+            if plan.lines().iter().any(runs) {
+                cpu.enter(|| (kernel.cpu)(cpu, params, columns));
+            }
+        }
     }
 
     /// Takes one step, as long as stability allows.
@@ -262,11 +291,13 @@ impl World {
     }
 
     fn try_step(&mut self, left: f64) -> Result<StepReport, StepError> {
-        let (step, bound) = self.steps.next(&self.params, &self.clock, left);
+        let stable = self.steps.stable(&self.params, &self.clock);
         let (minimum, time) = (self.steps.minimum(), self.clock.time);
-        if step < minimum && bound != Bound::Frame {
-            return Err(StepError::TooSmall { bound, needed: step, minimum, step: self.clock.steps, time });
+        if stable.0 < minimum {
+            let (needed, bound) = stable;
+            return Err(StepError::TooSmall { bound, needed, minimum, step: self.clock.steps, time });
         }
+        let (step, bound) = within(stable, left);
         self.params.step = step;
         let Self { runner, cpu, params, columns, engine, .. } = self;
         let mut rigid = Ok(());

@@ -3,7 +3,9 @@
 //! A chunk always has [`CHUNK`] rows whatever the number of threads, a row is written only by its own chunk,
 //! and sums over chunks are taken in the order of the chunks: threads change who computes, never what.
 
-use std::{fmt, sync::Arc};
+use std::fmt;
+#[cfg(feature = "threads")]
+use std::sync::Arc;
 
 use crate::lanes::SimdLevel;
 
@@ -39,8 +41,6 @@ pub struct Cpu {
     threads: usize,
     #[cfg(feature = "threads")]
     pool: Option<Arc<rayon::ThreadPool>>,
-    #[cfg(not(feature = "threads"))]
-    pool: Option<Arc<()>>,
 }
 
 impl fmt::Debug for Cpu {
@@ -64,7 +64,13 @@ impl Cpu {
                 .collect::<Vec<_>>()
                 .join(", "),
         })?;
-        Ok(Self { level, token, threads: 1, pool: None })
+        Ok(Self {
+            level,
+            token,
+            threads: 1,
+            #[cfg(feature = "threads")]
+            pool: None,
+        })
     }
 
     /// A pool of its own with `threads` threads (1 to 1024) at the given level.

@@ -102,7 +102,7 @@ pub struct Sponge {
     pub shear_modulus: f32,
     /// Stiffness against changes of volume. Range 10 to 1e9 Pa; default 20000.
     pub volume_modulus: f32,
-    /// Time in which internal vibration fades. Range 0 to 10 s; default 0.002.
+    /// Time in which internal vibration fades. Range 0 to 10 s; default 0.0005.
     pub damping_time: f32,
     /// Solver sweeps per step. Range 1 to 64; default 1.
     ///
@@ -136,7 +136,7 @@ impl Default for Sponge {
             stretch_modulus: 2e4,
             shear_modulus: 1e4,
             volume_modulus: 2e4,
-            damping_time: 0.002,
+            damping_time: 0.0005,
             iterations: 1,
             friction: 0.5,
             saturation: 0.0,

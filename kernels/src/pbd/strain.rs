@@ -15,6 +15,9 @@
 //! p += w dl grad C
 //! ```
 //!
+//! and last, with hardly any compliance, that the volume is at least a tenth of that at rest: an inverted tet satisfies
+//! the stretch and shear constraints, and would stay inverted.
+//!
 //! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\] instead of a stiffness
 //! between 0 and 1 (compliance of \[MMC16\]), so that the sponge does not stiffen when the step shrinks.
 
@@ -27,6 +30,12 @@ use crate::{
     pbd::lattice::{COLORS, TetChunk},
     vector::{Vec3x8, cross, dot, minus, negative, plus, times},
 };
+
+/// Smallest volume over volume at rest that a tet is pressed to.
+const SMALLEST_RATIO: f32 = 0.1;
+
+/// Compliance of that constraint over that of the volume; not zero, which would divide by zero for held nodes.
+const RIGID: f32 = 1.0e-3;
 
 /// `pbd::strain`: one sweep over all colours.
 pub static KERNEL: Kernel = Kernel {
@@ -205,17 +214,29 @@ impl<S: Simd> Solver<S> {
                 1 => [zero, zero, n, negative(n)],
                 _ => [negative(n), negative(n), n, n],
             };
-            self.correct(tet, length - one, gradient, stretch);
+            self.correct(tet, length - one, gradient, stretch, self.damping);
         }
         for pair in [(0, 1), (0, 2), (1, 2)] {
             let f = self.columns(tet);
             let (k, l) = (f[pair.0], f[pair.1]);
-            self.correct(tet, dot(k, l), self.shear_gradient(pair, f), shear);
+            self.correct(tet, dot(k, l), self.shear_gradient(pair, f), shear, self.damping);
         }
+        let (ratio, gradient) = self.volume_gradient(tet);
+        self.correct(tet, ratio - one, gradient, volume, self.damping);
+        let (ratio, gradient) = self.volume_gradient(tet);
+        let lacking = ratio - SMALLEST_RATIO;
+        let zero = lanes::splat(self.simd, 0.0);
+        let inverted = select(lacking.simd_lt(zero), lacking, zero);
+        self.correct(tet, inverted, gradient, volume * RIGID, zero);
+    }
+
+    /// Volume over volume at rest, and its gradients times the edge.
+    #[inline(always)]
+    fn volume_gradient(&self, tet: &TetLanes<S>) -> (f32x8<S>, [Vec3x8<S>; 4]) {
         let [d, e, f] = self.columns(tet);
         let (by_d, by_e, by_f) = (cross(e, f), cross(f, d), cross(d, e));
         let gradient = [negative(plus(by_d, by_f)), minus(by_d, by_f), plus(by_e, by_f), minus(by_f, by_e)];
-        self.correct(tet, dot(d, by_d) - one, gradient, volume);
+        (dot(d, by_d), gradient)
     }
 
     /// Columns of the deformation gradient in the frame of the tet.
@@ -248,6 +269,7 @@ impl<S: Simd> Solver<S> {
         constraint: f32x8<S>,
         gradient: [Vec3x8<S>; 4],
         compliance: f32x8<S>,
+        damping: f32x8<S>,
     ) {
         let scale = self.inverse_edge;
         let mut weight = lanes::splat(self.simd, 0.0);
@@ -258,8 +280,8 @@ impl<S: Simd> Solver<S> {
             rate += dot(g, minus(tet.p[vertex], tet.old[vertex]));
         }
         let one = lanes::splat(self.simd, 1.0);
-        let numerator = constraint + self.damping * (rate * scale);
-        let denominator = (one + self.damping) * (weight * (scale * scale)) + compliance;
+        let numerator = constraint + damping * (rate * scale);
+        let denominator = (one + damping) * (weight * (scale * scale)) + compliance;
         let impulse = -(numerator / denominator) * scale;
         for vertex in 0..4 {
             tet.p[vertex] = plus(tet.p[vertex], times(gradient[vertex], impulse * tet.w[vertex]));
