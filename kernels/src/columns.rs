@@ -175,7 +175,7 @@ columns! {
         FluidInterior = interior: Vec<f32>, "1", Scratch;
         /// Rate at which drag takes the particle to the velocity of the sponge.
         FluidDragRate = drag_rate: Vec<f32>, "1/s", Scratch;
-        /// Impulse that the particle loses to the sponge, over its interior value; w: the same per velocity \[kg\].
+        /// Impulse that the particle loses to the sponge, over its interior value; w: unused.
         FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
         /// Extremes over chunks of particles, for the time step.
         FluidExtremes = extremes: Extremes, "m/s", Scratch;
@@ -215,9 +215,9 @@ columns! {
         ControlNode = node: Vec<u32>, "1", Scratch;
         /// Position of the node; w: its volume \[m^3\].
         ControlPosition = position: Vec<[f32; 4]>, "m", Scratch;
-        /// Velocity of the node, filtered by the drag of the fluid; w: inverse mass \[1/kg\].
+        /// Velocity of the node, filtered by the drag of the fluid; w: share of the drag, see `couple::drag` \[1/kg\].
         ControlVelocity = velocity: Vec<[f32; 4]>, "m/s", Scratch;
-        /// Velocity of the node before the filter; w: inverse mass [1/kg].
+        /// Velocity of the node before the filter; w: inverse mass \[1/kg\].
         ControlUnfiltered = unfiltered: Vec<[f32; 4]>, "m/s", Scratch;
         /// Cells over the controls.
         ControlCells = cells: Cells, "1", Scratch;

@@ -2,7 +2,7 @@
 //!
 //! One file per kernel. A kernel's name is its path: `sph::density` is `sph/density.rs`. It declares what it
 //! reads and writes, and has a body for the CPU that is generic over the SIMD level and runs on fixed chunks of
-//! rows; its oracle, a brute-force loop in f64, is in the tests. Kernels know no scene, and no other kernel.
+//! rows; its oracle, a brute-force loop in f64, is in `oracle` (tests and feature `oracles`). Kernels know no scene, and no other kernel.
 
 pub mod body;
 pub mod columns;
@@ -11,6 +11,8 @@ pub mod cpu;
 pub mod grid;
 pub mod kernel;
 mod lanes;
+#[cfg(any(test, feature = "oracles"))]
+pub mod oracle;
 pub mod params;
 pub mod pbd;
 pub mod reduce;
@@ -18,6 +20,8 @@ pub mod smoothing;
 pub mod sph;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
 mod vector;
 
 pub use lanes::{LANES, SimdLevel};

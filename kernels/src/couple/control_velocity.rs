@@ -1,9 +1,18 @@
-//! Brings the velocities of the nodes, after their constraints, into the order of the controls.
+//! Brings the velocities of the nodes, after their constraints, into the order of the controls, and begins the
+//! drag with no impulse.
+//!
+//! ```text
+//! s_a = sum_i w_ia / m_a,   w_ia = V_a W_ia / chi_i
+//! ```
+//!
+//! `s_a` says how many particles share a node, over its mass: `couple::drag` needs it to be stable.
 
 use crate::{
     columns::{Column::*, Columns, Controls, padded},
+    couple::drag::weight_inside,
     cpu::Cpu,
     kernel::{Kernel, Need},
+    lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
@@ -11,22 +20,36 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::control_velocity",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[ControlNode, NodePosition, NodeVelocity],
-    writes: &[ControlVelocity, ControlUnfiltered],
+    reads: &[FluidInterior, ControlNode, ControlFluid, ControlFluidWeights, NodePosition, NodeVelocity],
+    writes: &[ControlVelocity, ControlUnfiltered, FluidDrag],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
-    let nodes = &columns.nodes;
-    let Controls { node, velocity, unfiltered, .. } = &mut columns.controls;
-    velocity.clear();
-    velocity.resize(padded(node.len()), [0.0; 4]);
-    cpu.for_chunks(&mut velocity[..node.len()], |first, velocity| {
-        for (velocity, node) in velocity.iter_mut().zip(&node[first..]) {
-            let ([x, y, z, _], [_, _, _, w]) =
-                (nodes.velocity[*node as usize], nodes.position[*node as usize]);
-            *velocity = [x, y, z, w];
-        }
+    let (fluid, controls, nodes) = (&mut columns.fluid, &mut columns.controls, &columns.nodes);
+    let Controls { node, velocity, unfiltered, fluid: lists, fluid_weights, .. } = controls;
+    unfiltered.clear();
+    unfiltered.resize(padded(node.len()), [0.0; 4]);
+    for (unfiltered, node) in unfiltered.iter_mut().zip(&*node) {
+        let ([x, y, z, _], [_, _, _, w]) = (nodes.velocity[*node as usize], nodes.position[*node as usize]);
+        *unfiltered = [x, y, z, w];
+    }
+    velocity.clone_from(unfiltered);
+    let interior = &fluid.interior;
+    fluid.drag.clear();
+    fluid.drag.resize(interior.len(), [0.0; 4]);
+    cpu.for_chunks(&mut velocity[..], |first, velocity| {
+        let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
+        with_lanes!(cpu, simd => {
+            for row in (0..velocity.len()).step_by(LANES) {
+                let [ux, uy, uz, w] = lanes::load_rows(simd, velocity, row);
+                let mut sum = lanes::splat(simd, 0.0);
+                for (entry, weight) in lists.group(row).iter().zip(&weights[lists.range(row)]) {
+                    let inverse = weight_inside(simd, lanes::gather(simd, interior, entry));
+                    sum += lanes::load(simd, weight, 0) * inverse;
+                }
+                lanes::store_rows(velocity, row, [ux, uy, uz, sum * w]);
+            }
+        });
     });
-    unfiltered.clone_from(velocity);
 }

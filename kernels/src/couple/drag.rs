@@ -1,9 +1,15 @@
-//! Drag of the sponge on the particles: the impulse that each would lose to it (the paper, section 3.3).
+//! Drag of the sponge on the particles: one sweep for the impulse that each loses to it (the paper, section 3.3).
 //!
 //! ```text
-//! u_i = sum_a V_a W_ia u_a / chi_i                           velocity of the sponge at the particle
-//! J_i = m h beta_i / (1 + h beta_i) (v_i - u_i)              linear drag, implicit in the particle
+//! u_i = sum_a w_ia u_a,   w_ia = V_a W_ia / chi_i             velocity of the sponge at the particle
+//! k_i = m h beta_i / (1 + h beta_i)                          linear drag, implicit in the particle
+//! J_i += (k_i (v_i - u_i) - J_i) / (1 + k_i sum_a w_ia s_a)
 //! ```
+//!
+//! with `s_a` from `couple::control_velocity`, beginning at J = 0. This is a Jacobi sweep for J = k (v - u(J)),
+//! implicit in particles and nodes. What stands below the line bounds the sum of the row of the matrix, so that
+//! every sweep lessens the kinetic energy, however strong the drag and however light the nodes, and momentum is
+//! kept at any number of sweeps. Where velocities and weights are uniform the first sweep is exact.
 //!
 //! Differs from the paper, where the viscosity term is explicit: at the permeability of a real sponge the rate
 //! beta is thousands per second, and an explicit term would need steps of microseconds.
@@ -12,9 +18,9 @@ use crate::{
     columns::{Column::*, Columns, Fluid},
     cpu::Cpu,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, prelude::*, select, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
-    vector::{minus, times},
+    vector::{minus, plus, times},
 };
 
 /// `couple::drag`.
@@ -27,6 +33,7 @@ pub static KERNEL: Kernel = Kernel {
         FluidControlWeights,
         FluidInterior,
         FluidDragRate,
+        FluidDrag,
         ControlVelocity,
     ],
     writes: &[FluidDrag],
@@ -36,12 +43,19 @@ pub static KERNEL: Kernel = Kernel {
 /// Interior value below which a particle feels no drag.
 const OUTSIDE: f32 = 1.0e-3;
 
+/// 1 / chi, or 0 where a particle feels no drag.
+#[inline(always)]
+pub(super) fn weight_inside<S: Simd>(simd: S, chi: f32x8<S>) -> f32x8<S> {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let inside = chi.simd_gt(lanes::splat(simd, OUTSIDE));
+    select(inside, one / select(inside, chi, one), zero)
+}
+
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { velocity, controls: lists, control_weights, interior, drag_rate, drag, .. } =
         &mut columns.fluid;
     let control_velocity = &columns.controls.velocity;
     let (step, mass) = (params.step, params.fluid.particle_mass);
-    drag.resize(velocity.len(), [0.0; 4]);
     cpu.for_chunks(&mut drag[..], |first, drag| {
         let (lists, weights) = (lists.chunk(first), control_weights.chunk(first));
         with_lanes!(cpu, simd => {
@@ -53,20 +67,27 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     continue;
                 }
                 let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
-                let mut sum = [zero; 3];
+                let mut sum = [zero; 4];
                 for (entry, weight) in group.iter().zip(&weights[lists.range(row)]) {
-                    let [ux, uy, uz, _] = lanes::gather_rows(simd, control_velocity, entry);
+                    let [ux, uy, uz, shared] = lanes::gather_rows(simd, control_velocity, entry);
                     let weight = lanes::load(simd, weight, 0);
-                    sum = [sum[0] + weight * ux, sum[1] + weight * uy, sum[2] + weight * uz];
+                    sum = [
+                        sum[0] + weight * ux,
+                        sum[1] + weight * uy,
+                        sum[2] + weight * uz,
+                        sum[3] + weight * shared,
+                    ];
                 }
-                let chi = lanes::load(simd, interior, first + row);
-                let inside = chi.simd_gt(lanes::splat(simd, OUTSIDE));
-                let inverse = one / select(inside, chi, one);
-                let sponge = times(sum, inverse);
+                let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
+                let sponge = times([sum[0], sum[1], sum[2]], inverse);
                 let rate = lanes::load(simd, drag_rate, first + row) * step;
-                let strength = select(inside, rate / (one + rate) * mass * inverse, zero);
-                let lost = times(minus([vx, vy, vz], sponge), strength);
-                lanes::store_rows(drag, row, [lost[0], lost[1], lost[2], strength]);
+                let strength = rate / (one + rate) * mass;
+                // The column holds impulses over chi.
+                let [jx, jy, jz, _] = lanes::load_rows(simd, drag, row);
+                let old = [jx, jy, jz];
+                let lacking = minus(times(minus([vx, vy, vz], sponge), strength * inverse), old);
+                let new = plus(old, times(lacking, one / (one + strength * (sum[3] * inverse))));
+                lanes::store_rows(drag, row, [new[0], new[1], new[2], zero]);
             }
         });
     });

@@ -42,7 +42,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         with_lanes!(cpu, simd => {
             for row in (0..velocity.len()).step_by(LANES) {
                 let [ox, oy, oz, w] = lanes::load_rows(simd, unfiltered, first + row);
-                let [jx, jy, jz, _] = received(simd, drag, lists, weights, row);
+                let [jx, jy, jz] = received(simd, drag, lists, weights, row);
                 lanes::store_rows(velocity, row, [ox + w * jx, oy + w * jy, oz + w * jz, w]);
             }
         });

@@ -73,6 +73,25 @@ impl Neighbors {
         self.chunks.iter().map(|chunk| chunk.entries.len() * LANES).sum()
     }
 
+    /// Lists given one by one, with entries in order; `padding` fills up a group.
+    #[cfg(any(test, feature = "oracles"))]
+    pub(crate) fn from_lists(lists: &[Vec<u32>], padding: u32) -> Self {
+        let mut chunks = Vec::new();
+        for queries in lists.chunks(CHUNK) {
+            let mut chunk = ChunkLists::default();
+            for (group, queries) in queries.chunks(LANES).enumerate() {
+                let length = queries.iter().map(Vec::len).max().unwrap_or(0);
+                let entry = |k: usize, lane: usize| queries.get(lane).and_then(|list| list.get(k)).copied();
+                chunk.entries.extend(
+                    (0..length).map(|k| std::array::from_fn(|lane| entry(k, lane).unwrap_or(padding))),
+                );
+                chunk.start[group + 1..].fill(chunk.entries.len() as u32);
+            }
+            chunks.push(chunk);
+        }
+        Self { chunks }
+    }
+
     /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded
     /// rows in the order of `cells`).
     pub(crate) fn build(

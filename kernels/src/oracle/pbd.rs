@@ -1,0 +1,178 @@
+//! The sponge, constraint by constraint.
+
+use glam::DVec3;
+
+use super::{row, shapes, vector};
+use crate::{
+    body::{Body, Wrench},
+    columns::Columns,
+    params::{Params, SpongeParams},
+    pbd::lattice::COLORS,
+    reduce::{Extreme, Extremes},
+};
+
+pub(super) fn gravity(params: &Params, columns: &mut Columns) {
+    let rows = columns.nodes.position.len();
+    columns.nodes.acceleration = vec![row(params.gravity.as_dvec3(), 0.0); rows];
+}
+
+pub(super) fn predict(params: &Params, columns: &mut Columns) {
+    let nodes = &mut columns.nodes;
+    let bodies = &columns.bodies.states.0;
+    let h = f64::from(params.step);
+    nodes.predicted.resize(nodes.position.len(), [0.0; 4]);
+    for node in 0..columns.rows.nodes {
+        let (x, v, a) = (nodes.position[node], nodes.velocity[node], nodes.acceleration[node]);
+        let y = match bodies.get(nodes.grip[node] as usize) {
+            Some(body) => {
+                let place =
+                    body.state.position.as_dvec3() + shapes::rotation(body) * vector(nodes.grip_offset[node]);
+                place + h * shapes::velocity(body, place)
+            }
+            None => vector(x) + h * (vector(v) + h * vector(a)),
+        };
+        nodes.predicted[node] = row(y, f64::from(x[3]));
+    }
+    columns.bodies.wrenches.nodes = vec![Wrench::default(); bodies.len()];
+}
+
+/// How every vertex enters the columns of the deformation gradient, in the frame of the tet, times the edge.
+const SHAPE: [[f64; 3]; 4] = [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
+
+pub(super) fn strain(params: &Params, columns: &mut Columns) {
+    let nodes = &mut columns.nodes;
+    let mut predicted: Vec<DVec3> = nodes.predicted.iter().map(|row| vector(*row)).collect();
+    for chunk in (0..COLORS).flat_map(|color| &nodes.topology.chunks[color]) {
+        for tet in &nodes.topology.tets[chunk.tets.start as usize..chunk.tets.end as usize] {
+            let tet = tet.map(|node| node as usize);
+            let mut state = Tet {
+                p: tet.map(|node| predicted[node]),
+                old: tet.map(|node| vector(nodes.position[node])),
+                w: tet.map(|node| f64::from(nodes.predicted[node][3])),
+            };
+            state.solve(&params.sponges[chunk.sponge as usize], f64::from(params.step));
+            (0..4).for_each(|vertex| predicted[tet[vertex]] = state.p[vertex]);
+        }
+    }
+    for (node, y) in predicted.into_iter().enumerate().take(columns.rows.nodes) {
+        nodes.predicted[node] = row(y, f64::from(nodes.predicted[node][3]));
+    }
+}
+
+struct Tet {
+    p: [DVec3; 4],
+    old: [DVec3; 4],
+    w: [f64; 4],
+}
+
+impl Tet {
+    fn solve(&mut self, sponge: &SpongeParams, h: f64) {
+        let edge = f64::from(sponge.edge);
+        let volume = edge.powi(3) / 12.0;
+        let tau = f64::from(sponge.damping_time);
+        // Iterations restart from no impulse: each takes its share of the stiffness.
+        let compliance = |modulus: f32| f64::from(sponge.iterations) / (f64::from(modulus) * volume * h * h);
+        let settings = |modulus| (edge, compliance(modulus), tau / h);
+        for k in 0..3 {
+            let f = self.columns(edge)[k];
+            let mut slope = [DVec3::ZERO; 3];
+            slope[k] = f.normalize();
+            self.correct(f.length() - 1.0, slope, settings(sponge.stretch_modulus));
+        }
+        for (k, l) in [(0, 1), (0, 2), (1, 2)] {
+            let f = self.columns(edge);
+            let mut slope = [DVec3::ZERO; 3];
+            (slope[k], slope[l]) = (f[l], f[k]);
+            self.correct(f[k].dot(f[l]), slope, settings(sponge.shear_modulus));
+        }
+        let [d, e, f] = self.columns(edge);
+        let slope = [e.cross(f), f.cross(d), d.cross(e)];
+        self.correct(d.dot(e.cross(f)) - 1.0, slope, settings(sponge.volume_modulus));
+    }
+
+    /// Columns of the deformation gradient.
+    fn columns(&self, edge: f64) -> [DVec3; 3] {
+        [0, 1, 2].map(|k| (0..4).map(|vertex| self.p[vertex] * (SHAPE[vertex][k] / edge)).sum())
+    }
+
+    /// One constraint, given by its value and its derivatives by the columns.
+    fn correct(&mut self, value: f64, slope: [DVec3; 3], (edge, compliance, damping): (f64, f64, f64)) {
+        let gradient: [DVec3; 4] =
+            [0, 1, 2, 3].map(|vertex| (0..3).map(|k| slope[k] * (SHAPE[vertex][k] / edge)).sum());
+        let sum = |term: &dyn Fn(usize) -> f64| (0..4).map(term).sum::<f64>();
+        let weight = sum(&|vertex| self.w[vertex] * gradient[vertex].length_squared());
+        let rate = sum(&|vertex| gradient[vertex].dot(self.p[vertex] - self.old[vertex]));
+        let impulse = -(value + damping * rate) / ((1.0 + damping) * weight + compliance);
+        (0..4).for_each(|vertex| self.p[vertex] += self.w[vertex] * impulse * gradient[vertex]);
+    }
+}
+
+pub(super) fn contact(params: &Params, columns: &mut Columns) {
+    let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
+    let h = f64::from(params.step);
+    // What other kernels gave before, in one chunk.
+    let mut wrenches = vec![Wrench::default(); bodies.len()];
+    for chunk in columns.bodies.wrenches.nodes.chunks(bodies.len().max(1)) {
+        for (wrench, part) in wrenches.iter_mut().zip(chunk) {
+            wrench.impulse += part.impulse;
+            wrench.angular_impulse += part.angular_impulse;
+        }
+    }
+    for node in 0..columns.rows.nodes {
+        let w = f64::from(nodes.predicted[node][3]);
+        if w <= 0.0 {
+            continue;
+        }
+        let (mut point, old) = (vector(nodes.predicted[node]), vector(nodes.position[node]));
+        for (body, wrench) in bodies.iter().zip(&mut wrenches).filter(|(body, _)| body.touches_nodes) {
+            let change = touch(body, point, old, h);
+            point += change;
+            wrench.add(change / (-w * h), point - body.state.position.as_dvec3());
+        }
+        if let Some((low, high)) = params.walls {
+            let friction = f64::from(params.sponges[nodes.sponge[node] as usize].friction);
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                for (normal, wall) in [(axis, low), (-axis, high)] {
+                    let depth = (wall.as_dvec3() - point).dot(normal);
+                    point += resolve(depth, normal, point - old, friction);
+                }
+            }
+        }
+        nodes.predicted[node] = row(point, w);
+    }
+    columns.bodies.wrenches.nodes = wrenches;
+}
+
+/// Change of position by one body, which stands where it began the step.
+fn touch(body: &Body, point: DVec3, old: DVec3, h: f64) -> DVec3 {
+    let drift = h * shapes::velocity(body, point);
+    let (distance, normal) = shapes::distance(body, point - drift);
+    resolve(-distance, normal, point - old - drift, f64::from(body.friction))
+}
+
+/// Out along the normal, and back along the surface as far as friction reaches.
+fn resolve(depth: f64, normal: DVec3, slide: DVec3, friction: f64) -> DVec3 {
+    if depth <= 0.0 {
+        return DVec3::ZERO;
+    }
+    let tangent = slide - slide.dot(normal) * normal;
+    depth * normal - tangent.clamp_length_max(friction * depth)
+}
+
+pub(super) fn velocity(params: &Params, columns: &mut Columns) {
+    let nodes = &mut columns.nodes;
+    let mut extreme = Extreme::default();
+    let mut largest = 0.0_f64;
+    for node in 0..columns.rows.nodes {
+        let y = nodes.predicted[node];
+        let v = (vector(y) - vector(nodes.position[node])) / f64::from(params.step);
+        largest = largest.max(v.length_squared());
+        if !v.is_finite() && extreme.not_finite == 0 {
+            extreme.not_finite = node as u32 + 1;
+        }
+        nodes.velocity[node] = row(v, f64::from(nodes.velocity[node][3]));
+        nodes.position[node] = y;
+    }
+    extreme.speed_squared = largest as f32;
+    nodes.extremes = Extremes(vec![extreme]);
+}

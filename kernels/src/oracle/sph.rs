@@ -1,0 +1,153 @@
+//! The fluid, pair by pair.
+
+use glam::DVec3;
+
+use super::{closeness, gradient, pi_power, row, shapes, smoothing, vector, vectors};
+use crate::{
+    body::Wrench,
+    columns::Columns,
+    params::{EquationOfState, Params},
+    reduce::{Extreme, Extremes},
+};
+
+pub(super) fn density(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let x = vectors(&fluid.position, columns.rows.fluid);
+    let radius = params.fluid.smoothing.support_radius;
+    let mass = f64::from(params.fluid.particle_mass);
+    fluid.density.resize(fluid.position.len(), 0.0);
+    for (x_i, density) in x.iter().zip(&mut fluid.density) {
+        let sum: f64 = x.iter().map(|x_j| smoothing(radius, x_i.distance(*x_j))).sum();
+        *density = (mass * sum) as f32;
+    }
+}
+
+pub(super) fn pressure(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let rest = f64::from(params.fluid.rest_density);
+    let square = f64::from(params.fluid.sound_speed).powi(2);
+    for row in 0..columns.rows.fluid {
+        let density = f64::from(fluid.density[row]);
+        let pressure = match params.fluid.equation_of_state {
+            EquationOfState::Linear => square * (density - rest),
+            EquationOfState::Tait => rest * square / 7.0 * ((density / rest).powi(7) - 1.0),
+        };
+        fluid.position[row][3] = (pressure.max(0.0) / density.powi(2)) as f32;
+        fluid.velocity[row][3] = (f64::from(params.fluid.particle_mass) / density) as f32;
+    }
+}
+
+pub(super) fn forces(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let (x, v) = (vectors(&fluid.position, count), vectors(&fluid.velocity, count));
+    let radius = params.fluid.smoothing.support_radius;
+    let mass = f64::from(params.fluid.particle_mass);
+    fluid.acceleration.resize(fluid.position.len(), [0.0; 4]);
+    for i in 0..count {
+        let (mut pressure, mut viscosity) = (DVec3::ZERO, DVec3::ZERO);
+        for j in 0..count {
+            let offset = x[i] - x[j];
+            let both = f64::from(fluid.position[i][3]) + f64::from(fluid.position[j][3]);
+            pressure -= mass * both * gradient(radius, offset);
+            let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
+            viscosity += f64::from(fluid.velocity[j][3]) * laplacian * (v[j] - v[i]);
+        }
+        // mu / rho_i, where the velocity row holds m / rho_i.
+        let scale = f64::from(params.fluid.viscosity) * f64::from(fluid.velocity[i][3]) / mass;
+        fluid.acceleration[i] = row(params.gravity.as_dvec3() + pressure + scale * viscosity, 0.0);
+    }
+}
+
+pub(super) fn surface_tension(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let x = vectors(&fluid.position, count);
+    let radius = params.fluid.smoothing.support_radius;
+    let per_mass = f64::from(params.fluid.surface_tension) / f64::from(params.fluid.particle_mass);
+    for i in 0..count {
+        let (mut normal, mut laplacian) = (DVec3::ZERO, 0.0);
+        for j in 0..count {
+            let volume = f64::from(fluid.velocity[j][3]);
+            normal += volume * gradient(radius, x[i] - x[j]);
+            let u = closeness(radius, x[i].distance(x[j]));
+            laplacian -= volume * 630.0 / pi_power(radius, 5) * u * u * (2.0 * u - 1.0);
+        }
+        if normal.length() * f64::from(radius) > 1.0 {
+            let strength = per_mass * f64::from(fluid.velocity[i][3]) * laplacian;
+            let change = strength * normal.normalize();
+            fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - change, 0.0);
+        }
+    }
+}
+
+pub(super) fn repulsion(params: &Params, columns: &mut Columns) {
+    let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
+    let parameters = &params.fluid;
+    let range = f64::from(parameters.repulsion_range);
+    let push = |distance: f64, speed: f64| {
+        let depth = range - distance;
+        let force = f64::from(parameters.repulsion_stiffness) * depth
+            - f64::from(parameters.repulsion_damping) * speed;
+        if depth > 0.0 { force.max(0.0) } else { 0.0 }
+    };
+    let mut wrenches = vec![Wrench::default(); bodies.len()];
+    for i in 0..columns.rows.fluid {
+        let (x, v) = (vector(fluid.position[i]), vector(fluid.velocity[i]));
+        let mut sum = vector(fluid.acceleration[i]);
+        if let Some((low, high)) = params.walls {
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                sum += axis * push((x - low.as_dvec3()).dot(axis), v.dot(axis));
+                sum -= axis * push((high.as_dvec3() - x).dot(axis), -v.dot(axis));
+            }
+        }
+        for (body, wrench) in bodies.iter().zip(&mut wrenches) {
+            let (distance, normal) = shapes::distance(body, x);
+            let change = normal * push(distance, (v - shapes::velocity(body, x)).dot(normal));
+            sum += change;
+            let impulse = change * -f64::from(parameters.particle_mass) * f64::from(params.step);
+            wrench.add(impulse, x - normal * distance - body.state.position.as_dvec3());
+        }
+        fluid.acceleration[i] = row(sum, 0.0);
+    }
+    columns.bodies.wrenches.fluid = wrenches;
+}
+
+pub(super) fn kick(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let mut largest = 0.0_f64;
+    for i in 0..columns.rows.fluid {
+        let a = vector(fluid.acceleration[i]);
+        largest = largest.max(a.length_squared());
+        let w = f64::from(fluid.velocity[i][3]);
+        fluid.velocity[i] = row(vector(fluid.velocity[i]) + f64::from(params.step) * a, w);
+    }
+    fluid.extremes = Extremes(vec![Extreme { acceleration_squared: largest as f32, ..Extreme::default() }]);
+}
+
+pub(super) fn advect(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let margin = DVec3::splat(f64::from(params.fluid.spacing) * 0.05);
+    let mut extreme = fluid.extremes.total();
+    let mut largest = 0.0_f64;
+    for i in 0..columns.rows.fluid {
+        let mut v = vector(fluid.velocity[i]);
+        let mut x = vector(fluid.position[i]) + f64::from(params.step) * v;
+        if let Some((low, high)) = params.walls {
+            let inside = x.clamp(low.as_dvec3() + margin, high.as_dvec3() - margin);
+            for axis in 0..3 {
+                // Where the wall pushed the particle back, no speed into the wall is left.
+                if (inside - x)[axis] * v[axis] < 0.0 {
+                    v[axis] = 0.0;
+                }
+            }
+            x = inside;
+        }
+        largest = largest.max(v.length_squared());
+        if !(v.is_finite() && x.is_finite()) && extreme.not_finite == 0 {
+            extreme.not_finite = i as u32 + 1;
+        }
+        fluid.position[i] = row(x, f64::from(fluid.position[i][3]));
+        fluid.velocity[i] = row(v, f64::from(fluid.velocity[i][3]));
+    }
+    extreme.speed_squared = largest as f32;
+    fluid.extremes = Extremes(vec![extreme]);
+}

@@ -1,0 +1,116 @@
+//! Declared = actual: a kernel writes the columns that it says, and reads no others.
+//!
+//! Undeclared writes are found by comparing all other columns before and after. Undeclared reads are found by
+//! poisoning all columns that are not declared as read, and demanding the same output; a written column that is
+//! not read is poisoned as well.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::{
+    levels::words,
+    scene::{FULL, Options, Scene, best},
+};
+use crate::{
+    columns::{Column, Columns},
+    cpu::Cpu,
+    kernel::{KERNELS, Kernel, kernel},
+};
+
+/// Columns of which a kernel replaces one part and leaves the other as it is.
+///
+/// The wrenches by the fluid and by the nodes are two halves of one column; each is replaced by one kernel.
+const HALF_WRITTEN: &[(&str, Column)] =
+    &[("sph::repulsion", Column::BodyWrenches), ("pbd::predict", Column::BodyWrenches)];
+
+/// What is wrong with a declaration, if anything.
+fn audit(
+    run: fn(&Cpu, &crate::params::Params, &mut Columns),
+    reads: &[Column],
+    writes: &[Column],
+    before: &Scene,
+) -> Result<(), String> {
+    let cpu = best();
+    let mut after = before.columns.clone();
+    run(&cpu, &before.params, &mut after);
+    for column in Column::ALL.iter().filter(|column| !writes.contains(column)) {
+        if words(&after, *column) != words(&before.columns, *column) {
+            return Err(format!("writes {}", column.name()));
+        }
+    }
+    let mut poisoned = before.columns.clone();
+    for column in Column::ALL.iter().filter(|column| !reads.contains(column)) {
+        poisoned.data_mut(*column).poison();
+    }
+    // A poisoned index may well panic: that is a read as well.
+    let outcome = catch_unwind(AssertUnwindSafe(|| run(&cpu, &before.params, &mut poisoned)));
+    if outcome.is_err() {
+        return Err("panics without the columns that it does not read".to_owned());
+    }
+    let differs = |column: &&Column| words(&after, **column) != words(&poisoned, **column);
+    match writes.iter().find(differs) {
+        Some(column) => Err(format!("reads more than declared for {}", column.name())),
+        None => Ok(()),
+    }
+}
+
+/// The reads of a kernel for the audit.
+fn reads(kernel: &Kernel) -> Vec<Column> {
+    let kept = HALF_WRITTEN.iter().filter(|(name, _)| *name == kernel.name);
+    kernel.reads.iter().copied().chain(kept.map(|(_, column)| *column)).collect()
+}
+
+fn scenes() -> Vec<Options> {
+    vec![FULL, Options { fluid: 200, bounded: false, ..FULL }, Options { fluid: 9, walls: false, ..FULL }]
+}
+
+fn without(columns: &[Column], column: Column) -> Vec<Column> {
+    columns.iter().copied().filter(|other| *other != column).collect()
+}
+
+#[test]
+fn kernels_read_and_write_what_they_declare() {
+    let mut failures = Vec::new();
+    for options in scenes() {
+        for kernel in KERNELS {
+            let before = Scene::new(options).before(kernel.name, &best());
+            if let Err(error) = audit(kernel.cpu, &reads(kernel), kernel.writes, &before) {
+                failures.push(format!("{} {error} in {options:?}", kernel.name));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_declared_column_is_needed() {
+    let mut superfluous = Vec::new();
+    for kernel in KERNELS {
+        let before = Scene::new(FULL).before(kernel.name, &best());
+        let own = reads(kernel);
+        for column in kernel.reads {
+            if audit(kernel.cpu, &without(&own, *column), kernel.writes, &before).is_ok() {
+                superfluous.push(format!("{} does not read {}", kernel.name, column.name()));
+            }
+        }
+        for column in kernel.writes {
+            if audit(kernel.cpu, &own, &without(kernel.writes, *column), &before).is_ok() {
+                superfluous.push(format!("{} does not write {}", kernel.name, column.name()));
+            }
+        }
+    }
+    assert!(superfluous.is_empty(), "{}", superfluous.join("\n"));
+}
+
+#[test]
+fn lies_are_found() {
+    let kernel = kernel("sph::density").expect("there is one");
+    let before = Scene::new(FULL).before(kernel.name, &best());
+    let audit = |reads: &[Column], writes: &[Column]| audit(kernel.cpu, reads, writes, &before);
+    assert_eq!(audit(kernel.reads, kernel.writes), Ok(()));
+    let lie = audit(&without(kernel.reads, Column::FluidPosition), kernel.writes);
+    assert_eq!(lie, Err("reads more than declared for fluid.density".to_owned()));
+    let lie = audit(&without(kernel.reads, Column::FluidNeighbors), kernel.writes);
+    assert_eq!(lie, Err("panics without the columns that it does not read".to_owned()));
+    let lie = audit(kernel.reads, &[]);
+    assert_eq!(lie, Err("writes fluid.density".to_owned()));
+}

@@ -1,0 +1,199 @@
+//! Columns in a form that does not depend on the order of rows and lists, and how far two of them differ.
+
+use crate::{
+    body::Wrench,
+    columns::{Column, Columns},
+    grid::{cells::Cells, neighbors::Neighbors},
+    kernel::Kernel,
+    params::Params,
+    reduce::Extreme,
+};
+
+/// Content of a column by identity.
+#[derive(Clone, Debug, PartialEq)]
+enum Content {
+    /// Groups of numbers that share a scale.
+    Numbers(Vec<Vec<f64>>),
+    /// Sets of identities.
+    Sets(Vec<Vec<u32>>),
+}
+
+/// Largest error of a column that the kernel wrote, over the scale of what it changed there.
+///
+/// `found` and `oracle` are the columns after the kernel and after its oracle, `before` those before both.
+/// Where the kernel reads the column as well, or moves nodes, errors are over the largest change, not over the
+/// largest value: a wrong change must not hide in a large value.
+pub(super) fn errors(
+    kernel: &Kernel,
+    params: &Params,
+    before: &Columns,
+    found: &Columns,
+    oracle: &Columns,
+) -> Vec<(Column, f64)> {
+    let error = |column: &Column| {
+        let base = match column {
+            Column::NodePredicted => Some(Column::NodePosition),
+            // A sweep that changes next to nothing has converged.
+            Column::FluidDrag => None,
+            column => kernel.reads.contains(column).then_some(*column),
+        };
+        let base = base.map(|column| content(column, params, before, true));
+        let [found, oracle] =
+            [(found, false), (oracle, true)].map(|(columns, brute)| content(*column, params, columns, brute));
+        (*column, distance(base, found, oracle))
+    };
+    kernel.writes.iter().map(error).collect()
+}
+
+fn distance(base: Option<Content>, found: Content, oracle: Content) -> f64 {
+    match (found, oracle) {
+        (Content::Numbers(found), Content::Numbers(oracle)) => {
+            let base = match base {
+                Some(Content::Numbers(base)) => base,
+                _ => oracle.iter().map(|group| vec![0.0; group.len()]).collect(),
+            };
+            let groups = found.iter().zip(&oracle).zip(&base);
+            groups.map(|((found, oracle), base)| group_distance(base, found, oracle)).fold(0.0, f64::max)
+        }
+        (found, oracle) => {
+            if found == oracle {
+                0.0
+            } else {
+                f64::INFINITY
+            }
+        }
+    }
+}
+
+fn group_distance(base: &[f64], found: &[f64], oracle: &[f64]) -> f64 {
+    if found.len() != oracle.len() || !found.iter().all(|value| value.is_finite()) {
+        return f64::INFINITY;
+    }
+    let scale = oracle.iter().zip(base).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let error = oracle.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    if error > 0.0 { error / scale } else { 0.0 }
+}
+
+/// Rows of particles in the order of their ids.
+fn by_id(columns: &Columns) -> Vec<usize> {
+    let mut rows: Vec<usize> = (0..columns.rows.fluid).collect();
+    rows.sort_by_key(|row| columns.fluid.id[*row]);
+    rows
+}
+
+/// Rows of controls in the order of their nodes; empty before there are any.
+fn by_node(columns: &Columns) -> Vec<usize> {
+    let mut rows: Vec<usize> = (0..columns.rows.nodes.min(columns.controls.node.len())).collect();
+    rows.sort_by_key(|row| columns.controls.node[*row]);
+    rows
+}
+
+fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> Content {
+    let (fluid, nodes, controls) = (&columns.fluid, &columns.nodes, &columns.controls);
+    let (ids, by_id, by_node) = (&fluid.id, by_id(columns), by_node(columns));
+    let all_nodes: Vec<usize> = (0..columns.rows.nodes).collect();
+    let radii = [params.fluid.smoothing.support_radius, params.coupling.support_radius];
+    match column {
+        Column::FluidPosition => rows(&fluid.position, &by_id),
+        Column::FluidVelocity => rows(&fluid.velocity, &by_id),
+        Column::FluidAcceleration => rows(&fluid.acceleration, &by_id),
+        Column::FluidDrag => rows(&fluid.drag, &by_id),
+        Column::FluidId => Content::Sets(vec![by_id.iter().map(|row| ids[*row]).collect()]),
+        Column::FluidDensity => values(&fluid.density, &by_id),
+        Column::FluidInterior => values(&fluid.interior, &by_id),
+        Column::FluidDragRate => values(&fluid.drag_rate, &by_id),
+        Column::FluidCells => boxes(&fluid.cells, &fluid.position, &by_id, ids, radii[0], brute),
+        Column::ControlCells => {
+            boxes(&controls.cells, &controls.position, &by_node, &controls.node, radii[1], brute)
+        }
+        Column::FluidNeighbors => sets(&fluid.neighbors, &by_id, ids, columns.rows.fluid),
+        Column::FluidControls => sets(&fluid.controls, &by_id, &controls.node, columns.rows.nodes),
+        Column::ControlFluid => sets(&controls.fluid, &by_node, ids, columns.rows.fluid),
+        Column::ControlNode => Content::Sets(vec![by_node.iter().map(|row| controls.node[*row]).collect()]),
+        Column::ControlPosition => rows(&controls.position, &by_node),
+        Column::ControlVelocity => rows(&controls.velocity, &by_node),
+        Column::ControlUnfiltered => rows(&controls.unfiltered, &by_node),
+        Column::ControlSaturation => values(&controls.saturation, &by_node),
+        Column::ControlSuction => values(&controls.suction, &by_node),
+        Column::NodePosition => rows(&nodes.position, &all_nodes),
+        Column::NodeVelocity => rows(&nodes.velocity, &all_nodes),
+        Column::NodePredicted => rows(&nodes.predicted, &all_nodes),
+        Column::NodeAcceleration => rows(&nodes.acceleration, &all_nodes),
+        Column::NodeSaturation => values(&nodes.saturation, &all_nodes),
+        Column::FluidExtremes => extremes(fluid.extremes.total()),
+        Column::NodeExtremes => extremes(nodes.extremes.total()),
+        Column::BodyWrenches => {
+            let wrenches = &columns.bodies.wrenches;
+            let mut numbers = totals(&wrenches.fluid, columns.rows.bodies);
+            numbers.extend(totals(&wrenches.nodes, columns.rows.bodies));
+            Content::Numbers(numbers)
+        }
+        other => panic!("no kernel writes {}", other.name()),
+    }
+}
+
+fn rows(data: &[[f32; 4]], order: &[usize]) -> Content {
+    let vectors = order.iter().flat_map(|row| data[*row][..3].iter().copied().map(f64::from));
+    let w = order.iter().map(|row| f64::from(data[*row][3]));
+    Content::Numbers(vec![vectors.collect(), w.collect()])
+}
+
+fn values(data: &[f32], order: &[usize]) -> Content {
+    Content::Numbers(vec![order.iter().map(|row| f64::from(data[*row])).collect()])
+}
+
+fn extremes(total: Extreme) -> Content {
+    let numbers =
+        [f64::from(total.speed_squared), f64::from(total.acceleration_squared), f64::from(total.not_finite)];
+    Content::Numbers(numbers.map(|number| vec![number]).to_vec())
+}
+
+/// Impulses and angular impulses of every body, chunks added up.
+fn totals(wrenches: &[Wrench], bodies: usize) -> Vec<Vec<f64>> {
+    let mut totals = vec![Wrench::default(); bodies];
+    for (index, wrench) in wrenches.iter().enumerate() {
+        totals[index % bodies].impulse += wrench.impulse;
+        totals[index % bodies].angular_impulse += wrench.angular_impulse;
+    }
+    vec![
+        totals.iter().flat_map(|wrench| wrench.impulse.to_array()).collect(),
+        totals.iter().flat_map(|wrench| wrench.angular_impulse.to_array()).collect(),
+    ]
+}
+
+fn sets(lists: &Neighbors, order: &[usize], identity: &[u32], targets: usize) -> Content {
+    let set = |query: &usize| {
+        let mut set: Vec<u32> = lists.of(*query, targets).map(|row| identity[row as usize]).collect();
+        set.sort_unstable();
+        set
+    };
+    Content::Sets(order.iter().map(set).collect())
+}
+
+/// For every point, the points in a box around it: by the cells, or by looking at all points.
+fn boxes(
+    cells: &Cells,
+    points: &[[f32; 4]],
+    order: &[usize],
+    identity: &[u32],
+    radius: f32,
+    brute: bool,
+) -> Content {
+    let set = |query: &usize| {
+        let [x, y, z, _] = points[*query];
+        let (low, high) = ([x, y, z].map(|x| x - radius), [x, y, z].map(|x| x + radius));
+        let mut rows: Vec<usize> = Vec::new();
+        if brute {
+            rows.extend_from_slice(order);
+        } else {
+            let mut runs = Vec::new();
+            cells.spans(low, high, &mut runs);
+            rows.extend(runs.iter().flat_map(|[begin, end]| *begin as usize..*end as usize));
+        }
+        let inside = |row: &usize| (0..3).all(|k| (low[k]..=high[k]).contains(&points[*row][k]));
+        let mut set: Vec<u32> = rows.into_iter().filter(inside).map(|row| identity[row]).collect();
+        set.sort_unstable();
+        set
+    };
+    Content::Sets(order.iter().map(set).collect())
+}

@@ -1,0 +1,11 @@
+//! Tests of the kernel table: every kernel against its oracle, its declaration, and physics.
+
+mod audit;
+mod compare;
+mod drag;
+mod lattice;
+mod levels;
+mod momentum;
+mod oracles;
+mod scene;
+mod strain;

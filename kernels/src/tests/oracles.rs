@@ -1,0 +1,192 @@
+//! Every kernel against its oracle in f64.
+
+use glam::Vec3;
+
+use super::{
+    compare::errors,
+    scene::{FULL, Scene, all_options, best},
+};
+use crate::{
+    columns::{Column, Columns},
+    grid::cells::Domain,
+    kernel::{KERNELS, Kernel, kernel},
+    oracle::oracle,
+};
+
+/// Largest error of any column over the scale of its changes.
+///
+/// Rounding to f32 is 6e-8 of a value; sums of tens of terms and the Tait equation (seventh power) lose a little
+/// more. Displacements of nodes are differences of positions that are a hundred times larger. Each bound is about
+/// four times what was found.
+const BOUNDS: &[(&str, f64)] = &[
+    ("grid::sort_fluid", 0.0),
+    ("grid::fluid_neighbors", 0.0),
+    ("sph::density", 2e-6),
+    ("sph::pressure", 4e-6),
+    ("sph::forces", 2e-6),
+    ("sph::surface_tension", 1e-5),
+    ("sph::repulsion", 4e-6),
+    ("sph::kick", 1e-6),
+    ("sph::advect", 1e-5),
+    ("pbd::gravity", 0.0),
+    ("pbd::predict", 4e-6),
+    ("pbd::strain", 1e-4),
+    ("pbd::contact", 3e-5),
+    ("pbd::velocity", 1e-6),
+    ("couple::controls", 0.0),
+    ("couple::saturation", 3e-6),
+    ("couple::interior", 2e-6),
+    ("couple::suction", 4e-6),
+    ("couple::zero_distance", 6e-6),
+    ("couple::control_velocity", 3e-6),
+    ("couple::drag", 2e-6),
+    ("couple::velocity_filter", 2e-6),
+    ("couple::exchange", 2e-6),
+];
+
+fn bound(kernel: &Kernel) -> f64 {
+    let found = BOUNDS.iter().find(|(name, _)| *name == kernel.name);
+    found.unwrap_or_else(|| panic!("{} has no bound", kernel.name)).1
+}
+
+/// The columns after the oracle.
+fn expected(kernel: &Kernel, before: &Scene) -> Columns {
+    let mut columns = before.columns.clone();
+    let oracle = oracle(kernel.name).unwrap_or_else(|| panic!("{} has no oracle", kernel.name));
+    oracle(&before.params, &mut columns);
+    columns
+}
+
+#[test]
+fn every_kernel_has_an_oracle_and_a_bound() {
+    for kernel in KERNELS {
+        assert!(oracle(kernel.name).is_some(), "{} has no oracle", kernel.name);
+        bound(kernel);
+    }
+    assert_eq!(BOUNDS.len(), KERNELS.len());
+    assert!(oracle("sph::no_such_kernel").is_none());
+}
+
+#[test]
+fn kernels_agree_with_their_oracles() {
+    let mut failures = Vec::new();
+    for options in all_options() {
+        for kernel in KERNELS {
+            let before = Scene::new(options).before(kernel.name, &best());
+            if !before.has_work(kernel) {
+                continue;
+            }
+            let oracle = expected(kernel, &before);
+            let mut found = before.clone();
+            found.run(&best(), &[kernel.name]);
+            for (column, error) in errors(kernel, &before.params, &before.columns, &found.columns, &oracle) {
+                if error > bound(kernel) || error.is_nan() {
+                    failures.push(format!("{} {}: {error:.1e} in {options:?}", kernel.name, column.name()));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn points_outside_of_the_domain_are_found_too() {
+    let mut scene = Scene::new(FULL);
+    scene.params.domain = Domain::Bounded { minimum: Vec3::splat(0.018), maximum: Vec3::splat(0.025) };
+    for name in ["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"] {
+        let kernel = kernel(name).expect("there is one");
+        let before = scene.before(name, &best());
+        let oracle = expected(kernel, &before);
+        let mut found = before.clone();
+        found.run(&best(), &[name]);
+        for (column, error) in errors(kernel, &before.params, &before.columns, &found.columns, &oracle) {
+            assert!(error == 0.0, "{name} {}", column.name());
+        }
+    }
+}
+
+/// Scales a column of numbers; false if it has none.
+fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool {
+    let (fluid, nodes, controls) = (&mut columns.fluid, &mut columns.nodes, &mut columns.controls);
+    let rows = match column {
+        Column::FluidPosition => &mut fluid.position,
+        Column::FluidVelocity => &mut fluid.velocity,
+        Column::FluidAcceleration => &mut fluid.acceleration,
+        Column::FluidDrag => &mut fluid.drag,
+        Column::NodePosition => &mut nodes.position,
+        Column::NodeVelocity => &mut nodes.velocity,
+        Column::NodePredicted => &mut nodes.predicted,
+        Column::NodeAcceleration => &mut nodes.acceleration,
+        Column::NodeGripOffset => &mut nodes.grip_offset,
+        Column::ControlPosition => &mut controls.position,
+        Column::ControlVelocity => &mut controls.velocity,
+        Column::ControlUnfiltered => &mut controls.unfiltered,
+        _ => return scale_values(columns, column, factor),
+    };
+    rows.iter_mut().flatten().for_each(|value| *value *= factor);
+    true
+}
+
+fn scale_values(columns: &mut Columns, column: Column, factor: f32) -> bool {
+    let values = match column {
+        Column::FluidDensity => &mut columns.fluid.density,
+        Column::FluidInterior => &mut columns.fluid.interior,
+        Column::FluidDragRate => &mut columns.fluid.drag_rate,
+        Column::NodeVolume => &mut columns.nodes.volume,
+        Column::NodeSuction => &mut columns.nodes.suction,
+        Column::NodeInterior => &mut columns.nodes.interior,
+        Column::ControlSuction => &mut columns.controls.suction,
+        Column::FluidExtremes => {
+            columns.fluid.extremes.0.iter_mut().for_each(|chunk| chunk.acceleration_squared *= factor);
+            return true;
+        }
+        Column::BodyStates => {
+            columns.bodies.states.0.iter_mut().for_each(|body| body.state.position *= factor);
+            return true;
+        }
+        _ => return false,
+    };
+    values.iter_mut().for_each(|value| *value *= factor);
+    true
+}
+
+/// Columns of which a kernel only keeps what it does not overwrite: the scalar beside a vector.
+const CARRIED: &[(&str, Column)] =
+    &[("pbd::velocity", Column::NodeVelocity), ("couple::exchange", Column::NodeVelocity)];
+
+#[test]
+fn a_small_fault_in_any_column_that_a_kernel_reads_is_noticed() {
+    for kernel in KERNELS {
+        let before = Scene::new(FULL).before(kernel.name, &best());
+        let oracle = expected(kernel, &before);
+        for column in kernel.reads.iter().copied() {
+            let mut faulty = before.clone();
+            if !scale(&mut faulty.columns, column, 1.001) || CARRIED.contains(&(kernel.name, column)) {
+                continue;
+            }
+            faulty.run(&best(), &[kernel.name]);
+            let errors = errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
+            let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            assert!(worst > bound(kernel), "{} does not notice {}: {worst:.1e}", kernel.name, column.name());
+        }
+    }
+}
+
+#[test]
+fn a_small_fault_in_the_parameters_is_noticed() {
+    let mut faulty = Scene::new(FULL).before("sph::density", &best());
+    let density = kernel("sph::density").expect("there is one");
+    let (before, oracle) = (faulty.clone(), expected(density, &faulty));
+    faulty.params.fluid.particle_mass *= 1.001;
+    faulty.run(&best(), &["sph::density"]);
+    let errors = errors(density, &before.params, &before.columns, &faulty.columns, &oracle);
+    assert!(errors[0].1 > 5e-4);
+
+    let mut faulty = Scene::new(FULL).before("pbd::gravity", &best());
+    let gravity = kernel("pbd::gravity").expect("there is one");
+    let (before, oracle) = (faulty.clone(), expected(gravity, &faulty));
+    faulty.params.gravity.y *= 1.001;
+    faulty.run(&best(), &["pbd::gravity"]);
+    let errors = super::compare::errors(gravity, &before.params, &before.columns, &faulty.columns, &oracle);
+    assert!(errors[0].1 > 5e-4);
+}

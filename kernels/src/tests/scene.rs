@@ -1,0 +1,369 @@
+//! Random but consistent columns and parameters, without the root package.
+
+use glam::{EulerRot, Quat, Vec3};
+
+use super::lattice::{Block, Lattice};
+use crate::{
+    body::{Body, BodyKind, BodyState, Shape},
+    columns::{Columns, FAR_ROW, RowCounts, padded},
+    cpu::Cpu,
+    grid::cells::Domain,
+    kernel::{KERNELS, Kernel, kernel},
+    lanes::SimdLevel,
+    params::{EquationOfState, FluidParams, Params, SpongeParams},
+    smoothing::Wendland,
+    testing::Random,
+};
+
+const SPACING: f32 = 0.005;
+/// Particles of the whole block: 13 x 9 x 9.
+pub(super) const BLOCK: usize = 1053;
+
+/// The kernels in the order of a step, each at least once.
+pub(super) const CHAIN: &[&str] = &[
+    "grid::sort_fluid",
+    "grid::fluid_neighbors",
+    "sph::density",
+    "sph::pressure",
+    "couple::controls",
+    "couple::saturation",
+    "couple::interior",
+    "sph::forces",
+    "sph::surface_tension",
+    "sph::repulsion",
+    "couple::suction",
+    "sph::kick",
+    "pbd::gravity",
+    "couple::zero_distance",
+    "pbd::predict",
+    "pbd::strain",
+    "pbd::contact",
+    "pbd::velocity",
+    "couple::control_velocity",
+    "couple::drag",
+    "couple::velocity_filter",
+    "couple::drag",
+    "couple::exchange",
+    "sph::advect",
+];
+
+/// What a scene contains.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Options {
+    /// Particles, at most [`BLOCK`].
+    pub(super) fluid: usize,
+    pub(super) sponges: bool,
+    pub(super) bodies: bool,
+    pub(super) walls: bool,
+    pub(super) bounded: bool,
+    pub(super) equation_of_state: EquationOfState,
+}
+
+/// Everything at once: all ingredients touch each other.
+pub(super) const FULL: Options = Options {
+    fluid: BLOCK,
+    sponges: true,
+    bodies: true,
+    walls: true,
+    bounded: true,
+    equation_of_state: EquationOfState::Tait,
+};
+
+/// Sizes around the width of a vector, and scenes that lack something.
+pub(super) fn all_options() -> Vec<Options> {
+    let mut all = vec![
+        FULL,
+        Options { bodies: false, bounded: false, equation_of_state: EquationOfState::Linear, ..FULL },
+        // A multiple of eight: the last group of eight rows is all padding.
+        Options { fluid: 1000, walls: false, bounded: false, ..FULL },
+        Options { walls: false, bodies: false, ..FULL },
+        Options { sponges: false, ..FULL },
+    ];
+    let few = [0, 1, 7, 8, 9].map(|fluid| Options { fluid, ..FULL });
+    all.extend(few);
+    all.extend(few.map(|few| Options { sponges: false, bodies: false, ..few }));
+    all
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Scene {
+    pub(super) options: Options,
+    pub(super) params: Params,
+    pub(super) columns: Columns,
+}
+
+impl Scene {
+    pub(super) fn new(options: Options) -> Self {
+        let mut scene = Self { options, params: params(options), columns: Columns::default() };
+        let mut random = Random(41);
+        scene.add_fluid(&mut random);
+        scene.add_sponges(&mut random);
+        if options.bodies {
+            scene.columns.bodies.states.0 = bodies();
+        }
+        scene.columns.rows.bodies = scene.columns.bodies.states.0.len();
+        scene
+    }
+
+    /// The scene just before the last run of a kernel, in the second step: all columns have their shape.
+    pub(super) fn before(&self, name: &str, cpu: &Cpu) -> Self {
+        let mut scene = self.clone();
+        scene.run(cpu, CHAIN);
+        let end = CHAIN.iter().rposition(|other| *other == name).expect("the chain has every kernel");
+        scene.run(cpu, &CHAIN[..end]);
+        scene
+    }
+
+    /// Runs kernels that have work.
+    pub(super) fn run(&mut self, cpu: &Cpu, names: &[&str]) {
+        for name in names {
+            let kernel = kernel(name).expect("the chain names kernels");
+            if self.has_work(kernel) {
+                cpu.enter(|| (kernel.cpu)(cpu, &self.params, &mut self.columns));
+            }
+        }
+    }
+
+    /// Whether the scene meets the needs of a kernel.
+    pub(super) fn has_work(&self, kernel: &Kernel) -> bool {
+        use crate::kernel::Need;
+        kernel.needs.iter().all(|need| match need {
+            Need::Fluid => self.options.fluid > 0,
+            Need::Sponge => self.options.sponges,
+            Need::Obstacles => self.options.walls || self.options.bodies,
+            Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
+        })
+    }
+
+    fn add_fluid(&mut self, random: &mut Random) {
+        let count = self.options.fluid;
+        let fluid = &mut self.columns.fluid;
+        for index in 0..count {
+            // A stride through the block, so that few particles are still all over the place.
+            let place = index * 389 % BLOCK;
+            let site = [place % 13, place / 13 % 9, place / 117];
+            let mut jittered = |site: usize| (site as f32 + 0.5 + 0.2 * (random.unit() - 0.5)) * SPACING;
+            fluid.position.push([jittered(site[0]), jittered(site[1]), jittered(site[2]), 0.0]);
+            let mut speed = || random.unit() - 0.5;
+            fluid.velocity.push([speed(), speed(), speed(), 0.0]);
+            // Unique, and in another order than the rows.
+            fluid.id.push((count - index) as u32 * 2);
+        }
+        fluid.position.resize(padded(count), FAR_ROW);
+        fluid.velocity.resize(padded(count), [0.0; 4]);
+        fluid.id.resize(padded(count), u32::MAX);
+        self.columns.rows.fluid = count;
+    }
+
+    fn add_sponges(&mut self, random: &mut Random) {
+        let blocks = if self.options.sponges { blocks() } else { Vec::new() };
+        let lattice = Lattice::new(&blocks, 8);
+        let count = lattice.position.len();
+        let nodes = &mut self.columns.nodes;
+        for node in 0..count {
+            let edge = blocks[lattice.sponge[node] as usize].edge;
+            let volume = edge.powi(3) / 48.0 * lattice.tets_at[node] as f32;
+            let mut jittered = |x: f32| x + 0.06 * edge * (random.unit() - 0.5);
+            let [x, y, z] = lattice.position[node].map(&mut jittered);
+            nodes.position.push([x, y, z, 1.0 / (60.0 * volume)]);
+            let mut speed = || 0.6 * (random.unit() - 0.5);
+            nodes.velocity.push([speed(), speed(), speed(), 0.0]);
+            nodes.volume.push(volume);
+            nodes.suction.push(if lattice.tets_at[node] == 24 { 1.0 } else { 0.0 });
+        }
+        let rows = padded(count);
+        nodes.interior = interior(&self.params, &nodes.position, &nodes.volume);
+        nodes.interior.resize(rows, 0.0);
+        nodes.position.resize(rows, FAR_ROW);
+        nodes.velocity.resize(rows, [0.0; 4]);
+        nodes.volume.resize(rows, 0.0);
+        nodes.suction.resize(rows, 0.0);
+        nodes.sponge = lattice.sponge;
+        nodes.sponge.resize(rows, 0);
+        nodes.grip = vec![u32::MAX; rows];
+        nodes.grip_offset = vec![[0.0; 4]; rows];
+        if self.options.bodies {
+            let body = &bodies()[GRIPPER];
+            for node in (0..count).step_by(40) {
+                let [x, y, z, _] = nodes.position[node];
+                let offset = body.state.rotation.inverse() * (Vec3::new(x, y, z) - body.state.position);
+                nodes.position[node][3] = 0.0;
+                nodes.grip[node] = GRIPPER as u32;
+                nodes.grip_offset[node] = [offset.x, offset.y, offset.z, 0.0];
+            }
+        }
+        self.columns.rows =
+            RowCounts { nodes: count, tets: lattice.topology.tets.len(), ..self.columns.rows };
+        nodes.topology = lattice.topology;
+    }
+}
+
+/// The body that holds nodes.
+const GRIPPER: usize = 5;
+
+fn interior(params: &Params, position: &[[f32; 4]], volume: &[f32]) -> Vec<f32> {
+    let radius = f64::from(params.coupling.support_radius);
+    let weight = |a: &[f32; 4], b: &[f32; 4]| {
+        let square: f64 = (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum();
+        Wendland::value_f64(radius, square.sqrt())
+    };
+    let at = |a| position.iter().zip(volume).map(|(b, volume)| f64::from(*volume) * weight(a, b)).sum();
+    position.iter().map(|a| -> f64 { at(a) }).map(|sum| sum as f32).collect()
+}
+
+pub(super) fn blocks() -> Vec<Block> {
+    vec![
+        Block { cells: [4, 4, 4], edge: 0.01, origin: [0.01, 0.0, 0.005] },
+        Block { cells: [3, 4, 3], edge: 0.008, origin: [0.055, 0.004, 0.01] },
+    ]
+}
+
+fn params(options: Options) -> Params {
+    let radius = 2.2 * SPACING;
+    let sum = Wendland::lattice_sum(f64::from(radius), f64::from(SPACING)) as f32;
+    let (low, high) = (Vec3::new(-0.002, 0.0024, -0.001), Vec3::new(0.0775, 0.06, 0.05));
+    let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
+    Params {
+        step: 0.001,
+        gravity: Vec3::new(0.5, -9.81, 0.25),
+        domain: if options.bounded { domain } else { Domain::Unbounded },
+        walls: options.walls.then_some((low, high)),
+        fluid: FluidParams {
+            spacing: SPACING,
+            rest_density: 1000.0,
+            particle_mass: 1000.0 * SPACING.powi(3) / sum,
+            smoothing: Wendland::new(radius),
+            equation_of_state: options.equation_of_state,
+            sound_speed: 10.0,
+            viscosity: 0.5,
+            surface_tension: 0.07,
+            repulsion_range: SPACING,
+            repulsion_stiffness: 1.0e5,
+            repulsion_damping: 50.0,
+        },
+        sponges: if options.sponges { sponges() } else { Vec::new() },
+        coupling: Wendland::new(0.015),
+    }
+}
+
+fn sponges() -> Vec<SpongeParams> {
+    let soft = SpongeParams {
+        edge: 0.01,
+        stretch_modulus: 8.0e3,
+        shear_modulus: 4.0e3,
+        volume_modulus: 2.0e3,
+        damping_time: 0.002,
+        iterations: 4,
+        friction: 0.4,
+        porosity: 0.9,
+        drag_rate: 2000.0,
+        entry_pressure: 300.0,
+        saturation_gain: 1.5,
+        reaction: 1.0,
+    };
+    let stiff = SpongeParams {
+        edge: 0.008,
+        stretch_modulus: 3.0e4,
+        shear_modulus: 2.0e4,
+        volume_modulus: 1.0e4,
+        damping_time: 0.0,
+        iterations: 2,
+        friction: 0.1,
+        porosity: 0.8,
+        drag_rate: 500.0,
+        entry_pressure: 150.0,
+        saturation_gain: 0.5,
+        reaction: 0.7,
+    };
+    vec![soft, stiff]
+}
+
+/// One body of every shape, each touching fluid and nodes, and one that grips.
+fn bodies() -> Vec<Body> {
+    let corner = 0.006_f32;
+    let signs = [-1.0_f32, 1.0];
+    let faces = signs.map(|x| signs.map(|y| signs.map(|z| (Vec3::new(x, y, z).normalize(), corner))));
+    let hull = Shape::Hull {
+        planes: faces.into_iter().flatten().flatten().collect(),
+        vertices: [Vec3::X, Vec3::Y, Vec3::Z]
+            .into_iter()
+            .flat_map(|axis| signs.map(|sign| axis * sign * corner * 3.0_f32.sqrt()))
+            .collect(),
+        triangles: Vec::new(),
+    };
+    let half_extents = Vec3::new(0.006, 0.004, 0.008);
+    let capsule = Shape::Capsule { half_height: 0.01, radius: 0.004 };
+    let mut all = vec![
+        body(Shape::Sphere { radius: 0.008 }, [0.03, 0.02, 0.02], 0.0),
+        body(Shape::Cuboid { half_extents }, [0.06, 0.03, 0.03], 0.7),
+        body(capsule, [0.015, 0.035, 0.03], -0.4),
+        body(hull, [0.045, 0.012, 0.035], 0.3),
+        // The solid side is +x, where padding rows lie as well.
+        body(Shape::Plane, [0.066, 0.0, 0.0], 1.62),
+        body(Shape::Sphere { radius: 0.01 }, [0.03, 0.05, 0.02], 0.9),
+    ];
+    all[4].kind = BodyKind::Kinematic;
+    all[GRIPPER].touches_nodes = false;
+    all
+}
+
+fn body(shape: Shape, position: [f32; 3], angle: f32) -> Body {
+    let position = Vec3::from_array(position);
+    Body {
+        shape,
+        kind: BodyKind::Dynamic,
+        state: BodyState {
+            position,
+            rotation: Quat::from_euler(EulerRot::ZXY, angle, angle * 0.3, angle * 0.1),
+            linear_velocity: Vec3::new(0.1, -0.3, 0.2) - position,
+            angular_velocity: Vec3::new(3.0, -2.0, 1.0),
+        },
+        friction: 0.3,
+        touches_nodes: true,
+    }
+}
+
+/// One thread at the best level.
+pub(super) fn best() -> Cpu {
+    Cpu::serial(SimdLevel::best()).expect("the best level is there")
+}
+
+#[test]
+fn the_chain_has_every_kernel() {
+    for kernel in KERNELS {
+        assert!(CHAIN.contains(&kernel.name), "{}", kernel.name);
+    }
+}
+
+#[test]
+fn every_ingredient_touches_the_others() {
+    let mut scene = Scene::new(FULL);
+    scene.run(&best(), CHAIN);
+    let columns = &scene.columns;
+    for body in 0..columns.rows.bodies {
+        let of = |wrenches: &[crate::body::Wrench]| {
+            let own = wrenches.iter().skip(body).step_by(columns.rows.bodies);
+            own.fold(0.0, |sum, wrench| sum + wrench.impulse.length())
+        };
+        assert!(of(&columns.bodies.wrenches.fluid) > 0.0, "fluid at body {body}");
+        assert!(body == GRIPPER || of(&columns.bodies.wrenches.nodes) > 0.0, "nodes at body {body}");
+    }
+    assert!(columns.nodes.saturation.iter().any(|saturation| *saturation > 0.3));
+    assert!(columns.rows.nodes > crate::cpu::CHUNK && columns.rows.fluid > 4 * crate::cpu::CHUNK);
+    for (node, position) in columns.nodes.position[..columns.rows.nodes].iter().enumerate() {
+        assert!(position.iter().all(|value| value.is_finite()), "node {node}");
+    }
+    for (row, position) in columns.fluid.position[..columns.rows.fluid].iter().enumerate() {
+        assert!(position.iter().all(|value| value.is_finite()), "particle {row}");
+    }
+}
+
+#[test]
+fn interior_at_rest_is_the_sum_over_all_nodes() {
+    let scene = Scene::new(FULL);
+    let found = crate::couple::interior::node_interior(&best(), &scene.params, &scene.columns);
+    for (node, (found, expected)) in found.iter().zip(&scene.columns.nodes.interior).enumerate() {
+        assert!((found - expected).abs() < 1e-6, "node {node}: {found} instead of {expected}");
+    }
+    assert!(scene.columns.nodes.interior.iter().any(|value| *value > 0.9));
+}
