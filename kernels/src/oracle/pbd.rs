@@ -85,9 +85,17 @@ impl Tet {
             (slope[k], slope[l]) = (f[l], f[k]);
             self.correct(f[k].dot(f[l]), slope, settings(sponge.shear_modulus));
         }
+        let (ratio, slope) = self.volume(edge);
+        self.correct(ratio - 1.0, slope, settings(sponge.volume_modulus));
+        let (ratio, slope) = self.volume(edge);
+        let rigid = compliance(sponge.volume_modulus) * 1e-3;
+        self.correct((ratio - 0.1).min(0.0), slope, (edge, rigid, 0.0));
+    }
+
+    /// Volume over volume at rest, and its derivatives by the columns.
+    fn volume(&self, edge: f64) -> (f64, [DVec3; 3]) {
         let [d, e, f] = self.columns(edge);
-        let slope = [e.cross(f), f.cross(d), d.cross(e)];
-        self.correct(d.dot(e.cross(f)) - 1.0, slope, settings(sponge.volume_modulus));
+        (d.dot(e.cross(f)), [e.cross(f), f.cross(d), d.cross(e)])
     }
 
     /// Columns of the deformation gradient.
