@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 use sorb_kernels::{
-    body::{Bodies, Body, BodyState},
+    body::{Bodies, Body},
     columns::{Columns, FAR_ROW, RowCounts, padded},
     couple::interior::node_interior,
     cpu::Cpu,
@@ -140,12 +140,7 @@ fn body_setup(body: &scene::Body) -> Result<BodySetup, WorldError> {
         shape: sorb_kernels::body::Shape::Plane,
         kind: body.kind,
         density: body.density,
-        state: BodyState {
-            position: body.position,
-            rotation: body.rotation.quaternion(),
-            linear_velocity: body.linear_velocity,
-            angular_velocity: body.angular_velocity,
-        },
+        state: body.start(),
         friction: body.friction,
         restitution: body.restitution,
         motions: body.motions.clone(),
@@ -197,11 +192,7 @@ fn mask(shape: scene::SpongeShape) -> Box<dyn Fn(Vec3) -> bool> {
     match shape {
         scene::SpongeShape::Block => Box::new(sponge::block),
         scene::SpongeShape::Ellipsoid => Box::new(sponge::ellipsoid),
-        scene::SpongeShape::Cylinder { axis } => Box::new(sponge::cylinder(match axis {
-            scene::Axis::X => sponge::Axis::X,
-            scene::Axis::Y => sponge::Axis::Y,
-            scene::Axis::Z => sponge::Axis::Z,
-        })),
+        scene::SpongeShape::Cylinder { axis } => Box::new(sponge::cylinder(axis)),
     }
 }
 

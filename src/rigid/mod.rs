@@ -33,6 +33,7 @@ pub use mass::MassProperties;
 pub use mechanics::Mechanics;
 #[cfg(feature = "rigid")]
 pub use rapier::RapierEngine;
+pub(crate) use script::Script;
 pub use scripted::ScriptedEngine;
 pub use setup::BodySetup;
 

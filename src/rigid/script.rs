@@ -11,21 +11,21 @@ const TIME_TOLERANCE: f64 = 2.0 * (f32::EPSILON as f64);
 
 /// The start pose of a body and all that moves it.
 #[derive(Clone, Debug)]
-pub(super) struct Script {
+pub(crate) struct Script {
     start: BodyState,
     motions: Vec<Motion>,
 }
 
 impl Script {
     /// The motions are expected to be checked, the rotation to be of unit length.
-    pub(super) fn new(start: BodyState, motions: &[Motion]) -> Self {
+    pub(crate) fn new(start: BodyState, motions: &[Motion]) -> Self {
         Self { start, motions: motions.to_vec() }
     }
 
     /// Pose at `time` \[s\] and the exact derivative of the pose to the right of it.
     ///
     /// Every motion moves what the motions before it in the list have made of the start pose.
-    pub(super) fn state(&self, time: f64) -> BodyState {
+    pub(crate) fn state(&self, time: f64) -> BodyState {
         if self.motions.is_empty() {
             return self.start;
         }

@@ -192,7 +192,7 @@ impl Rotation {
 /// Unit quaternion of a turn by an angle \[rad\] about an axis of any length.
 ///
 /// In f64 and through the portable `libm`, since the platform's sine differs from machine to machine.
-pub(super) fn turn(axis: Vec3, angle: f64) -> Quat {
+fn turn(axis: Vec3, angle: f64) -> Quat {
     let Some(unit) = axis.as_dvec3().try_normalize() else {
         return Quat::IDENTITY;
     };

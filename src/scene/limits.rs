@@ -143,7 +143,6 @@ pub(super) const SPONGE: &[Row<Sponge>] = fields! { Sponge, "sponges[].";
     iterations: 1.0 to 64.0, "1";
     friction: 0.0 to 10.0, "1";
     saturation: 0.0 to 1.0, "1";
-    node_radius: 1e-5 to 1.0, "m";
 };
 
 pub(super) const BODY: &[Row<Body>] = fields! { Body, "bodies[].";

@@ -1,9 +1,9 @@
 //! Scripted motions of kinematic bodies.
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 
-use super::bodies::turn;
 use super::{Body, BodyState};
+use crate::rigid::Script;
 
 /// One scripted motion, active from `start` to `end`.
 ///
@@ -47,14 +47,6 @@ impl Motion {
             Self::Linear { start, end, .. } | Self::Turn { start, end, .. } => (start, end),
         }
     }
-
-    /// Seconds of the motion that lie before a time, and whether it is under way.
-    fn progress(&self, time: f64) -> (f64, bool) {
-        let (start, end) = self.interval();
-        let (start, end) = (f64::from(start), f64::from(end));
-        // Not `clamp`, which panics where a script that nobody validated ends before it starts.
-        (time.min(end).max(start) - start, start <= time && time < end)
-    }
 }
 
 impl Body {
@@ -63,36 +55,17 @@ impl Body {
     /// Exact for every time: nothing is accumulated from step to step.
     #[must_use]
     pub fn state_at(&self, time: f64) -> BodyState {
-        let start = BodyState {
+        Script::new(self.start(), &self.motions).state(time)
+    }
+
+    /// Pose and velocity at time zero, before any motion.
+    #[must_use]
+    pub fn start(&self) -> BodyState {
+        BodyState {
             position: self.position,
             rotation: self.rotation.quaternion(),
             linear_velocity: self.linear_velocity,
             angular_velocity: self.angular_velocity,
-        };
-        self.motions.iter().fold(start, |state, motion| moved(state, motion, time))
-    }
-}
-
-/// State after one more motion.
-fn moved(state: BodyState, motion: &Motion, time: f64) -> BodyState {
-    let (seconds, active) = motion.progress(time);
-    let now = if active { 1.0 } else { 0.0 };
-    match *motion {
-        Motion::Linear { velocity, .. } => BodyState {
-            position: state.position + (velocity.as_dvec3() * seconds).as_vec3(),
-            linear_velocity: state.linear_velocity + now * velocity,
-            ..state
-        },
-        Motion::Turn { axis, pivot, rate, .. } => {
-            let rotation: Quat = turn(axis, f64::from(rate) * seconds);
-            let arm = rotation * (state.position - pivot);
-            let spin = now * rate * axis.normalize_or_zero();
-            BodyState {
-                position: pivot + arm,
-                rotation: (rotation * state.rotation).normalize(),
-                linear_velocity: rotation * state.linear_velocity + spin.cross(arm),
-                angular_velocity: rotation * state.angular_velocity + spin,
-            }
         }
     }
 }

@@ -43,9 +43,6 @@ fn refine(sponge: &mut Sponge, resolution: f32) {
     let along_x = whole_cells(sponge.cells.x as f32 * resolution);
     sponge.edge = size.x / along_x as f32;
     sponge.cells = UVec3::new(along_x, whole_cells(size.y / sponge.edge), whole_cells(size.z / sponge.edge));
-    if let Some(radius) = &mut sponge.node_radius {
-        *radius /= resolution;
-    }
 }
 
 /// Nearest number of cells, at least 2: with fewer the lattice has no tets across.

@@ -112,9 +112,6 @@ pub struct Sponge {
     pub friction: f32,
     /// Share of the pores filled with water at time zero. Range 0 to 1; default 0.
     pub saturation: f32,
-    /// Contact radius of a node. Range 1e-5 to 1 m; default derived from `edge`.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
-    pub node_radius: Option<f32>,
 }
 
 impl Default for Sponge {
@@ -140,7 +137,6 @@ impl Default for Sponge {
             iterations: 1,
             friction: 0.5,
             saturation: 0.0,
-            node_radius: None,
         }
     }
 }

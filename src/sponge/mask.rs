@@ -2,16 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-/// A coordinate axis; Y is up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
-    /// The first axis.
-    X,
-    /// The upward axis.
-    Y,
-    /// The third axis.
-    Z,
-}
+use crate::scene::Axis;
 
 /// Keeps every tet of the block.
 #[must_use]

@@ -29,6 +29,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub use crate::scene::Axis;
 pub use chunk::{TetChunk, chunks};
 pub use class::{
     CLASS_FRAME, CLASS_OFFSET, COLOR_COUNT, SLOT_VERTEX_COLOR, TET_CLASS_COUNT, VERTEX_COLOR_COUNT,
@@ -37,5 +38,5 @@ pub use class::{
 pub use error::LatticeError;
 pub use lattice::{Lattice, LatticeSponge, SpongeSummary};
 pub use limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
-pub use mask::{Axis, block, cylinder, ellipsoid};
+pub use mask::{block, cylinder, ellipsoid};
 pub use pieces::{Pieces, pieces};
