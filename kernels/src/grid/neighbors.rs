@@ -89,7 +89,7 @@ impl Neighbors {
             }
             chunks.push(chunk);
         }
-        Self { chunks }
+        Self { chunks, ..Self::default() }
     }
 
     /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded

@@ -5,6 +5,9 @@ use glam::DVec3;
 use super::{gradient, grid, row, smoothing, vector, vectors};
 use crate::{
     columns::{Columns, FAR_ROW},
+    cpu::CHUNK,
+    grid::neighbors::{ListValues, Neighbors},
+    lanes::LANES,
     params::{Params, SpongeParams},
 };
 
@@ -39,6 +42,26 @@ impl Pairs {
     }
 }
 
+/// Values for the entries of lists, one for every pair; the lists are those that are there.
+fn list_values(
+    lists: &Neighbors,
+    (queries, targets): (usize, usize),
+    value: impl Fn(usize, usize) -> f64,
+) -> ListValues {
+    let mut values = ListValues::default();
+    values.match_lists(lists);
+    for query in 0..queries {
+        let lists = lists.chunk(query);
+        let range = lists.range(query % CHUNK);
+        let stored = &mut values.0[query / CHUNK][range];
+        for (entry, stored) in lists.group(query % CHUNK).iter().zip(stored) {
+            let (lane, target) = (query % LANES, entry[query % LANES] as usize);
+            stored[lane] = if target < targets { value(query, target) as f32 } else { 0.0 };
+        }
+    }
+    values
+}
+
 /// The sponge of a control row.
 fn sponge<'a>(params: &'a Params, columns: &Columns, control: usize) -> &'a SpongeParams {
     let node = columns.controls.node[control] as usize;
@@ -69,6 +92,9 @@ pub(super) fn controls(params: &Params, columns: &mut Columns) {
 pub(super) fn saturation(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let rows = columns.controls.position.len();
+    let counts = (columns.rows.nodes, columns.rows.fluid);
+    columns.controls.fluid_weights =
+        list_values(&columns.controls.fluid, counts, |control, particle| pairs.weight(particle, control));
     columns.controls.saturation = vec![0.0; rows];
     columns.controls.suction = vec![0.0; rows];
     columns.nodes.saturation = vec![0.0; columns.nodes.position.len()];
@@ -90,6 +116,9 @@ pub(super) fn saturation(params: &Params, columns: &mut Columns) {
 
 pub(super) fn interior(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
+    let counts = (columns.rows.fluid, columns.rows.nodes);
+    columns.fluid.control_weights =
+        list_values(&columns.fluid.controls, counts, |particle, control| pairs.weight(particle, control));
     columns.fluid.interior = vec![0.0; columns.fluid.position.len()];
     columns.fluid.drag_rate = vec![0.0; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {

@@ -3,8 +3,13 @@
 use crate::{
     body::Wrench,
     columns::{Column, Columns},
-    grid::{cells::Cells, neighbors::Neighbors},
+    cpu::CHUNK,
+    grid::{
+        cells::Cells,
+        neighbors::{ListValues, Neighbors},
+    },
     kernel::Kernel,
+    lanes::LANES,
     params::Params,
     reduce::Extreme,
 };
@@ -109,6 +114,12 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::FluidNeighbors => sets(&fluid.neighbors, &by_id, ids, columns.rows.fluid),
         Column::FluidControls => sets(&fluid.controls, &by_id, &controls.node, columns.rows.nodes),
         Column::ControlFluid => sets(&controls.fluid, &by_node, ids, columns.rows.fluid),
+        Column::FluidControlWeights => {
+            list_values(&fluid.control_weights, &fluid.controls, &by_id, &controls.node, columns.rows.nodes)
+        }
+        Column::ControlFluidWeights => {
+            list_values(&controls.fluid_weights, &controls.fluid, &by_node, ids, columns.rows.fluid)
+        }
         Column::ControlNode => Content::Sets(vec![by_node.iter().map(|row| controls.node[*row]).collect()]),
         Column::ControlPosition => rows(&controls.position, &by_node),
         Column::ControlVelocity => rows(&controls.velocity, &by_node),
@@ -168,6 +179,25 @@ fn sets(lists: &Neighbors, order: &[usize], identity: &[u32], targets: usize) ->
         set
     };
     Content::Sets(order.iter().map(set).collect())
+}
+
+/// The values of list entries, in the order of their targets.
+fn list_values(
+    values: &ListValues,
+    lists: &Neighbors,
+    order: &[usize],
+    identity: &[u32],
+    targets: usize,
+) -> Content {
+    let own = |query: &usize| {
+        let (chunk, row, lane) = (lists.chunk(*query), *query % CHUNK, *query % LANES);
+        let stored = &values.chunk(*query)[chunk.range(row)];
+        let pairs = chunk.group(row).iter().zip(stored).map(|(entry, stored)| (entry[lane], stored[lane]));
+        let mut pairs: Vec<_> = pairs.filter(|(target, _)| (*target as usize) < targets).collect();
+        pairs.sort_by_key(|(target, _)| identity[*target as usize]);
+        pairs.into_iter().map(|(_, value)| f64::from(value)).collect::<Vec<f64>>()
+    };
+    Content::Numbers(vec![order.iter().flat_map(own).collect()])
 }
 
 /// For every point, the points in a box around it: by the cells, or by looking at all points.
