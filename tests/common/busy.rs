@@ -1,6 +1,8 @@
 //! The presets, changed so that everything in them touches from the first steps: what tests of single steps and
 //! benches need, where the paper's scenes would take a while to get there.
 
+#![allow(dead_code, reason = "benches and tests use a part of it each")]
+
 use sorb::{
     glam::Vec3,
     scene::{self, Motion, Scene},
