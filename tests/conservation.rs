@@ -101,8 +101,6 @@ const LINEAR: f64 = 1e-5;
 
 fn momentum_and_mass(scene: &Scene, claims: &mut Claims) -> Balance {
     let (world, balance) = of(scene);
-    let name = &scene.name;
-    println!("{name}: {balance:#?}");
     claims.claim(common::water_is_inside(&world), "no water inside the sponge: nothing to balance");
     claims.claim(balance.linear < LINEAR, format!("linear momentum: {:.2e} of the scale", balance.linear));
     claims.claim(balance.mass == 0.0, format!("mass: {} kg", balance.mass));
@@ -136,7 +134,6 @@ fn without_the_reaction_of_the_suction_momentum_is_lost() {
     let mut scene = free();
     scene.sponges[0].reaction = 0.0;
     let (_, broken) = of(&scene);
-    println!("{broken:#?}");
     assert!(broken.linear > 100.0 * LINEAR, "the control keeps its momentum: {:.2e}", broken.linear);
 }
 

@@ -6,6 +6,7 @@ use common::busy;
 use sorb::{
     Bound, Options, SimdLevel, StepError, World, WorldError,
     cpu::CpuError,
+    glam::Vec3,
     scene::{Body, Scene, ShapeKind},
 };
 
@@ -61,9 +62,9 @@ fn values_out_of_range_are_refused_with_their_key() {
 
 #[test]
 fn a_hull_without_volume_is_refused_with_its_key() {
-    let point = |x: f32, z: f32| sorb::glam::Vec3::new(x, 0.0, z);
+    let point = |x: f32, z: f32| Vec3::new(x, 0.0, z);
     let vertices = vec![point(0.0, 0.0), point(1.0, 0.0), point(0.0, 1.0), point(1.0, 1.0)];
-    let body = Body::dynamic("plate", ShapeKind::Hull { vertices }, sorb::glam::Vec3::ZERO, 1000.0);
+    let body = Body::dynamic("plate", ShapeKind::Hull { vertices }, Vec3::ZERO, 1000.0);
     let error = refused(&Scene::new("flat").with_body(body), &Options::default());
     assert!(error.to_string().contains("bodies[0].shape.vertices"), "{error}");
 }
