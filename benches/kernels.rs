@@ -1,0 +1,93 @@
+//! Every kernel of the table, on the columns of a scene in which all of them have work.
+//!
+//! `ball_drop` with the ball on the sponge and with surface tension, at the paper's size and at 100 000 particles.
+
+#[path = "../tests/common/busy.rs"]
+mod busy;
+
+use std::{
+    hint::black_box,
+    time::{Duration, Instant},
+};
+
+use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use sorb::{
+    World,
+    columns::Columns,
+    cpu::Cpu,
+    kernel::{KERNELS, Kernel},
+    params::Params,
+};
+
+/// (name, resolution): 7650 and about 100 000 particles.
+const SIZES: [(&str, f32); 2] = [("paper", 1.0), ("100k", 2.35)];
+/// Steps before the columns are taken: lists are filled and the ball touches.
+const STEPS: u32 = 5;
+/// Calls after which the columns are restored: most kernels change what they read, such as positions.
+const CALLS: u64 = 16;
+
+fn prepared(resolution: f32) -> World {
+    let mut scene = busy::scene("ball_drop", resolution);
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.surface_tension = 0.072;
+    }
+    let run = || {
+        let mut world = World::new(&scene).expect("a preset is valid");
+        for _ in 0..STEPS {
+            world.step().expect("a preset is stable");
+        }
+        world
+    };
+    let world = run();
+    // What is timed must be what it claims to be: the same bits every time.
+    assert_eq!(world.digest(), run().digest(), "two runs differ");
+    world
+}
+
+/// Time of some calls, each block of them on fresh columns.
+fn time(kernel: &Kernel, cpu: &Cpu, params: &Params, prepared: &Columns, iterations: u64) -> Duration {
+    let mut total = Duration::ZERO;
+    let mut left = iterations;
+    while left > 0 {
+        let calls = left.min(CALLS);
+        left -= calls;
+        let mut columns = prepared.clone();
+        // Inside the pool, as in a step.
+        total += cpu.enter(|| {
+            let start = Instant::now();
+            for _ in 0..calls {
+                (kernel.cpu)(cpu, params, black_box(&mut columns));
+            }
+            start.elapsed()
+        });
+    }
+    total
+}
+
+fn kernels(criterion: &mut Criterion) {
+    for (size, resolution) in SIZES {
+        let world = prepared(resolution);
+        for kernel in KERNELS {
+            let mut group = criterion.benchmark_group(kernel.name);
+            group.sampling_mode(SamplingMode::Flat);
+            let rows = world.columns().rows.of(kernel.writes[0].store());
+            group.throughput(Throughput::Elements(rows as u64));
+            group.bench_function(BenchmarkId::from_parameter(size), |bencher| {
+                bencher.iter_custom(|iterations| {
+                    time(kernel, world.cpu(), world.params(), world.columns(), iterations)
+                });
+            });
+            group.finish();
+        }
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(2));
+    targets = kernels
+}
+criterion_main!(benches);

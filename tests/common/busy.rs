@@ -1,0 +1,58 @@
+//! The presets, changed so that everything in them touches from the first steps: what tests of single steps and
+//! benches need, where the paper's scenes would take a while to get there.
+
+#![allow(dead_code, reason = "benches and tests use a part of it each")]
+
+use sorb::{
+    glam::Vec3,
+    scene::{self, Motion, Scene},
+};
+
+/// All presets, in the order of the documentation.
+pub(crate) const SCENES: [&str; 8] =
+    ["standing", "ball_drop", "squish", "dam_break", "wring", "water", "dry", "empty"];
+
+/// A preset at a resolution, in the middle of things.
+pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
+    let mut scene = scene::preset(name)
+        .and_then(|scene| scene.scaled(resolution))
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    match name {
+        "ball_drop" | "dry" => {
+            // A radius of 3 cm on a sponge of 8 cm: just above the surface, off centre, falling.
+            scene.bodies[0].position = Vec3::new(0.005, 0.1105, 0.003);
+            scene.bodies[0].linear_velocity = Vec3::new(0.1, -1.0, 0.0);
+        }
+        "squish" => {
+            for (body, side) in scene.bodies.iter_mut().zip([-1.0, 1.0]) {
+                body.position.x = side * 0.0452;
+                let velocity = Vec3::new(-0.5 * side, 0.0, 0.0);
+                body.motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
+            }
+        }
+        "wring" => {
+            for (body, rate) in scene.bodies.iter_mut().zip([20.0, -20.0]) {
+                let (axis, pivot) = (Vec3::X, Vec3::new(0.0, 0.12, 0.0));
+                body.motions = vec![Motion::Turn { axis, pivot, rate, start: 0.0, end: 0.1 }];
+            }
+        }
+        "dam_break" => {
+            scene.sponges[0].position.x = -0.118;
+            scene.sponges[0].saturation = 0.3;
+            start_flow(&mut scene);
+        }
+        "water" => start_flow(&mut scene),
+        "standing" => {
+            scene.sponges[0].velocity = Vec3::new(0.1, 0.0, 0.05);
+            scene.sponges[0].saturation = 0.3;
+        }
+        _ => {}
+    }
+    scene
+}
+
+fn start_flow(scene: &mut Scene) {
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.blocks[0].velocity = Vec3::new(1.0, 0.2, -0.1);
+    }
+}

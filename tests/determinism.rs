@@ -1,0 +1,131 @@
+//! The same bits on every run, number of threads and SIMD level, and after going back to a copy.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{NOTHING_OBSERVED, busy};
+use sorb::{Options, SimdLevel, World, cpu::Cpu, scene::Scene};
+
+/// More than one chunk of nodes and several chunks of particles: threads have something to disagree about.
+const RESOLUTION: f32 = 0.6;
+const STEPS: u32 = 40;
+
+fn with(scene: &Scene, threads: usize, simd: SimdLevel) -> World {
+    let options = Options { threads: Some(threads), simd: Some(simd), observed: Vec::new() };
+    World::with_options(scene, &options).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
+}
+
+fn digest_after(mut world: World, steps: u32) -> u64 {
+    common::steps(&mut world, steps);
+    world.digest()
+}
+
+fn levels() -> impl Iterator<Item = SimdLevel> {
+    SimdLevel::ALL.into_iter().filter(|level| level.is_supported())
+}
+
+/// The scene must be worth the comparison: what can touch, touches.
+fn assert_is_busy(world: &World) {
+    let name = &world.scene().name;
+    if !world.particle_ids().is_empty() && !world.node_positions().is_empty() {
+        assert!(common::water_is_inside(world), "{name}: no water in the sponge");
+    }
+    // Grips hold nodes, and receive nothing from them.
+    if world.scene().bodies.iter().any(|body| !body.grip) {
+        assert!(common::bodies_are_pushed(world), "{name}: nothing touches the bodies");
+    }
+}
+
+fn matrix(name: &str) {
+    let scene = busy::scene(name, RESOLUTION);
+    let mut first = with(&scene, 1, SimdLevel::Fallback);
+    common::steps(&mut first, STEPS);
+    let expected = first.digest();
+    assert_is_busy(&first);
+    for simd in levels() {
+        for threads in [1, 2, 3, 8] {
+            let digest = digest_after(with(&scene, threads, simd), STEPS);
+            assert_eq!(digest, expected, "{name}: {threads} threads, {simd}");
+        }
+    }
+    assert_eq!(digest_after(with(&scene, 1, SimdLevel::Fallback), STEPS), expected, "{name}: run twice");
+    if name != "empty" {
+        // The smallest possible change of one number must show, or the comparison above says nothing.
+        let mut other = scene.clone();
+        other.gravity.y = other.gravity.y.next_up();
+        assert_ne!(digest_after(common::world(&other), STEPS), expected, "{name}: gravity by one bit");
+    }
+    assert_ne!(digest_after(common::world(&scene), STEPS - 1), expected, "{name}: one step less");
+    let text = format!("{}\n{}\ndigest {expected:016x}", first.scene().title, common::line(&first));
+    common::golden(&format!("digest_{name}"), &text);
+}
+
+/// Goes astray from a copy every seven steps, comes back, and continues.
+fn copies(name: &str) {
+    let scene = busy::scene(name, RESOLUTION);
+    let expected = digest_after(common::world(&scene), STEPS);
+    let mut world = common::world(&scene);
+    for step in 0..STEPS {
+        if step % 7 == 6 {
+            let saved = world.clone();
+            assert_eq!(saved.digest(), world.digest());
+            common::steps(&mut world, 3);
+            assert_ne!(saved.digest(), world.digest(), "{name}: it has not moved");
+            world = saved;
+        }
+        common::steps(&mut world, 1);
+    }
+    assert_eq!(world.digest(), expected, "{name}: after going back");
+}
+
+macro_rules! scenes {
+    ($($scene:ident)+) => {
+        $(mod $scene {
+            #[test]
+            fn is_the_same_on_all_threads_and_levels() {
+                super::matrix(stringify!($scene));
+            }
+
+            #[test]
+            fn continues_from_a_copy() {
+                super::copies(stringify!($scene));
+            }
+        })+
+    };
+}
+scenes! { standing ball_drop squish dam_break wring water dry empty }
+
+#[test]
+fn a_pool_of_the_host_changes_nothing() {
+    let scene = busy::scene("ball_drop", RESOLUTION);
+    let expected = digest_after(with(&scene, 1, SimdLevel::Fallback), STEPS);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().map(Arc::new);
+    let pool = pool.unwrap_or_else(|error| panic!("{error}"));
+    let cpu = Cpu::serial(SimdLevel::best()).unwrap_or_else(|error| panic!("{error}"));
+    let cpu = cpu.with_pool(Arc::clone(&pool));
+    assert_eq!(cpu.threads(), 3);
+    let world = World::on(&scene, cpu, NOTHING_OBSERVED).unwrap_or_else(|error| panic!("{error}"));
+    // From inside a job of the pool, as a host's task would.
+    let mut other = world.clone();
+    let inside = pool.install(|| {
+        common::steps(&mut other, STEPS);
+        other.digest()
+    });
+    assert_eq!(inside, expected, "stepped by a thread of the pool");
+    assert_eq!(digest_after(world, STEPS), expected, "stepped from outside");
+}
+
+#[test]
+fn frames_and_observed_columns_change_nothing_but_the_length_of_steps() {
+    let scene = busy::scene("standing", 0.5);
+    let mut plain = common::world(&scene);
+    let cpu = plain.cpu().clone();
+    let all = sorb::columns::Column::ALL;
+    let mut observed = World::on(&scene, cpu, all).unwrap_or_else(|error| panic!("{error}"));
+    for _ in 0..2 {
+        common::frame(&mut plain);
+        common::frame(&mut observed);
+    }
+    assert_eq!(plain.digest(), observed.digest());
+}

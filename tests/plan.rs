@@ -1,0 +1,193 @@
+//! What is planned for a scene: the text is a golden, and phases without work are not in it.
+
+mod common;
+
+use common::NOTHING_OBSERVED;
+use sorb::{
+    World,
+    columns::Column,
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::Params,
+    schedule::{Content, Phase, Plan, Runner, STEP, Verdict},
+};
+
+fn plan(name: &str) -> Plan {
+    let scene = common::preset(name, 1.0);
+    World::new(&scene).unwrap_or_else(|error| panic!("{name}: {error}")).plan().clone()
+}
+
+fn running(plan: &Plan) -> Vec<&'static str> {
+    plan.lines().iter().filter(|line| line.verdict == Verdict::Runs).map(|line| line.name).collect()
+}
+
+fn verdict(plan: &Plan, name: &str) -> Verdict {
+    plan.lines()
+        .iter()
+        .find(|line| line.name == name)
+        .map_or_else(|| panic!("no {name}"), |line| line.verdict)
+}
+
+macro_rules! plans {
+    ($($scene:ident)+) => {
+        $(#[test]
+        fn $scene() {
+            let name = stringify!($scene);
+            common::golden(&format!("plan_{name}"), &plan(name).to_string());
+        })+
+    };
+}
+plans! { standing ball_drop squish dam_break wring water dry empty }
+
+#[test]
+fn a_scene_without_sponge_runs_no_phase_of_it() {
+    let plan = plan("water");
+    let names = running(&plan);
+    assert!(names.contains(&"sph::density") && names.contains(&"sph::advect"), "{names:?}");
+    for family in ["pbd::", "couple::", "rigid::"] {
+        assert!(!names.iter().any(|name| name.starts_with(family)), "{family} in {names:?}");
+    }
+}
+
+#[test]
+fn a_scene_without_water_runs_no_phase_of_it() {
+    let plan = plan("dry");
+    let names = running(&plan);
+    assert!(names.contains(&"pbd::strain") && names.contains(&"rigid::step"), "{names:?}");
+    for family in ["grid::", "sph::", "couple::"] {
+        assert!(!names.iter().any(|name| name.starts_with(family)), "{family} in {names:?}");
+    }
+}
+
+#[test]
+fn nothing_runs_where_nothing_is() {
+    let plan = plan("empty");
+    assert_eq!(running(&plan), Vec::<&str>::new());
+    assert!(Runner::new(&plan).is_empty());
+    assert!(!Runner::new(&self::plan("dry")).is_empty(), "the control has phases");
+}
+
+#[test]
+fn every_phase_of_the_step_has_a_line_with_a_reason_if_it_is_skipped() {
+    let lines = plan("ball_drop").lines().len();
+    for name in common::busy::SCENES {
+        let plan = plan(name);
+        assert_eq!(plan.lines().len(), lines, "{name}");
+        for line in plan.lines() {
+            if let Verdict::Skipped(reason) = line.verdict {
+                assert!(!reason.is_empty(), "{name}: {}", line.name);
+            }
+        }
+    }
+    assert_eq!(verdict(&plan("water"), "pbd::strain"), Verdict::Skipped("no sponge"));
+    assert_eq!(verdict(&plan("water"), "rigid::step"), Verdict::Skipped("no bodies"));
+    assert_eq!(verdict(&plan("dry"), "sph::density"), Verdict::Skipped("no fluid"));
+}
+
+#[test]
+fn surface_tension_runs_only_where_it_is_above_zero() {
+    let still = common::preset("water", 0.5);
+    let pulled = common::with(&still, &["fluid.surface_tension=0.07"]);
+    let of = |scene| verdict(common::world(scene).plan(), "sph::surface_tension");
+    assert_eq!(of(&still), Verdict::Skipped("surface tension is zero"));
+    assert_eq!(of(&pulled), Verdict::Runs);
+}
+
+// Small steps of kernels that do nothing but declare.
+
+fn idle(_: &Cpu, _: &Params, _: &mut sorb::columns::Columns) {}
+
+static DENSITY: Kernel = Kernel {
+    name: "test::density",
+    needs: &[Need::Fluid],
+    reads: &[Column::FluidPosition],
+    writes: &[Column::FluidDensity],
+    cpu: idle,
+};
+static ACCELERATION: Kernel = Kernel {
+    name: "test::acceleration",
+    needs: &[Need::Fluid],
+    reads: &[Column::FluidDensity],
+    writes: &[Column::FluidAcceleration],
+    cpu: idle,
+};
+static VELOCITY: Kernel = Kernel {
+    name: "test::velocity",
+    needs: &[Need::Fluid],
+    reads: &[Column::FluidAcceleration, Column::FluidVelocity],
+    writes: &[Column::FluidVelocity],
+    cpu: idle,
+};
+static SATURATION: Kernel = Kernel {
+    name: "test::saturation",
+    needs: &[Need::Fluid],
+    reads: &[Column::FluidPosition],
+    writes: &[Column::NodeSaturation],
+    cpu: idle,
+};
+
+const WET: Content = Content {
+    fluid: true,
+    sponge: false,
+    walls: false,
+    bodies: false,
+    surface_tension: false,
+    iterations: 0,
+};
+
+fn small(step: &[Phase], observed: &[Column]) -> Plan {
+    Plan::new(step, WET, observed).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_scratch_column_read_before_it_is_written_is_refused() {
+    let honest = [Phase::Run(&DENSITY), Phase::Run(&ACCELERATION), Phase::Run(&VELOCITY)];
+    assert_eq!(running(&small(&honest, NOTHING_OBSERVED)).len(), 3);
+    let swapped = [Phase::Run(&ACCELERATION), Phase::Run(&DENSITY), Phase::Run(&VELOCITY)];
+    let error = Plan::new(&swapped, WET, NOTHING_OBSERVED).expect_err("density comes too late");
+    assert_eq!((error.kernel, error.column), ("test::acceleration", "fluid.density"));
+    assert!(error.to_string().contains("test::acceleration reads fluid.density"), "{error}");
+    let missing = [Phase::Run(&ACCELERATION), Phase::Run(&VELOCITY)];
+    assert!(Plan::new(&missing, WET, NOTHING_OBSERVED).is_err(), "nobody writes the density");
+    // What the scene lacks altogether cannot be read too early.
+    assert!(Plan::new(&swapped, Content::default(), NOTHING_OBSERVED).is_ok());
+}
+
+#[test]
+fn what_nobody_reads_is_skipped_unless_it_is_observed() {
+    let step =
+        [Phase::Run(&DENSITY), Phase::Run(&SATURATION), Phase::Run(&ACCELERATION), Phase::Run(&VELOCITY)];
+    let plan = small(&step, NOTHING_OBSERVED);
+    assert_eq!(running(&plan), ["test::density", "test::acceleration", "test::velocity"]);
+    assert_eq!(verdict(&plan, "test::saturation"), Verdict::Skipped("nobody reads what it writes"));
+    assert_eq!(running(&small(&step, &[Column::NodeSaturation])).len(), 4);
+    // Without the last reader, the whole chain before it is dead.
+    let chain = [Phase::Run(&DENSITY), Phase::Run(&ACCELERATION)];
+    assert_eq!(running(&small(&chain, NOTHING_OBSERVED)), Vec::<&str>::new());
+    assert_eq!(running(&small(&chain, &[Column::FluidDensity])), ["test::density"]);
+    assert_eq!(running(&small(&chain, &[Column::FluidAcceleration])).len(), 2);
+}
+
+#[test]
+fn the_step_itself_is_consistent_for_every_content() {
+    for bits in 0..32_u32 {
+        let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
+        let content = Content { fluid, sponge, walls, bodies, surface_tension, iterations: 1 };
+        if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
+            panic!("{content:?}: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_plan_counts_repetitions_from_the_scene() {
+    let scene = common::with(&common::preset("dry", 0.5), &["sponges[0].iterations=7"]);
+    let world = common::world(&scene);
+    let strain = world.plan().lines().iter().find(|line| line.name == "pbd::strain");
+    assert_eq!(strain.and_then(|line| line.repeat).map(|(_, times)| times), Some(7));
+    let mut world = world;
+    common::steps(&mut world, 3);
+    let calls = |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
+    assert_eq!((calls("pbd::strain"), calls("pbd::predict")), (Some(21), Some(3)));
+    assert_eq!(calls("sph::density"), None, "a skipped phase is not timed");
+}

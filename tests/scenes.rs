@@ -1,0 +1,339 @@
+//! The scenes over ten simulated seconds: what they do is a golden, and what the paper says they do is a claim.
+//!
+//! Half the resolution of the paper, so that all of them run in a test. Claims are ranges and do not change when a
+//! golden is written anew.
+
+mod common;
+
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+use common::Claims;
+use sorb::{Measures, World, scene::Scene};
+
+const RESOLUTION: f32 = 0.5;
+
+/// One frame of a run.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sample {
+    measures: Measures,
+    /// Height of the lowest node [m].
+    lowest: f64,
+    /// Mean distance from the plane z = 0 of the free particles in the air, 2 cm above the floor [m].
+    spread: f64,
+}
+
+struct Run {
+    name: String,
+    height: f64,
+    start: Measures,
+    samples: Vec<Sample>,
+    /// One line a second, the digest last.
+    text: String,
+    broken: Option<String>,
+}
+
+impl Run {
+    /// Runs a scene for some seconds of its own time.
+    fn of(scene: &Scene, seconds: f64) -> Self {
+        let mut world = common::world(scene);
+        let particles = world.particle_ids().len();
+        let mut run = Self {
+            name: scene.name.clone(),
+            height: scene.sponges.first().map_or(0.0, |sponge| f64::from(sponge.size().y)),
+            start: world.measures(),
+            samples: Vec::new(),
+            text: format!(
+                "{}\nparticles {particles}, nodes {}, tets {}\n",
+                scene.title,
+                world.node_positions().len(),
+                world.lattice().tets.len()
+            ),
+            broken: common::unhealthy(&world, particles),
+        };
+        let rate = f64::from(scene.time.frame_rate);
+        for frame in 1..=(seconds * rate).round() as u64 {
+            common::frame(&mut world);
+            run.samples.push(Sample::of(&world));
+            if run.broken.is_none() {
+                run.broken =
+                    common::unhealthy(&world, particles).map(|what| format!("frame {frame}: {what}"));
+            }
+            if frame % rate as u64 == 0 {
+                run.text.push_str(&common::line(&world));
+                run.text.push('\n');
+            }
+        }
+        run.text.push_str(&format!("digest {:016x}", world.digest()));
+        run
+    }
+
+    /// The frame at a time [s].
+    fn at(&self, time: f64) -> &Sample {
+        let found = self.samples.iter().find(|sample| sample.measures.time > time - 1e-6);
+        found.unwrap_or_else(|| panic!("{} has ended before {time} s", self.name))
+    }
+
+    /// Smallest and largest of a quantity between two times.
+    fn range(&self, times: std::ops::Range<f64>, quantity: impl Fn(&Sample) -> f64) -> (f64, f64) {
+        let within =
+            |sample: &&Sample| sample.measures.time >= times.start && sample.measures.time <= times.end;
+        let values = self.samples.iter().filter(within).map(quantity);
+        values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    }
+
+    /// Mean of a quantity between two times.
+    fn mean(&self, times: std::ops::Range<f64>, quantity: impl Fn(&Sample) -> f64) -> f64 {
+        let within =
+            |sample: &&Sample| sample.measures.time >= times.start && sample.measures.time <= times.end;
+        let values: Vec<f64> = self.samples.iter().filter(within).map(quantity).collect();
+        values.iter().sum::<f64>() / values.len() as f64
+    }
+
+    /// What holds for every scene.
+    fn claims(&self) -> Claims {
+        let mut claims = Claims::default();
+        claims.claim(self.broken.is_none(), format!("{}: {:?}", self.name, self.broken));
+        let water = self.samples.iter().map(|sample| sample.measures.water_mass);
+        claims
+            .claim(water.into_iter().all(|mass| mass == self.start.water_mass), "the mass of water changes");
+        // Free fall through the container and the fastest body reach 2 m/s; a blow-up knows no bound.
+        let (_, fastest) = self.range(0.0..f64::INFINITY, |sample| sample.measures.maximum_speed);
+        claims.claim(fastest < 5.0, format!("something moves at {fastest:.1} m/s"));
+        claims
+    }
+
+    /// Compares with the golden, and checks the claims whether it fits or not.
+    fn finish(self, claims: Claims) {
+        let golden =
+            catch_unwind(AssertUnwindSafe(|| common::golden(&format!("scene_{}", self.name), &self.text)));
+        claims.hold();
+        if let Err(panic) = golden {
+            resume_unwind(panic);
+        }
+    }
+}
+
+impl Sample {
+    fn of(world: &World) -> Self {
+        let lowest = world.node_positions().iter().map(|row| f64::from(row[1])).fold(f64::INFINITY, f64::min);
+        let interior = &world.columns().fluid.interior;
+        let free = world.particle_positions().iter().zip(interior).filter(|(_, interior)| **interior < 0.5);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (row, _) in free {
+            if row[1] > 0.02 {
+                sum += f64::from(row[2]).abs();
+                count += 1.0;
+            }
+        }
+        let spread = if count > 0.0 { sum / count } else { 0.0 };
+        Self { measures: world.measures(), lowest, spread }
+    }
+}
+
+fn absorbed(sample: &Sample) -> f64 {
+    sample.measures.absorbed_mass
+}
+
+fn volume(sample: &Sample) -> f64 {
+    sample.measures.sponge_volume
+}
+
+#[test]
+fn standing() {
+    /// Depth of the water at time zero [m].
+    const POOL: f64 = 0.03;
+    let scene = common::preset("standing", RESOLUTION);
+    let run = Run::of(&scene, 10.0);
+    let mut claims = run.claims();
+    let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(2.0)));
+    claims.claim(late > 1.3 * early, format!("absorbed: {early:.4} kg at 0.1 s, {late:.4} kg at 2 s"));
+    let end = run.mean(9.0..10.0, absorbed);
+    claims.claim(end > 0.98 * late, format!("absorbed: {late:.4} kg at 2 s, {end:.4} kg in the end"));
+    let wicking = run.mean(9.0..10.0, |sample| sample.measures.wicking_height);
+    claims.claim(wicking > 1.5 * POOL, format!("wicking height {wicking:.4} m, pool {POOL} m"));
+    let bound = 0.02 * run.height;
+    let start = run.start.sponge_centre;
+    let sideways = |sample: &Sample| {
+        let drift = sample.measures.sponge_centre - start;
+        (drift.x * drift.x + drift.z * drift.z).sqrt()
+    };
+    let (_, drift) = run.range(0.0..10.0, sideways);
+    claims.claim(drift < bound, format!("drifts {drift:.5} m sideways, bound {bound:.5} m"));
+    let (low, high) = run.range(2.0..10.0, |sample| sample.measures.sponge_centre.y);
+    claims.claim(high - low < bound, format!("hops {:.5} m, bound {bound:.5} m", high - low));
+    let (_, lift) = run.range(0.2..10.0, |sample| sample.lowest);
+    claims.claim(lift < bound, format!("its lowest node is {lift:.5} m above the floor, bound {bound:.5} m"));
+
+    // Without suction the water only levels out.
+    let dry = Run::of(&common::with(&scene, &["sponges[0].entry_pressure=0"]), 2.0);
+    let without = dry.mean(1.5..2.0, |sample| sample.measures.wicking_height);
+    claims.claim(without < POOL + 0.01, format!("wicking height {without:.4} m without suction"));
+    claims.claim(
+        without < 0.7 * wicking,
+        format!("wicking height {without:.4} m without suction, {wicking:.4} m with"),
+    );
+    // Without the reaction the sponge does not feel the water that it holds: it floats and drifts.
+    let floating = Run::of(&common::with(&scene, &["sponges[0].reaction=0"]), 2.0);
+    let (_, lift) = floating.range(0.2..2.0, |sample| sample.lowest);
+    claims.claim(
+        lift > 2.0 * bound,
+        format!("its lowest node is {lift:.5} m above the floor without reaction"),
+    );
+    let (_, drift) = floating.range(0.0..2.0, sideways);
+    claims.claim(drift > bound, format!("drifts {drift:.5} m sideways without reaction"));
+    run.finish(claims);
+}
+
+/// Water leaves as the volume falls, and more slowly at a hundredth of the permeability.
+fn squeezed(
+    name: &str,
+    before: f64,
+    smallest: std::ops::Range<f64>,
+    compared: f64,
+    claims: &mut Claims,
+) -> Run {
+    let scene = common::preset(name, RESOLUTION);
+    let run = Run::of(&scene, 10.0);
+    *claims = run.claims();
+    let (least, _) = run.range(smallest.clone(), volume);
+    let full = volume(run.at(before));
+    claims.claim(least < 0.9 * full, format!("volume: {full:.3e} m^3, then {least:.3e} m^3"));
+    let moment =
+        run.samples.iter().find(|sample| volume(sample) <= least && sample.measures.time >= smallest.start);
+    let moment = moment.map_or(smallest.end, |sample| sample.measures.time);
+    let (held, left) = (absorbed(run.at(before)), absorbed(run.at(moment)));
+    claims.claim(
+        left < 0.9 * held,
+        format!(
+            "absorbed: {held:.4} kg at {before} s, {left:.4} kg at {moment:.3} s when the volume is smallest"
+        ),
+    );
+    let permeability = scene.sponges[0].permeability / 100.0;
+    let tight = common::with(&scene, &[&format!("sponges[0].permeability={permeability:e}")]);
+    let tight = Run::of(&tight, compared);
+    claims.claim(tight.broken.is_none(), format!("a hundredth of the permeability: {:?}", tight.broken));
+    let (_, fastest) = tight.range(0.0..compared, |sample| sample.measures.maximum_speed);
+    claims.claim(
+        fastest < 5.0,
+        format!("a hundredth of the permeability: something moves at {fastest:.1} m/s"),
+    );
+    // Loss against what each run holds when the compression begins; a mean over a bounce of the ball.
+    let lost = |run: &Run| absorbed(run.at(before)) - run.mean(compared - 0.2..compared, absorbed);
+    let (fast, slow) = (lost(&run), lost(&tight));
+    claims.claim(
+        slow < 0.95 * fast,
+        format!("pressed out by {compared} s: {fast:.4} kg, {slow:.4} kg at a hundredth of the permeability"),
+    );
+    run
+}
+
+#[test]
+fn ball_drop() {
+    let mut claims = Claims::default();
+    // The ball is in the air for 0.11 s and goes deepest half a tenth later.
+    let run = squeezed("ball_drop", 0.1, 0.1..0.25, 1.0, &mut claims);
+    let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(10.0)));
+    claims.claim(late < 0.8 * early, format!("absorbed: {early:.4} kg, then {late:.4} kg"));
+    run.finish(claims);
+}
+
+#[test]
+fn squish() {
+    let mut claims = Claims::default();
+    // The plates close from 0.3 s to 0.8 s, touch at 0.4 s, and open from 2 s to 2.5 s.
+    let run = squeezed("squish", 0.4, 0.7..0.85, 1.5, &mut claims);
+    let closed = volume(run.at(1.0));
+    let opened = run.mean(9.0..10.0, volume);
+    claims.claim(
+        opened > 1.3 * closed,
+        format!("volume: {closed:.3e} m^3 closed, {opened:.3e} m^3 opened again"),
+    );
+    run.finish(claims);
+}
+
+#[test]
+fn dam_break() {
+    let scene = common::preset("dam_break", RESOLUTION);
+    let run = Run::of(&scene, 10.0);
+    let mut claims = run.claims();
+    let moved = run.at(1.0).measures.sponge_centre.x - run.start.sponge_centre.x;
+    claims.claim(moved > 0.02, format!("the flow carries the sponge by {moved:.4} m"));
+    let (early, late) = (absorbed(run.at(0.5)), absorbed(run.at(5.0)));
+    claims.claim(late > early && early > 0.0, format!("absorbed: {early:.4} kg, then {late:.4} kg"));
+    // A sponge that water runs through without drag or suction stays behind.
+    let loose = ["sponges[0].permeability=1e-5", "sponges[0].entry_pressure=0"];
+    let loose = Run::of(&common::with(&scene, &loose), 1.0);
+    let stays = loose.at(1.0).measures.sponge_centre.x - loose.start.sponge_centre.x;
+    claims.claim(stays < 0.5 * moved, format!("moves {moved:.4} m, and {stays:.4} m without coupling"));
+    run.finish(claims);
+}
+
+#[test]
+fn wring() {
+    let scene = common::preset("wring", RESOLUTION);
+    let run = Run::of(&scene, 6.0);
+    let mut claims = run.claims();
+    let full = volume(run.at(0.3));
+    let (least, _) = run.range(0.3..6.0, volume);
+    let kept = volume(run.at(2.8)).max(volume(run.at(6.0)));
+    claims.claim(least < 0.9 * full, format!("volume: {full:.3e} m^3, then {least:.3e} m^3"));
+    claims.claim(kept < 0.9 * full, format!("volume: {full:.3e} m^3, and {kept:.3e} m^3 while twisted"));
+    let (held, left) = (absorbed(run.at(0.3)), absorbed(run.at(2.8)));
+    claims.claim(left < 0.9 * held, format!("absorbed: {held:.4} kg at 0.3 s, {left:.4} kg at 2.8 s"));
+    // What drips by itself: the same bar, not twisted.
+    let still = Run::of(&common::with(&scene, &["bodies[0].motions=[]", "bodies[1].motions=[]"]), 2.8);
+    let drips = absorbed(still.at(0.3)) - absorbed(still.at(2.8));
+    claims.claim(
+        held - left > 1.1 * drips,
+        format!("lost from 0.3 s to 2.8 s: {:.4} kg twisted, {drips:.4} kg not twisted", held - left),
+    );
+    // What has hit the floor splashes to the walls in both; what is in the air tells them apart.
+    let spread = |run: &Run| run.mean(0.8..2.8, |sample| sample.spread);
+    let (wrung, hanging) = (spread(&run), spread(&still));
+    claims.claim(
+        wrung > 1.1 * hanging,
+        format!("water in the air is {wrung:.4} m from the axis on average, {hanging:.4} m if not twisted"),
+    );
+    run.finish(claims);
+}
+
+#[test]
+fn water() {
+    let run = Run::of(&common::preset("water", RESOLUTION), 2.0);
+    let mut claims = run.claims();
+    let energy = |sample: &Sample| sample.measures.kinetic_energy + sample.measures.potential_energy;
+    let (start, end) = (run.start.potential_energy, energy(run.at(2.0)));
+    let (_, most) = run.range(0.0..2.0, energy);
+    claims.claim(most < 1.02 * start, format!("energy: {start:.4} J, then up to {most:.4} J"));
+    claims.claim(end < 0.8 * start, format!("energy: {start:.4} J, then {end:.4} J: the dam has not fallen"));
+    let error = run.mean(0.5..2.0, |sample| sample.measures.mean_density_error);
+    claims.claim(error < 0.01, format!("mean density error {error:.4}"));
+    run.finish(claims);
+}
+
+#[test]
+fn dry() {
+    let run = Run::of(&common::preset("dry", RESOLUTION), 2.0);
+    let mut claims = run.claims();
+    let (least, _) = run.range(0.0..0.5, volume);
+    let full = run.start.sponge_volume;
+    claims.claim(least < 0.95 * full, format!("volume: {full:.3e} m^3, under the ball {least:.3e} m^3"));
+    let energy = |sample: &Sample| {
+        let m = &sample.measures;
+        m.kinetic_energy + m.potential_energy + m.elastic_energy
+    };
+    let start = run.start.potential_energy;
+    let (_, most) = run.range(0.0..2.0, energy);
+    claims.claim(most < 1.02 * start, format!("energy: {start:.4} J, then up to {most:.4} J"));
+    run.finish(claims);
+}
+
+#[test]
+fn empty() {
+    let run = Run::of(&common::preset("empty", RESOLUTION), 2.0);
+    let mut claims = run.claims();
+    let last = run.at(2.0).measures;
+    claims.claim(last == Measures { time: last.time, ..Measures::default() }, format!("{last:?}"));
+    run.finish(claims);
+}
