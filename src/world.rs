@@ -3,7 +3,7 @@
 use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
-    body::Body,
+    body::{Body, Wrench},
     columns::{Column, Columns},
     couple,
     cpu::{Cpu, CpuError},
@@ -459,7 +459,15 @@ fn fastest(velocities: &[[f32; 4]]) -> f32 {
 fn move_bodies(engine: &mut dyn RigidEngine, columns: &mut Columns, step: f32) -> Result<(), RigidError> {
     let store = &mut columns.bodies;
     let count = store.states.0.len();
-    let wrenches: Vec<_> = (0..count).map(|body| store.wrenches.total(body, count)).collect();
+    let total = |body| {
+        let (fluid, nodes) =
+            (store.fluid_wrenches.total(body, count), store.node_wrenches.total(body, count));
+        Wrench {
+            impulse: fluid.impulse + nodes.impulse,
+            angular_impulse: fluid.angular_impulse + nodes.angular_impulse,
+        }
+    };
+    let wrenches: Vec<_> = (0..count).map(total).collect();
     engine.step(step, &wrenches)?;
     for (index, body) in store.states.0.iter_mut().enumerate() {
         body.state = engine.state(index);

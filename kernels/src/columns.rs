@@ -234,8 +234,10 @@ columns! {
     bodies: BodyStore {
         /// Shapes, poses and velocities.
         BodyStates = states: Bodies, "m", State;
-        /// What fluid and sponges gave to the bodies in this step.
-        BodyWrenches = wrenches: Wrenches, "N s", Scratch;
+        /// What the fluid gave to the bodies in this step.
+        BodyFluidWrenches = fluid_wrenches: Wrenches, "N s", Scratch;
+        /// What the sponges gave to the bodies in this step.
+        BodyNodeWrenches = node_wrenches: Wrenches, "N s", Scratch;
     }
 }
 

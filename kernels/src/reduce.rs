@@ -48,25 +48,18 @@ impl ColumnData for Extremes {
     }
 }
 
-/// Wrenches on every body by every chunk of particles and of nodes.
+/// Wrenches on every body by every chunk of rows, `chunks x bodies`.
 #[derive(Clone, Debug, Default)]
-pub struct Wrenches {
-    /// `chunks x bodies` wrenches by the fluid.
-    pub(crate) fluid: Vec<Wrench>,
-    /// `chunks x bodies` wrenches by the sponges.
-    pub(crate) nodes: Vec<Wrench>,
-}
+pub struct Wrenches(pub(crate) Vec<Wrench>);
 
 impl Wrenches {
     /// What one body of `bodies` received, chunks added up in order.
     #[must_use]
     pub fn total(&self, body: usize, bodies: usize) -> Wrench {
         let mut total = Wrench::default();
-        for wrenches in [&self.fluid, &self.nodes] {
-            for wrench in wrenches.iter().skip(body).step_by(bodies.max(1)) {
-                total.impulse += wrench.impulse;
-                total.angular_impulse += wrench.angular_impulse;
-            }
+        for wrench in self.0.iter().skip(body).step_by(bodies.max(1)) {
+            total.impulse += wrench.impulse;
+            total.angular_impulse += wrench.angular_impulse;
         }
         total
     }
@@ -74,7 +67,7 @@ impl Wrenches {
 
 impl ColumnData for Wrenches {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
-        for wrench in self.fluid.iter().chain(&self.nodes) {
+        for wrench in &self.0 {
             for value in wrench.impulse.to_array().into_iter().chain(wrench.angular_impulse.to_array()) {
                 visit(value.to_bits() as u32);
                 visit((value.to_bits() >> 32) as u32);
@@ -82,8 +75,6 @@ impl ColumnData for Wrenches {
         }
     }
     fn poison(&mut self) {
-        let nan = Wrench { impulse: DVec3::NAN, angular_impulse: DVec3::NAN };
-        self.fluid.fill(nan);
-        self.nodes.fill(nan);
+        self.0.fill(Wrench { impulse: DVec3::NAN, angular_impulse: DVec3::NAN });
     }
 }

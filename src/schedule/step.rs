@@ -44,11 +44,15 @@ pub struct HostPhase {
 }
 
 /// The rigid bodies take what fluid and sponges gave them, and move.
-pub static RIGID: HostPhase =
-    HostPhase { name: "rigid::step", writes: &[Column::BodyStates], reads: &[Column::BodyWrenches] };
+pub static RIGID: HostPhase = HostPhase {
+    name: "rigid::step",
+    writes: &[Column::BodyStates],
+    reads: &[Column::BodyFluidWrenches, Column::BodyNodeWrenches],
+};
 
-/// Sweeps of the velocity filter before the drag is applied: one to three leave the kinetic energy within 2 % of
-/// the converged solution for water that weighs 18 times as much as the sponge it fills.
+/// Sweeps of the drag before the last: for water that weighs 20 times as much as the sponge it fills, two leave the
+/// impulses of a uniform flow within 6 % and of a shear flow within 8 % of the converged ones. Momentum is exact and
+/// energy falls at any number.
 pub(super) const FILTER_SWEEPS: u32 = 2;
 
 use Phase::{Host, Repeat, Run};

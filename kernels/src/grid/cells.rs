@@ -40,6 +40,8 @@ pub enum Domain {
 pub struct Cells {
     /// Source rows in the order of the cells.
     pub(crate) order: Vec<u32>,
+    /// Rows and identities on their way to the new order; kept so that a step allocates nothing.
+    pub(crate) spare: (Vec<[f32; 4]>, Vec<u32>),
     scheme: Scheme,
     dense: Dense,
     hashed: Hashed,

@@ -1,6 +1,6 @@
 //! Re-orders the particles by cell, so that neighbours in space are neighbours in memory.
 
-use super::sort::permute;
+use super::{cells::Cells, sort::permute};
 use crate::{
     columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
     cpu::Cpu,
@@ -21,14 +21,15 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let Fluid { position, velocity, id, cells, .. } = &mut columns.fluid;
     cells.build(cpu, &position[..count], params.fluid.smoothing.support_radius, params.domain);
-    let mut rows = vec![FAR_ROW; padded(count)];
-    permute(cpu, &cells.order, position, &mut rows);
-    std::mem::swap(position, &mut rows);
-    rows.resize(padded(count), [0.0; 4]);
-    permute(cpu, &cells.order, velocity, &mut rows);
+    let Cells { order, spare: (rows, ids), .. } = cells;
+    rows.resize(padded(count), FAR_ROW);
+    permute(cpu, order, position, rows);
+    rows[count..].fill(FAR_ROW);
+    std::mem::swap(position, rows);
+    permute(cpu, order, velocity, rows);
     rows[count..].fill([0.0; 4]);
-    std::mem::swap(velocity, &mut rows);
-    let mut ids = vec![u32::MAX; id.len()];
-    permute(cpu, &cells.order, id, &mut ids);
-    *id = ids;
+    std::mem::swap(velocity, rows);
+    ids.resize(id.len(), u32::MAX);
+    permute(cpu, order, id, ids);
+    std::mem::swap(id, ids);
 }

@@ -33,7 +33,7 @@ pub(super) fn predict(params: &Params, columns: &mut Columns) {
         };
         nodes.predicted[node] = row(y, f64::from(x[3]));
     }
-    columns.bodies.wrenches.nodes = vec![Wrench::default(); bodies.len()];
+    columns.bodies.node_wrenches.0 = vec![Wrench::default(); bodies.len()];
 }
 
 /// How every vertex enters the columns of the deformation gradient, in the frame of the tet, times the edge.
@@ -120,7 +120,7 @@ pub(super) fn contact(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     // What other kernels gave before, in one chunk.
     let mut wrenches = vec![Wrench::default(); bodies.len()];
-    for chunk in columns.bodies.wrenches.nodes.chunks(bodies.len().max(1)) {
+    for chunk in columns.bodies.node_wrenches.0.chunks(bodies.len().max(1)) {
         for (wrench, part) in wrenches.iter_mut().zip(chunk) {
             wrench.impulse += part.impulse;
             wrench.angular_impulse += part.angular_impulse;
@@ -148,7 +148,7 @@ pub(super) fn contact(params: &Params, columns: &mut Columns) {
         }
         nodes.predicted[node] = row(point, w);
     }
-    columns.bodies.wrenches.nodes = wrenches;
+    columns.bodies.node_wrenches.0 = wrenches;
 }
 
 /// Change of position by one body, which stands where it began the step.

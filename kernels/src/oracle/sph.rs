@@ -108,7 +108,7 @@ pub(super) fn repulsion(params: &Params, columns: &mut Columns) {
         }
         fluid.acceleration[i] = row(sum, 0.0);
     }
-    columns.bodies.wrenches.fluid = wrenches;
+    columns.bodies.fluid_wrenches.0 = wrenches;
 }
 
 pub(super) fn kick(params: &Params, columns: &mut Columns) {

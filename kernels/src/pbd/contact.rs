@@ -20,8 +20,8 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::contact",
     needs: &[Need::Sponge, Need::Obstacles],
-    reads: &[NodePosition, NodePredicted, NodeSponge, BodyStates, BodyWrenches],
-    writes: &[NodePredicted, BodyWrenches],
+    reads: &[NodePosition, NodePredicted, NodeSponge, BodyStates, BodyNodeWrenches],
+    writes: &[NodePredicted, BodyNodeWrenches],
     cpu,
 };
 
@@ -31,7 +31,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let chunks = predicted.len().div_ceil(CHUNK);
     let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
         0 => (0..chunks).map(|_| &mut [][..]).collect(),
-        count => columns.bodies.wrenches.nodes.chunks_exact_mut(count).collect(),
+        count => columns.bodies.node_wrenches.0.chunks_exact_mut(count).collect(),
     };
     cpu.for_chunks((&mut predicted[..], PerChunk(&mut wrenches)), |first, (predicted, wrenches)| {
         let task = Task { params, bodies, position, sponge };

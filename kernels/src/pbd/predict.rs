@@ -21,13 +21,13 @@ pub static KERNEL: Kernel = Kernel {
     name: "pbd::predict",
     needs: &[Need::Sponge],
     reads: &[NodePosition, NodeVelocity, NodeAcceleration, NodeGrip, NodeGripOffset, BodyStates],
-    writes: &[NodePredicted, BodyWrenches],
+    writes: &[NodePredicted, BodyNodeWrenches],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let bodies = &columns.bodies.states.0;
-    let wrenches = &mut columns.bodies.wrenches.nodes;
+    let wrenches = &mut columns.bodies.node_wrenches.0;
     let Nodes { position, velocity, acceleration, grip, grip_offset, predicted, .. } = &mut columns.nodes;
     wrenches.clear();
     wrenches.resize(position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());

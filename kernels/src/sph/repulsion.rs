@@ -23,7 +23,7 @@ pub static KERNEL: Kernel = Kernel {
     name: "sph::repulsion",
     needs: &[Need::Fluid, Need::Obstacles],
     reads: &[FluidPosition, FluidVelocity, FluidAcceleration, BodyStates],
-    writes: &[FluidAcceleration, BodyWrenches],
+    writes: &[FluidAcceleration, BodyFluidWrenches],
     cpu,
 };
 
@@ -31,7 +31,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let Fluid { position, velocity, acceleration, .. } = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
-    let wrenches = &mut columns.bodies.wrenches.fluid;
+    let wrenches = &mut columns.bodies.fluid_wrenches.0;
     let chunks = acceleration.len().div_ceil(CHUNK);
     wrenches.clear();
     wrenches.resize(chunks * bodies.len(), Wrench::default());

@@ -133,11 +133,11 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::NodeSaturation => values(&nodes.saturation, &all_nodes),
         Column::FluidExtremes => extremes(fluid.extremes.total()),
         Column::NodeExtremes => extremes(nodes.extremes.total()),
-        Column::BodyWrenches => {
-            let wrenches = &columns.bodies.wrenches;
-            let mut numbers = totals(&wrenches.fluid, columns.rows.bodies);
-            numbers.extend(totals(&wrenches.nodes, columns.rows.bodies));
-            Content::Numbers(numbers)
+        Column::BodyFluidWrenches => {
+            Content::Numbers(totals(&columns.bodies.fluid_wrenches.0, columns.rows.bodies))
+        }
+        Column::BodyNodeWrenches => {
+            Content::Numbers(totals(&columns.bodies.node_wrenches.0, columns.rows.bodies))
         }
         other => panic!("no kernel writes {}", other.name()),
     }

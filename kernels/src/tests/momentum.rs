@@ -122,7 +122,7 @@ fn repulsion_pushes_bodies_back() {
     (forces.magnitude, forces.moment_magnitude) = (forces.magnitude * step, forces.moment_magnitude * step);
     // The control: without the bodies the sum is far from zero.
     assert!(forces.error() > 1e-2 && forces.moment_error() > 1e-2);
-    forces.add_wrenches(&scene, &scene.columns.bodies.wrenches.fluid);
+    forces.add_wrenches(&scene, &scene.columns.bodies.fluid_wrenches.0);
     assert!(forces.error() < 1e-6, "{:.1e}", forces.error());
     assert!(forces.moment_error() < 1e-5, "{:.1e}", forces.moment_error());
 }
@@ -148,7 +148,7 @@ fn contact_pushes_bodies_back() {
         }
         // The control: without the bodies the sum is far from zero.
         assert!(balance.error() > 1e-2 && balance.moment_error() > 1e-2);
-        balance.add_wrenches(&scene, &scene.columns.bodies.wrenches.nodes);
+        balance.add_wrenches(&scene, &scene.columns.bodies.node_wrenches.0);
         // Displacements of a millimetre or less are differences of positions of decimetres.
         assert!(balance.error() < 1e-5, "body {body}: {:.1e}", balance.error());
         assert!(balance.moment_error() < 1e-5, "body {body}: {:.1e}", balance.moment_error());

@@ -345,8 +345,8 @@ fn every_ingredient_touches_the_others() {
             let own = wrenches.iter().skip(body).step_by(columns.rows.bodies);
             own.fold(0.0, |sum, wrench| sum + wrench.impulse.length())
         };
-        assert!(of(&columns.bodies.wrenches.fluid) > 0.0, "fluid at body {body}");
-        assert!(body == GRIPPER || of(&columns.bodies.wrenches.nodes) > 0.0, "nodes at body {body}");
+        assert!(of(&columns.bodies.fluid_wrenches.0) > 0.0, "fluid at body {body}");
+        assert!(body == GRIPPER || of(&columns.bodies.node_wrenches.0) > 0.0, "nodes at body {body}");
     }
     assert!(columns.nodes.saturation.iter().any(|saturation| *saturation > 0.3));
     assert!(columns.rows.nodes > crate::cpu::CHUNK && columns.rows.fluid > 4 * crate::cpu::CHUNK);
