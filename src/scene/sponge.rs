@@ -102,7 +102,7 @@ pub struct Sponge {
     pub shear_modulus: f32,
     /// Stiffness against changes of volume. Range 10 to 1e9 Pa; default 20000.
     pub volume_modulus: f32,
-    /// Time in which internal vibration fades. Range 0 to 10 s; default 0.0005.
+    /// Time in which internal vibration fades. Range 0 to 10 s; default 5e-4.
     pub damping_time: f32,
     /// Solver sweeps per step. Range 1 to 64; default 1.
     ///

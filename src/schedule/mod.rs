@@ -6,4 +6,4 @@ mod step;
 
 pub use plan::{Content, Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
-pub use step::{HostPhase, Phase, RIGID, STEP};
+pub use step::{HostPhase, Phase, RIGID, STEP, Times};

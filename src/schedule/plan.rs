@@ -125,10 +125,23 @@ impl Plan {
         let mut live: Vec<Column> =
             Column::ALL.iter().copied().filter(|column| column.life() == Life::State).collect();
         live.extend_from_slice(observed);
-        for line in self.lines.iter_mut().rev().filter(|line| line.verdict == Verdict::Runs) {
-            if line.writes().iter().any(|column| live.contains(column)) {
-                live.extend_from_slice(line.reads());
-            } else {
+        let mut runs = vec![false; self.lines.len()];
+        let mut first = self.lines.len();
+        for group in self.lines.chunk_by(|a, b| a.group().is_some() && a.group() == b.group()).rev() {
+            first -= group.len();
+            // What a repetition writes, the next one may read before it: twice around finds all of it.
+            for _ in 0..if group[0].group().is_some() { 2 } else { 1 } {
+                for (line, runs) in group.iter().zip(&mut runs[first..]).rev() {
+                    *runs = line.verdict == Verdict::Runs
+                        && line.writes().iter().any(|column| live.contains(column));
+                    if *runs {
+                        live.extend_from_slice(line.reads());
+                    }
+                }
+            }
+        }
+        for (line, runs) in self.lines.iter_mut().zip(runs) {
+            if line.verdict == Verdict::Runs && !runs {
                 line.verdict = Verdict::Skipped("nobody reads what it writes");
             }
         }
@@ -153,6 +166,11 @@ impl Plan {
 }
 
 impl PlanLine {
+    /// The group that the line is repeated in.
+    fn group(&self) -> Option<usize> {
+        self.repeat.map(|(group, _)| group)
+    }
+
     /// Columns that the phase reads.
     #[must_use]
     pub fn reads(&self) -> &'static [Column] {

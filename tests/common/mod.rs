@@ -132,9 +132,14 @@ pub(crate) fn unhealthy(world: &World, particles: usize) -> Option<String> {
 
 /// Impulse on any body in the last step.
 pub(crate) fn bodies_are_pushed(world: &World) -> bool {
-    let wrenches = &world.columns().bodies.wrenches;
+    let bodies = &world.columns().bodies;
     let count = world.bodies().len();
-    (0..count).any(|body| wrenches.total(body, count).impulse != DVec3::ZERO)
+    let pushed = |body| {
+        [&bodies.fluid_wrenches, &bodies.node_wrenches]
+            .iter()
+            .any(|wrenches| wrenches.total(body, count).impulse != DVec3::ZERO)
+    };
+    (0..count).any(pushed)
 }
 
 /// Whether any particle is inside a sponge.
