@@ -1,4 +1,4 @@
-//! An absorbent sponge, the water it drinks and the bodies that squeeze it, in real time.
+//! An absorbent sponge, the water it drinks and the bodies that squeeze it.
 
 mod clock;
 mod digest;
