@@ -405,7 +405,7 @@ impl World {
         &self.columns.nodes.velocity[..self.columns.rows.nodes]
     }
 
-    /// Saturation of the sponge nodes \[1\], about 0 to 1; empty before the first step or without fluid.
+    /// Saturation of the sponge nodes \[1\], about 0 to 1; empty without fluid.
     #[must_use]
     pub fn node_saturations(&self) -> &[f32] {
         let saturation = &self.columns.nodes.saturation;
