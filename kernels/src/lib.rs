@@ -8,6 +8,8 @@ pub mod body;
 pub mod columns;
 pub mod couple;
 pub mod cpu;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod grid;
 pub mod kernel;
 mod lanes;

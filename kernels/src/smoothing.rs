@@ -71,6 +71,12 @@ impl Wendland {
         sum
     }
 
+    /// 1 / H, and the factors of value, gradient, Laplacian and viscosity.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn factors(&self) -> [f32; 5] {
+        [self.inverse_radius, self.value, self.gradient, self.laplacian, self.viscosity]
+    }
+
     /// The kernel on eight lanes.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, simd: S) -> WendlandLanes<S> {

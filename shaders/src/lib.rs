@@ -1,22 +1,70 @@
 //! The WGSL twins of the kernels of sorb: text only, no dependencies.
 //!
-//! A twin has the path of its kernel: the twin of `sph::density` is `sph/density.wgsl`. Kernels without a
-//! twin run on the CPU.
+//! A twin has the path of its kernel: the twin of `sph::density` is `sph/density.wgsl`. A kernel that needs several
+//! passes has further files beside it, and what several twins need is in `common/`. Which passes make up a kernel, and
+//! which buffers they are bound to, is in the table of `sorb-kernels`.
 
-/// The WGSL source of one kernel.
+/// The WGSL source of one pass, complete: what it shares with others comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shader {
-    /// Name of the kernel, `family::name`.
-    pub kernel: &'static str,
+    /// Name of the file, `family::name`.
+    pub name: &'static str,
     /// WGSL text.
     pub source: &'static str,
 }
 
-/// All twins, ordered by the name of the kernel.
-pub static SHADERS: &[Shader] = &[];
+macro_rules! shaders {
+    ($($family:ident::$file:ident: $($common:ident)*;)*) => {
+        &[$(Shader {
+            name: concat!(stringify!($family), "::", stringify!($file)),
+            source: concat!(
+                include_str!("../common/layout.wgsl"),
+                $(include_str!(concat!("../common/", stringify!($common), ".wgsl")),)*
+                include_str!(concat!("../", stringify!($family), "/", stringify!($file), ".wgsl")),
+            ),
+        }),*]
+    };
+}
 
-/// The twin of the named kernel, if it has one.
+/// All passes, by family, with the common files that each is built from.
+pub static SHADERS: &[Shader] = shaders! {
+    clock::clock: ;
+    couple::begin_drag: ;
+    couple::control_velocity: smoothing drag;
+    couple::controls: grid;
+    couple::drag: smoothing drag;
+    couple::exchange: smoothing received;
+    couple::exchange_fluid: ;
+    couple::interior: smoothing sponges;
+    couple::near: grid;
+    couple::saturation: smoothing sponges;
+    couple::suction: smoothing;
+    couple::velocity_filter: smoothing received;
+    couple::zero_distance: smoothing sponges;
+    grid::count: grid;
+    grid::fluid_neighbors: grid smoothing;
+    grid::page_sums: grid;
+    grid::scan_pages: grid;
+    grid::scan_sums: grid;
+    grid::scatter: grid;
+    grid::sort_fluid: grid;
+    pbd::contact: body surface sponges wrench;
+    pbd::gravity: ;
+    pbd::predict: body;
+    pbd::strain: sponges;
+    pbd::velocity: ;
+    sph::advect: ;
+    sph::body_wrenches: wrench;
+    sph::density: smoothing;
+    sph::forces: smoothing;
+    sph::kick: ;
+    sph::pressure: ;
+    sph::repulsion: body surface wrench;
+    sph::surface_tension: smoothing;
+};
+
+/// The pass of that name.
 #[must_use]
-pub fn shader(kernel: &str) -> Option<&'static Shader> {
-    SHADERS.iter().find(|shader| shader.kernel == kernel)
+pub fn shader(name: &str) -> Option<&'static Shader> {
+    SHADERS.iter().find(|shader| shader.name == name)
 }

@@ -74,7 +74,7 @@ impl Neighbors {
     }
 
     /// Lists given one by one, with entries in order; `padding` fills up a group.
-    #[cfg(any(test, feature = "oracles"))]
+    #[cfg(any(test, feature = "oracles", feature = "gpu"))]
     pub(crate) fn from_lists(lists: &[Vec<u32>], padding: u32) -> Self {
         let mut chunks = Vec::new();
         for queries in lists.chunks(CHUNK) {

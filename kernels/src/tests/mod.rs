@@ -3,6 +3,8 @@
 mod audit;
 mod compare;
 mod drag;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod lattice;
 mod levels;
 mod momentum;

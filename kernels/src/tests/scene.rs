@@ -50,7 +50,7 @@ pub(super) const CHAIN: &[&str] = &[
 /// What a scene contains.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Options {
-    /// Particles, at most [`BLOCK`].
+    /// Particles; beyond [`BLOCK`] they are closer together.
     pub(super) fluid: usize,
     pub(super) sponges: bool,
     pub(super) bodies: bool,
@@ -68,6 +68,17 @@ pub(super) const FULL: Options = Options {
     bounded: true,
     equation_of_state: EquationOfState::Tait,
 };
+
+impl Options {
+    /// Sites per site of the coarse block, along each axis.
+    fn refinement(self) -> usize {
+        (1..).find(|n| BLOCK * n * n * n >= self.fluid).unwrap_or(1)
+    }
+
+    fn spacing(self) -> f32 {
+        SPACING / self.refinement() as f32
+    }
+}
 
 /// Sizes around the width of a vector, and scenes that lack something.
 pub(super) fn all_options() -> Vec<Options> {
@@ -137,12 +148,13 @@ impl Scene {
 
     fn add_fluid(&mut self, random: &mut Random) {
         let count = self.options.fluid;
+        let (n, spacing) = (self.options.refinement(), self.options.spacing());
         let fluid = &mut self.columns.fluid;
         for index in 0..count {
             // A stride through the block, so that few particles are still all over the place.
-            let place = index * 389 % BLOCK;
-            let site = [place % 13, place / 13 % 9, place / 117];
-            let mut jittered = |site: usize| (site as f32 + 0.5 + 0.2 * (random.unit() - 0.5)) * SPACING;
+            let place = index * 389 % (BLOCK * n * n * n);
+            let site = [place % (13 * n), place / (13 * n) % (9 * n), place / (117 * n * n)];
+            let mut jittered = |site: usize| (site as f32 + 0.5 + 0.2 * (random.unit() - 0.5)) * spacing;
             fluid.position.push([jittered(site[0]), jittered(site[1]), jittered(site[2]), 0.0]);
             let mut speed = || random.unit() - 0.5;
             fluid.velocity.push([speed(), speed(), speed(), 0.0]);
@@ -219,8 +231,9 @@ pub(super) fn blocks() -> Vec<Block> {
 }
 
 fn params(options: Options) -> Params {
-    let radius = 2.2 * SPACING;
-    let sum = Wendland::lattice_sum(f64::from(radius), f64::from(SPACING)) as f32;
+    let spacing = options.spacing();
+    let radius = 2.2 * spacing;
+    let sum = Wendland::lattice_sum(f64::from(radius), f64::from(spacing)) as f32;
     let (low, high) = (Vec3::new(-0.002, 0.0024, -0.001), Vec3::new(0.0775, 0.06, 0.05));
     let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
     Params {
@@ -229,15 +242,15 @@ fn params(options: Options) -> Params {
         domain: if options.bounded { domain } else { Domain::Unbounded },
         walls: options.walls.then_some((low, high)),
         fluid: FluidParams {
-            spacing: SPACING,
+            spacing,
             rest_density: 1000.0,
-            particle_mass: 1000.0 * SPACING.powi(3) / sum,
+            particle_mass: 1000.0 * spacing.powi(3) / sum,
             smoothing: Wendland::new(radius),
             equation_of_state: options.equation_of_state,
             sound_speed: 10.0,
             viscosity: 0.5,
             surface_tension: 0.07,
-            repulsion_range: SPACING,
+            repulsion_range: spacing,
             repulsion_stiffness: 1.0e5,
             repulsion_damping: 50.0,
         },

@@ -1,0 +1,77 @@
+//! Kernels on a GPU, through wgpu.
+//!
+//! A [`Gpu`] is a device with the pipelines compiled for it; it can be shared, and it can be the host's. A [`Resident`]
+//! holds the columns of one world on it. A [`Program`] is a list of kernels bound to those columns. State stays on the
+//! device: [`Resident::advance`] takes many steps in one submission and gives back a few hundred bytes, because the
+//! device chooses the length of the steps itself.
+//!
+//! # Determinism
+//! The same device gives the same bits on every run: there are no atomics on floats, sums have a fixed order, and the
+//! sort is stable. Another device, or the CPU, gives other bits within the bounds of the parity tests.
+//!
+//! # What differs from the CPU
+//! Lists of neighbours are one row of the k-th neighbours of all particles after the other; weights of the coupling
+//! are computed where they are needed and not kept; the search for neighbours sums up the density. The columns mean
+//! the same.
+
+mod device;
+mod error;
+mod pack;
+mod pipeline;
+mod profile;
+mod resident;
+mod run;
+mod transfer;
+mod twins;
+
+pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
+pub use error::GpuError;
+pub use pack::StepLimits;
+pub use profile::Profile;
+pub use resident::Resident;
+pub use run::{Answer, Outcome, Program, Start};
+pub use transfer::is_internal;
+pub use wgpu;
+
+/// Whether a kernel has a twin.
+#[must_use]
+pub fn has_twin(kernel: &str) -> bool {
+    twins::twin(kernel).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{KERNELS, kernel};
+
+    #[test]
+    fn every_kernel_has_a_twin_and_every_twin_a_kernel() {
+        for kernel in KERNELS {
+            assert!(has_twin(kernel.name), "{}", kernel.name);
+        }
+        for (name, passes) in twins::TWINS {
+            assert!(kernel(name).is_some() && !passes.is_empty(), "{name}");
+        }
+    }
+
+    #[test]
+    fn every_shader_is_used_and_binds_at_most_eight_storage_buffers() {
+        let helpers = [twins::BEGIN, twins::BODY_WRENCHES, twins::FINISH];
+        let passes: Vec<_> =
+            twins::TWINS.iter().flat_map(|(_, passes)| passes.iter()).chain(&helpers).collect();
+        for shader in sorb_shaders::SHADERS {
+            assert!(passes.iter().any(|pass| pass.shader == shader.name), "{}", shader.name);
+            let bindings = pipeline::bindings(shader.source);
+            let storage = bindings.iter().filter(|binding| binding.is_storage()).count();
+            assert!((1..=8).contains(&storage), "{}: {storage}", shader.name);
+            let declared = shader.source.matches("@binding(").count();
+            assert_eq!(declared, bindings.len(), "{}: a binding that is not on a line of its own", shader.name);
+            for (index, binding) in bindings.iter().enumerate() {
+                assert_eq!(binding.index, index as u32, "{}", shader.name);
+            }
+        }
+        for pass in passes {
+            assert!(sorb_shaders::shader(pass.shader).is_some(), "{}", pass.shader);
+        }
+    }
+}

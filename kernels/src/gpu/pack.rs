@@ -1,0 +1,266 @@
+//! Parameters, sponges, bodies and cells in the layout of `common/*.wgsl`.
+
+use glam::{Mat3, Vec3};
+
+use crate::{
+    body::{Body, Shape},
+    columns::RowCounts,
+    grid::cells::Domain,
+    params::{EquationOfState, Params, SpongeParams},
+    pbd::lattice::{COLORS, Topology},
+    smoothing::Wendland,
+};
+
+/// Most sponges that fit the uniform buffer.
+pub(super) const SPONGES: usize = 256;
+/// Bytes from one batch of tets to the next: the alignment that every device takes.
+pub(super) const BATCH_STRIDE: u64 = 256;
+/// Bytes of a body.
+pub(super) const BODY_BYTES: u64 = 144;
+
+/// How long a step may be, beside what the step itself finds: the constant part of the host's clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepLimits {
+    /// Factor on support radius over speed of sound and flow \[1\].
+    pub courant: f32,
+    /// Smallest lattice constant of the sponges \[m\]; infinite without sponges.
+    pub edge: f32,
+    /// Shortest step that is allowed \[s\].
+    pub minimum: f32,
+    /// Smallest of the bounds that do not change \[s\].
+    pub constant: f32,
+    /// Which that is: an index that the device gives back as it is.
+    pub constant_bound: u32,
+}
+
+/// Bytes that are put together value by value.
+#[derive(Debug, Default)]
+pub(super) struct Bytes(pub(super) Vec<u8>);
+
+impl Bytes {
+    fn floats(&mut self, values: &[f32]) -> &mut Self {
+        self.0.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
+        self
+    }
+
+    fn words(&mut self, values: &[u32]) -> &mut Self {
+        self.0.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
+        self
+    }
+
+    fn vector(&mut self, vector: Vec3, w: f32) -> &mut Self {
+        self.floats(&[vector.x, vector.y, vector.z, w])
+    }
+}
+
+/// Longest lists that fit: fluid to fluid, fluid to controls, controls to fluid.
+pub(super) type Capacities = [u32; 3];
+
+pub(super) fn params(
+    params: &Params,
+    rows: RowCounts,
+    limits: &StepLimits,
+    capacities: Capacities,
+) -> Vec<u8> {
+    let fluid = &params.fluid;
+    let (low, high) = params.walls.unwrap_or((Vec3::ZERO, Vec3::ZERO));
+    let mut bytes = Bytes::default();
+    bytes
+        .vector(params.gravity, 0.0)
+        .vector(low, if params.walls.is_some() { 1.0 } else { 0.0 })
+        .vector(high, 0.0)
+        .words(&[rows.fluid, rows.nodes, rows.bodies, rows.tets].map(|rows| rows as u32))
+        .floats(&[fluid.spacing, fluid.rest_density, fluid.particle_mass, fluid.sound_speed])
+        .floats(&[
+            fluid.viscosity,
+            fluid.surface_tension,
+            fluid.repulsion_range,
+            fluid.repulsion_stiffness,
+            fluid.repulsion_damping,
+        ])
+        .words(&[u32::from(fluid.equation_of_state == EquationOfState::Tait)])
+        // Finite: shaders may assume that nothing is infinite.
+        .floats(&[limits.courant, limits.edge.min(f32::MAX), limits.minimum, limits.constant])
+        .words(&[limits.constant_bound])
+        .words(&capacities)
+        .words(&[0, 0]);
+    for smoothing in [&fluid.smoothing, &params.coupling] {
+        bytes.floats(&smoothing_factors(smoothing));
+    }
+    bytes.0
+}
+
+fn smoothing_factors(smoothing: &Wendland) -> [f32; 8] {
+    let [inverse_radius, value, gradient, laplacian, viscosity] = smoothing.factors();
+    [smoothing.support_radius, inverse_radius, value, gradient, laplacian, viscosity, 0.0, 0.0]
+}
+
+pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
+    let mut bytes = Bytes::default();
+    for sponge in sponges {
+        bytes.floats(&[
+            sponge.edge,
+            sponge.stretch_modulus,
+            sponge.shear_modulus,
+            sponge.volume_modulus,
+            sponge.damping_time,
+            sponge.iterations as f32,
+            sponge.friction,
+            sponge.porosity,
+            sponge.drag_rate,
+            sponge.entry_pressure,
+            sponge.saturation_gain,
+            sponge.reaction,
+        ]);
+    }
+    bytes.0.resize(SPONGES * 48, 0);
+    bytes.0
+}
+
+/// Bodies, and the face planes of all hulls.
+pub(super) fn bodies(bodies: &[Body]) -> (Vec<u8>, Vec<u8>) {
+    let (mut all, mut planes) = (Bytes::default(), Bytes::default());
+    for body in bodies {
+        let state = &body.state;
+        let axes = Mat3::from_quat(state.rotation);
+        let first = planes.0.len() as u32 / 16;
+        let (shape, extents, radius) = match &body.shape {
+            Shape::Plane => (0, Vec3::ZERO, 0.0),
+            Shape::Sphere { radius } => (1, Vec3::ZERO, *radius),
+            Shape::Cuboid { half_extents } => (2, *half_extents, 0.0),
+            Shape::Capsule { half_height, radius } => (3, Vec3::new(*half_height, 0.0, 0.0), *radius),
+            Shape::Hull { planes: faces, .. } => {
+                faces.iter().for_each(|(normal, offset)| {
+                    planes.vector(*normal, *offset);
+                });
+                (4, Vec3::ZERO, 0.0)
+            }
+        };
+        let faces = planes.0.len() as u32 / 16 - first;
+        all.vector(state.position, 0.0)
+            .vector(axes.x_axis, 0.0)
+            .vector(axes.y_axis, 0.0)
+            .vector(axes.z_axis, 0.0)
+            .vector(state.linear_velocity, 0.0)
+            .vector(state.angular_velocity, 0.0)
+            .vector(extents, radius)
+            .words(&[shape, first, faces, u32::from(body.touches_nodes)])
+            .floats(&[body.friction, 0.0, 0.0, 0.0]);
+    }
+    (all.0, planes.0)
+}
+
+/// Number of face planes of all hulls.
+pub(super) fn plane_count(bodies: &[Body]) -> usize {
+    let planes = |body: &Body| match &body.shape {
+        Shape::Hull { planes, .. } => planes.len(),
+        _ => 0,
+    };
+    bodies.iter().map(planes).sum()
+}
+
+/// First tet and number of tets of every colour, and the sponge of every tet.
+pub(super) fn colors(topology: &Topology) -> ([[u32; 2]; COLORS], Vec<u32>) {
+    let mut sponges = vec![0; topology.tets.len()];
+    let mut colors = [[0; 2]; COLORS];
+    for (color, chunks) in colors.iter_mut().zip(&topology.chunks) {
+        let first = chunks.iter().map(|chunk| chunk.tets.start).min().unwrap_or(0);
+        let end = chunks.iter().map(|chunk| chunk.tets.end).max().unwrap_or(0);
+        *color = [first, end - first];
+        for chunk in chunks {
+            sponges[chunk.tets.start as usize..chunk.tets.end as usize].fill(chunk.sponge);
+        }
+    }
+    (colors, sponges)
+}
+
+pub(super) fn batches(colors: &[[u32; 2]; COLORS]) -> Vec<u8> {
+    let mut bytes = Bytes::default();
+    for color in colors {
+        bytes.words(&[color[0], color[1], 0, 0]);
+        let end = bytes.0.len().next_multiple_of(BATCH_STRIDE as usize);
+        bytes.0.resize(end, 0);
+    }
+    bytes.0
+}
+
+/// Cells over points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grid {
+    origin: Vec3,
+    edge: f32,
+    size: [u32; 3],
+    wrap: [bool; 3],
+}
+
+/// Cells per point up to which a dense grid is worth its prefix sums.
+const CELLS_PER_POINT: u64 = 16;
+/// Fewest cells of an axis that wraps.
+const SMALLEST_TORUS: u32 = 64;
+
+impl Grid {
+    /// Cells of half the radius: a dense grid over a box, or a torus where there is no box or it has more cells than the
+    /// points are worth, or than `most` allows.
+    pub(super) fn new(domain: Domain, radius: f32, points: usize, most: u64) -> Self {
+        let edge = 0.5 * radius;
+        let most = most.min(CELLS_PER_POINT * points as u64).max(u64::from(SMALLEST_TORUS).pow(3));
+        let (origin, extent) = match domain {
+            Domain::Bounded { minimum, maximum } => (minimum, (maximum - minimum).max(Vec3::ZERO)),
+            Domain::Unbounded => (Vec3::ZERO, Vec3::INFINITY),
+        };
+        let mut size = [0, 1, 2].map(|axis| ((extent[axis] / edge).floor() + 1.0).min(1.0e6) as u32);
+        let mut wrap = [false; 3];
+        let cells = |size: [u32; 3]| size.iter().map(|size| u64::from(*size)).product::<u64>();
+        while cells(size) > most {
+            let longest = (0..3).max_by_key(|axis| size[*axis]).unwrap_or(0);
+            if size[longest] <= SMALLEST_TORUS {
+                break;
+            }
+            wrap[longest] = true;
+            // The next smaller power of two.
+            size[longest] = (size[longest] - 1).checked_ilog2().map_or(1, |power| 1 << power);
+        }
+        Self { origin, edge, size, wrap }
+    }
+
+    pub(super) fn cells(&self) -> u64 {
+        self.size.iter().map(|size| u64::from(*size)).product()
+    }
+
+    /// Pages of 4096 cells; the last cell is followed by one more start.
+    pub(super) fn pages(&self) -> u64 {
+        self.cells() / 4096 + 1
+    }
+
+    pub(super) fn bytes(&self, rows: usize) -> Vec<u8> {
+        let mut bytes = Bytes::default();
+        let [x, y, z] = self.wrap.map(u32::from);
+        bytes
+            .vector(self.origin, 1.0 / self.edge)
+            .words(&[self.size[0], self.size[1], self.size[2], self.cells() as u32])
+            .words(&[x, y, z, rows as u32]);
+        bytes.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_is_dense_and_everything_else_a_torus() {
+        let domain = Domain::Bounded { minimum: Vec3::ZERO, maximum: Vec3::new(1.0, 0.5, 0.25) };
+        let dense = Grid::new(domain, 0.05, 100_000, 1 << 26);
+        assert_eq!((dense.size, dense.wrap), ([40, 20, 10].map(|size| size + 1), [false; 3]));
+        for torus in [
+            Grid::new(Domain::Unbounded, 0.05, 1_000_000, 1 << 26),
+            Grid::new(Domain::Unbounded, 0.05, 0, 1),
+            Grid::new(domain, 0.001, 100_000, 1 << 20),
+        ] {
+            assert!(torus.wrap.contains(&true), "{torus:?}");
+            for axis in (0..3).filter(|axis| torus.wrap[*axis]) {
+                assert!(torus.size[axis].is_power_of_two() && torus.size[axis] >= 64, "{torus:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Pipelines, compiled on first use. What a pass is bound to is read off its text, so that it is said once.
+
+use std::sync::{Arc, PoisonError};
+
+use sorb_shaders::Shader;
+use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
+
+use super::{device::Gpu, error::GpuError};
+
+/// One binding of a pass.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Binding {
+    pub(super) index: u32,
+    pub(super) name: &'static str,
+    kind: BufferBindingType,
+}
+
+impl Binding {
+    #[cfg(test)]
+    pub(super) fn is_storage(&self) -> bool {
+        matches!(self.kind, BufferBindingType::Storage { .. })
+    }
+}
+
+/// A compiled pass.
+#[derive(Debug)]
+pub(super) struct Pipeline {
+    pub(super) bindings: Vec<Binding>,
+    pub(super) layout: BindGroupLayout,
+    pub(super) pipeline: ComputePipeline,
+}
+
+/// The bindings that a text declares: one line each, all in group 0.
+pub(super) fn bindings(source: &'static str) -> Vec<Binding> {
+    source.lines().filter_map(binding).collect()
+}
+
+fn binding(line: &'static str) -> Option<Binding> {
+    let rest = line.strip_prefix("@group(0) @binding(")?;
+    let (index, rest) = rest.split_once(')')?;
+    let (space, rest) = rest.trim_start().strip_prefix("var<")?.split_once('>')?;
+    let (name, _) = rest.split_once(':')?;
+    let kind = match space {
+        "uniform" => BufferBindingType::Uniform,
+        "storage, read" => BufferBindingType::Storage { read_only: true },
+        _ => BufferBindingType::Storage { read_only: false },
+    };
+    Some(Binding { index: index.parse().ok()?, name: name.trim(), kind })
+}
+
+impl Gpu {
+    /// The pipeline of an entry point of a shader, compiled if it was not used before.
+    pub(super) fn pipeline(
+        &self,
+        shader: &'static str,
+        entry: &'static str,
+    ) -> Result<Arc<Pipeline>, GpuError> {
+        let key = (shader, entry);
+        if let Some(found) = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
+            return Ok(Arc::clone(found));
+        }
+        let text = sorb_shaders::shader(shader)
+            .ok_or_else(|| GpuError::Refused { reason: format!("there is no shader {shader}") })?;
+        let made = Arc::new(self.guarded(None, || self.compile(text, entry))?);
+        let mut all = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(Arc::clone(all.entry(key).or_insert(made)))
+    }
+
+    fn compile(&self, shader: &'static Shader, entry: &'static str) -> Pipeline {
+        let bindings = bindings(shader.source);
+        let entries: Vec<_> = bindings
+            .iter()
+            .map(|binding| wgpu::BindGroupLayoutEntry {
+                binding: binding.index,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: BindingType::Buffer { ty: binding.kind, has_dynamic_offset: false, min_binding_size: None },
+                count: None,
+            })
+            .collect();
+        let device = &self.device;
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(shader.name),
+            entries: &entries,
+        });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(shader.name),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(shader.name),
+            source: wgpu::ShaderSource::Wgsl(shader.source.into()),
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(shader.name),
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                // Every workgroup variable is written before it is read.
+                zero_initialize_workgroup_memory: false,
+                ..Default::default()
+            },
+            cache: None,
+        });
+        Pipeline { bindings, layout, pipeline }
+    }
+}

@@ -1,0 +1,282 @@
+//! The columns of a world on a device: one buffer each, and what the passes need beside them.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use wgpu::{Buffer, BufferUsages};
+
+use super::{
+    device::Gpu,
+    error::GpuError,
+    pack::{self, BATCH_STRIDE, BODY_BYTES, Capacities, Grid, SPONGES, StepLimits},
+};
+use crate::{
+    body::Body,
+    columns::{Columns, RowCounts},
+    params::Params,
+    pbd::lattice::COLORS,
+    smoothing::Wendland,
+};
+
+/// Most cells of a grid: their counts and starts are one binding each.
+const MOST_CELLS: u64 = 1 << 28;
+
+/// Columns on a device. State stays there from step to step.
+#[derive(Debug)]
+pub struct Resident {
+    pub(super) gpu: Arc<Gpu>,
+    pub(super) buffers: BTreeMap<&'static str, Buffer>,
+    pub(super) rows: RowCounts,
+    pub(super) capacities: Capacities,
+    pub(super) limits: StepLimits,
+    pub(super) params: Params,
+    pub(super) grids: [Grid; 2],
+    pub(super) colors: [[u32; 2]; COLORS],
+    /// Whether particles are where `sph::advect` leaves them (false) or where `grid::sort_fluid` does (true).
+    pub(super) sorted: bool,
+    /// Steps since the time was set.
+    pub(super) steps: u32,
+}
+
+impl Resident {
+    /// Makes room for the columns of a scene, and uploads what never changes. State is uploaded by
+    /// [`Self::upload`].
+    ///
+    /// # Errors
+    /// There is not enough memory, or a buffer would exceed a limit of the device.
+    pub fn new(
+        gpu: &Arc<Gpu>,
+        columns: &Columns,
+        params: &Params,
+        limits: StepLimits,
+    ) -> Result<Self, GpuError> {
+        if params.sponges.len() > SPONGES {
+            return Err(GpuError::TooManySponges { sponges: params.sponges.len(), limit: SPONGES });
+        }
+        let rows = columns.rows;
+        // Counts and starts are padded to pages.
+        let most = (gpu.limits.max_storage_buffer_binding_size / 4).saturating_sub(8192).min(MOST_CELLS);
+        let fluid = params.fluid.smoothing.support_radius;
+        let grids = [
+            Grid::new(params.domain, fluid, rows.fluid, most),
+            Grid::new(params.domain, params.coupling.support_radius, rows.nodes, most),
+        ];
+        let (colors, tet_sponge) = pack::colors(&columns.nodes.topology);
+        let mut resident = Self {
+            gpu: Arc::clone(gpu),
+            buffers: BTreeMap::new(),
+            rows,
+            capacities: capacities(params, rows),
+            limits,
+            params: params.clone(),
+            grids,
+            colors,
+            sorted: false,
+            steps: 0,
+        };
+        for (name, size, usage) in resident.layout(columns) {
+            resident.allocate(name, size, usage)?;
+        }
+        resident.fill_constants(columns, &tet_sponge);
+        Ok(resident)
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Buffers of positions and velocities of the particles: rows of four floats, as in the columns, where the last
+    /// step left them. For a renderer on the same device; it must not write them.
+    #[must_use]
+    pub fn particle_buffers(&self) -> (&Buffer, &Buffer) {
+        let name = |sorted, plain| if self.sorted { sorted } else { plain };
+        (
+            self.buffer(name("fluid_position_sorted", "fluid_position")),
+            self.buffer(name("fluid_velocity_sorted", "fluid_velocity")),
+        )
+    }
+
+    /// Bytes of all buffers.
+    #[must_use]
+    pub fn memory(&self) -> u64 {
+        self.buffers.values().map(Buffer::size).sum()
+    }
+
+    /// A buffer of the layout.
+    pub(super) fn buffer(&self, name: &'static str) -> &Buffer {
+        // Every name in the tables of this module is in the layout; a test of the table looks each of them up.
+        &self.buffers[name]
+    }
+
+    /// Name, bytes and use of every buffer.
+    fn layout(&self, columns: &Columns) -> Vec<(&'static str, u64, BufferUsages)> {
+        let RowCounts { fluid, nodes, tets, bodies } = self.rows;
+        let coupled = fluid > 0 && nodes > 0;
+        let (fluid, nodes, bodies) = (fluid as u64, nodes as u64, bodies as u64);
+        // Rows of what only a scene with both has.
+        let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
+        let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
+        let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
+        let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
+        let groups = |rows: u64| rows.div_ceil(256) * bodies * 32;
+        let planes = pack::plane_count(&columns.bodies.states.0) as u64;
+        let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
+        vec![
+            ("params", 208, uniform),
+            ("clock", 128, uniform | plain),
+            ("sponges", SPONGES as u64 * 48, uniform),
+            ("fluid_grid", 48, uniform),
+            ("control_grid", 48, uniform),
+            ("fluid_near", 16, uniform),
+            ("control_near", 16, uniform),
+            ("batch", BATCH_STRIDE * COLORS as u64, uniform),
+            ("extremes", 32, plain),
+            ("fluid_position", fluid * 16, plain),
+            ("fluid_velocity", fluid * 16, plain),
+            ("fluid_id", fluid * 4, plain),
+            ("fluid_position_sorted", fluid * 16, plain),
+            ("fluid_velocity_sorted", fluid * 16, plain),
+            ("fluid_id_sorted", fluid * 4, plain),
+            ("fluid_density", fluid * 4, plain),
+            ("fluid_acceleration", fluid * 16, plain),
+            ("fluid_cells", fluid * 4, plain),
+            ("fluid_slots", fluid * 4, plain),
+            ("fluid_grouped", fluid * 4, plain),
+            ("fluid_counts", fluid_cells * 4, plain),
+            ("fluid_starts", fluid_cells * 4, plain),
+            ("fluid_page_sums", fluid_cells / 1024, plain),
+            ("fluid_neighbors", list(fluid, self.capacities[0]), plain),
+            ("fluid_controls", list(inside, self.capacities[1]), plain),
+            ("fluid_interior", inside * 4, plain),
+            ("fluid_drag_rate", inside * 4, plain),
+            ("fluid_drag", inside * 16, plain),
+            ("node_position", nodes * 16, plain),
+            ("node_velocity", nodes * 16, plain),
+            ("node_acceleration", nodes * 16, plain),
+            ("node_predicted", nodes * 16, plain),
+            ("node_volume", nodes * 4, plain),
+            ("node_sponge", nodes * 4, plain),
+            ("node_traits", nodes * 16, plain),
+            ("node_grip", nodes * 4, plain),
+            ("node_grip_offset", nodes * 16, plain),
+            ("node_saturation", nodes * 4, plain),
+            ("tets", tets as u64 * 16, plain),
+            ("tet_sponge", tets as u64 * 4, plain),
+            ("control_node", controls * 4, plain),
+            ("control_position", controls * 16, plain),
+            ("control_velocity", controls * 16, plain),
+            ("control_unfiltered", controls * 16, plain),
+            ("control_saturation", controls * 4, plain),
+            ("control_suction", controls * 4, plain),
+            ("control_cells", controls * 4, plain),
+            ("control_slots", controls * 4, plain),
+            ("control_grouped", controls * 4, plain),
+            ("control_counts", control_cells * 4, plain),
+            ("control_starts", control_cells * 4, plain),
+            ("control_page_sums", control_cells / 1024, plain),
+            ("control_fluid", list(controls, self.capacities[2]), plain),
+            ("bodies", bodies * BODY_BYTES, plain),
+            ("planes", planes * 16, plain),
+            ("fluid_wrenches", groups(fluid), plain),
+            ("node_wrenches", groups(nodes), plain),
+            ("body_wrenches", bodies * 64, plain),
+        ]
+    }
+
+    /// Makes a buffer, zeroed. One row at least: nothing can be bound to an empty buffer.
+    fn allocate(&mut self, name: &'static str, size: u64, usage: BufferUsages) -> Result<(), GpuError> {
+        let size = size.max(BODY_BYTES).next_multiple_of(16);
+        let limits = &self.gpu.limits;
+        let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        if size > most {
+            let reason = format!("the adapter binds at most {most} bytes");
+            return Err(GpuError::OutOfMemory { buffer: name, needed: size, reason });
+        }
+        let usage = usage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let buffer = self.gpu.guarded(Some((name, size)), || {
+            let descriptor =
+                wgpu::BufferDescriptor { label: Some(name), size, usage, mapped_at_creation: false };
+            self.gpu.device.create_buffer(&descriptor)
+        })?;
+        self.buffers.insert(name, buffer);
+        Ok(())
+    }
+
+    fn fill_constants(&self, columns: &Columns, tet_sponge: &[u32]) {
+        let nodes = &columns.nodes;
+        self.write("sponges", &pack::sponges(&self.params.sponges));
+        self.write("fluid_grid", &self.grids[0].bytes(self.rows.fluid));
+        self.write("control_grid", &self.grids[1].bytes(self.rows.nodes));
+        self.write("batch", &pack::batches(&self.colors));
+        self.write("tets", bytemuck::cast_slice(&nodes.topology.tets));
+        self.write("tet_sponge", bytemuck::cast_slice(tet_sponge));
+        let trait_of = |values: &[f32], node: usize| values.get(node).copied().unwrap_or(0.0).to_bits();
+        let traits: Vec<[u32; 4]> = (0..self.rows.nodes)
+            .map(|node| {
+                let sponge = nodes.sponge[node];
+                [sponge, trait_of(&nodes.suction, node), trait_of(&nodes.interior, node), 0]
+            })
+            .collect();
+        self.write("node_traits", bytemuck::cast_slice(&traits));
+        self.fill_params();
+    }
+
+    /// Parameters, which hold the length of lists.
+    pub(super) fn fill_params(&self) {
+        self.write("params", &pack::params(&self.params, self.rows, &self.limits, self.capacities));
+        let near = |rows: usize, which: usize| [rows as u32, self.capacities[which], 5 + which as u32, 0];
+        self.write("fluid_near", bytemuck::cast_slice(&near(self.rows.fluid, 1)));
+        self.write("control_near", bytemuck::cast_slice(&near(self.rows.nodes, 2)));
+    }
+
+    /// Writes the beginning of a buffer, before whatever is submitted next.
+    pub(super) fn write(&self, name: &'static str, bytes: &[u8]) {
+        if !bytes.is_empty() {
+            self.gpu.queue.write_buffer(self.buffer(name), 0, bytes);
+        }
+    }
+
+    /// Shapes, poses and velocities of the bodies.
+    pub fn upload_bodies(&self, bodies: &[Body]) {
+        let (bodies, planes) = pack::bodies(bodies);
+        self.write("bodies", &bodies);
+        self.write("planes", &planes);
+    }
+
+    /// Makes lists longer, with a quarter to spare; `longest` is 0 for those that fit.
+    pub(super) fn lengthen(&mut self, longest: Capacities) -> Result<(), GpuError> {
+        let names = ["fluid_neighbors", "fluid_controls", "control_fluid"];
+        let rows = [self.rows.fluid, self.rows.fluid, self.rows.nodes];
+        for (which, needed) in longest.into_iter().enumerate().filter(|(_, needed)| *needed > 0) {
+            let capacity = (needed + needed / 4).next_multiple_of(8).max(self.capacities[which]);
+            self.capacities[which] = capacity;
+            // The old one first: both may not fit.
+            self.buffers.remove(names[which]);
+            let size = rows[which] as u64 * (u64::from(capacity) + 1) * 4;
+            self.allocate(names[which], size, BufferUsages::STORAGE)?;
+        }
+        self.fill_params();
+        Ok(())
+    }
+}
+
+/// Entries that lists of a fluid and a lattice at rest need, and half as many again.
+fn capacities(params: &Params, rows: RowCounts) -> Capacities {
+    let ball = |radius: f32| f64::from(radius).powi(3) * 4.0 / 3.0 * std::f64::consts::PI;
+    let spacing = f64::from(params.fluid.spacing).powi(3);
+    // Two nodes per cell of the lattice.
+    let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
+    let pitch = 0.5 * f64::from(edge).powi(3);
+    let entries = |radius: f32, volume: f64, most: usize| {
+        let entries = (1.5 * ball(radius) / volume).ceil() as u32;
+        entries.next_multiple_of(8).max(32).min(most.next_multiple_of(8) as u32)
+    };
+    let (fluid, coupling): (&Wendland, &Wendland) = (&params.fluid.smoothing, &params.coupling);
+    let radius = coupling.support_radius;
+    [
+        if rows.fluid > 0 { entries(fluid.support_radius, spacing, rows.fluid) } else { 0 },
+        if rows.fluid > 0 { entries(radius, pitch, rows.nodes) } else { 0 },
+        if rows.fluid > 0 { entries(radius, spacing, rows.fluid) } else { 0 },
+    ]
+}

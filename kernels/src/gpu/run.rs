@@ -1,0 +1,406 @@
+//! Steps on the device: one submission for many, and one small answer.
+
+use std::sync::{Arc, mpsc};
+
+use wgpu::{BindGroup, BufferUsages, CommandEncoder};
+
+use super::{
+    error::GpuError,
+    pack::{BATCH_STRIDE, Capacities},
+    pipeline::Pipeline,
+    profile::Profile,
+    resident::Resident,
+    transfer::vector,
+    twins::{BEGIN, BODY_WRENCHES, FINISH, Pass, Rows, twin},
+};
+use crate::{body::Wrench, kernel::Kernel, pbd::lattice::COLORS};
+
+/// What happened to the last step of a batch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// All that was asked for was done, or there is time left for more steps.
+    Done,
+    /// A particle's position or velocity is not finite; its row.
+    Particle(u32),
+    /// A node's velocity is not finite; its row.
+    Node(u32),
+    /// The next step would have to be this short \[s\], by the bound of this index.
+    TooSmall(f32, u32),
+}
+
+/// What the device says after a batch of steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// What happened to the last step.
+    pub outcome: Outcome,
+    /// Steps since the time was set.
+    pub steps: u32,
+    /// Time left of what was set \[s\].
+    pub left: f32,
+    /// Length of the last step \[s\].
+    pub last_step: f32,
+    /// Bound that limited the last step.
+    pub last_bound: u32,
+    /// Shortest step \[s\].
+    pub shortest: f32,
+    /// Largest speed of particles and nodes in these steps \[m/s\].
+    pub maximum_speed: f32,
+    /// Largest speed of a particle after the last step \[m/s\].
+    pub fluid_speed: f32,
+    /// Largest acceleration of a particle in the last step \[m/s^2\].
+    pub fluid_acceleration: f32,
+    /// Largest speed of a node after the last step \[m/s\].
+    pub node_speed: f32,
+    /// How many steps each bound limited.
+    pub bounds: [u32; 12],
+    /// What the last step gave to every body, by fluid and by sponges.
+    pub wrenches: Vec<(Wrench, Wrench)>,
+    /// Lengths of lists that did not fit.
+    longest: Option<Capacities>,
+}
+
+/// Time that steps are to fill, and what the step before found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Time to fill \[s\]; `f32::MAX` for steps as long as stability allows.
+    pub left: f32,
+    /// Largest speed of a particle \[m/s\].
+    pub fluid_speed: f32,
+    /// Largest acceleration of a particle \[m/s^2\].
+    pub fluid_acceleration: f32,
+    /// Largest speed of a node \[m/s\].
+    pub node_speed: f32,
+}
+
+/// A pass bound to its buffers.
+#[derive(Debug)]
+struct Dispatch {
+    kernel: &'static str,
+    pipeline: Arc<Pipeline>,
+    bind: BindGroup,
+    groups: [u32; 2],
+}
+
+/// The passes of a step in order, bound to the buffers of a [`Resident`].
+#[derive(Debug)]
+pub struct Program {
+    kernels: Vec<&'static Kernel>,
+    begin: Vec<Dispatch>,
+    step: Vec<Dispatch>,
+    finish: Vec<Dispatch>,
+}
+
+impl Resident {
+    /// Binds kernels, in the order in which they are to run.
+    ///
+    /// # Errors
+    /// A kernel has no twin, or a pipeline cannot be compiled.
+    pub fn program(&self, kernels: &[&'static Kernel]) -> Result<Program, GpuError> {
+        let mut step = Vec::new();
+        let mut before = "";
+        for kernel in kernels {
+            let passes = twin(kernel.name).ok_or(GpuError::NoTwin { kernel: kernel.name })?;
+            // The search has every pair at hand and sums up the density.
+            let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
+            for pass in passes.iter().filter(|_| !is_done) {
+                self.bind(kernel.name, pass, &mut step)?;
+            }
+            before = kernel.name;
+        }
+        let (mut begin, mut finish) = (Vec::new(), Vec::new());
+        self.bind("clock", &BEGIN, &mut begin)?;
+        if self.rows.bodies > 0 {
+            self.bind("clock", &BODY_WRENCHES, &mut finish)?;
+        }
+        self.bind("clock", &FINISH, &mut finish)?;
+        Ok(Program { kernels: kernels.to_vec(), begin, step, finish })
+    }
+
+    fn bind(&self, kernel: &'static str, pass: &Pass, into: &mut Vec<Dispatch>) -> Result<(), GpuError> {
+        let pipeline = self.gpu.pipeline(pass.shader, pass.entry)?;
+        let times = if pass.rows == Rows::Colors { COLORS } else { 1 };
+        for color in 0..times {
+            let groups = self.groups(pass.rows, color);
+            if groups[0] > 0 {
+                let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color))?;
+                into.push(Dispatch { kernel, pipeline: Arc::clone(&pipeline), bind, groups });
+            }
+        }
+        Ok(())
+    }
+
+    fn bind_group(&self, pass: &Pass, pipeline: &Pipeline, color: usize) -> BindGroup {
+        let entries: Vec<_> = pipeline
+            .bindings
+            .iter()
+            .map(|binding| {
+                let name = pass.buffer(binding.name);
+                let buffer = self.buffer(name);
+                let mut part = buffer.as_entire_buffer_binding();
+                if name == "batch" {
+                    part.offset = color as u64 * BATCH_STRIDE;
+                    part.size = std::num::NonZeroU64::new(16);
+                }
+                wgpu::BindGroupEntry { binding: binding.index, resource: wgpu::BindingResource::Buffer(part) }
+            })
+            .collect();
+        self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(pass.shader),
+            layout: &pipeline.layout,
+            entries: &entries,
+        })
+    }
+
+    /// Groups of a pass in two dimensions, none larger than the device allows.
+    fn groups(&self, rows: Rows, color: usize) -> [u32; 2] {
+        let threads = |rows: usize| rows.div_ceil(256) as u64;
+        let count = match rows {
+            Rows::One => 1,
+            Rows::Fluid => threads(self.rows.fluid),
+            Rows::Nodes => threads(self.rows.nodes),
+            Rows::FluidOrNodes => threads(self.rows.fluid.max(self.rows.nodes)),
+            Rows::FluidPages => self.grids[0].pages(),
+            Rows::ControlPages => self.grids[1].pages(),
+            Rows::Bodies => self.rows.bodies as u64,
+            Rows::Colors => threads(self.colors[color][1] as usize),
+        };
+        let most = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
+        if count <= most {
+            return [count as u32, 1];
+        }
+        let lines = count.div_ceil(most);
+        [count.div_ceil(lines) as u32, lines as u32]
+    }
+
+    /// Sets the time that the next steps are to fill.
+    pub fn set_time(&mut self, start: &Start) {
+        self.steps = 0;
+        let mut words = [0_u32; 32];
+        words[4] = start.left.to_bits();
+        words[5] = start.fluid_speed.to_bits();
+        words[6] = start.fluid_acceleration.to_bits();
+        words[7] = start.node_speed.to_bits();
+        words[10] = f32::MAX.to_bits();
+        self.write("clock", bytemuck::cast_slice(&words));
+    }
+
+    /// Sets one step of this length, for kernels that run without the others.
+    fn set_step(&self, step: f32) {
+        let mut words = [0_u32; 32];
+        words[0] = step.to_bits();
+        words[1] = (1.0 / step).to_bits();
+        words[2] = 1;
+        words[4] = step.to_bits();
+        words[19] = 1;
+        self.write("clock", bytemuck::cast_slice(&words));
+    }
+
+    /// Forgets the extremes that kernels are about to find, and keeps those that were found before them.
+    fn clear_extremes(&self, kernels: &[&'static Kernel]) {
+        let runs = |name: &str| kernels.iter().any(|kernel| kernel.name == name);
+        let mut stale = vec![5, 6, 7];
+        if runs("sph::kick") {
+            stale.extend([0, 1, 3]);
+        }
+        if runs("pbd::velocity") {
+            stale.extend([2, 4]);
+        }
+        for word in stale {
+            self.gpu.queue.write_buffer(self.buffer("extremes"), word * 4, &[0; 4]);
+        }
+    }
+
+    /// Runs kernels once, with a step of the given length; lists that do not fit are made longer. For a step that is
+    /// shared with the CPU, and for tests.
+    ///
+    /// # Errors
+    /// As [`Self::advance`].
+    pub fn run_kernels(&mut self, program: &mut Program, step: f32) -> Result<(), GpuError> {
+        loop {
+            self.set_step(step);
+            self.clear_extremes(&program.kernels);
+            self.submit(&[&program.step], None)?;
+            let Some(longest) = self.answer()?.longest else { break };
+            self.grow(longest, program)?;
+        }
+        for kernel in &program.kernels {
+            match kernel.name {
+                "grid::sort_fluid" => self.sorted = true,
+                "sph::advect" => self.sorted = false,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes up to `steps` steps of the time that was set; fewer if that is filled, or something went wrong.
+    ///
+    /// # Errors
+    /// The device was lost, or lists that have to be longer do not fit its memory: no state of a half-finished step is
+    /// left behind.
+    pub fn advance(
+        &mut self,
+        program: &mut Program,
+        steps: u32,
+        mut profile: Option<&mut Profile>,
+    ) -> Result<Answer, GpuError> {
+        let mut to_do = steps;
+        loop {
+            let mut parts: Vec<&[Dispatch]> = vec![&program.begin];
+            for _ in 0..to_do {
+                parts.extend([&program.step[..], &program.finish[..]]);
+            }
+            self.submit(&parts, profile.as_deref_mut())?;
+            let answer = self.answer()?;
+            to_do -= to_do.min(answer.steps - self.steps);
+            self.steps = answer.steps;
+            let Some(longest) = answer.longest else {
+                return Ok(answer);
+            };
+            self.grow(longest, program)?;
+        }
+    }
+
+    fn grow(&mut self, longest: Capacities, program: &mut Program) -> Result<(), GpuError> {
+        self.lengthen(longest)?;
+        // The bind groups hold the old buffers.
+        *program = self.program(&program.kernels)?;
+        Ok(())
+    }
+}
+
+/// `clock.wgsl` has these numbers too.
+const NOT_FINITE_PARTICLE: u32 = 1;
+const NOT_FINITE_NODE: u32 = 2;
+const TOO_SMALL: u32 = 3;
+const LIST_FULL: u32 = 4;
+
+impl Answer {
+    fn new(clock: &[u32], wrenches: &[f32]) -> Self {
+        let float = |word: usize| f32::from_bits(clock[word]);
+        let wrench =
+            |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
+        let (status, row) = (clock[3], clock[12]);
+        Self {
+            outcome: match status {
+                NOT_FINITE_PARTICLE => Outcome::Particle(row),
+                NOT_FINITE_NODE => Outcome::Node(row),
+                TOO_SMALL => Outcome::TooSmall(float(18), clock[9]),
+                _ => Outcome::Done,
+            },
+            steps: clock[8],
+            left: float(4),
+            last_step: float(16),
+            last_bound: clock[17],
+            shortest: float(10),
+            maximum_speed: float(11),
+            fluid_speed: float(5),
+            fluid_acceleration: float(6),
+            node_speed: float(7),
+            bounds: std::array::from_fn(|bound| clock[20 + bound]),
+            wrenches: wrenches
+                .chunks_exact(16)
+                .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
+                .collect(),
+            longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15]]),
+        }
+    }
+}
+
+impl Resident {
+    /// Encodes and submits passes, all in one.
+    fn submit(&self, parts: &[&[Dispatch]], mut profile: Option<&mut Profile>) -> Result<(), GpuError> {
+        self.gpu.guarded(None, || {
+            let mut encoder = self.encoder();
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                if let Some(profile) = profile.as_deref_mut() {
+                    profile.start(&mut pass);
+                }
+                for dispatch in parts.iter().copied().flatten() {
+                    pass.set_pipeline(&dispatch.pipeline.pipeline);
+                    pass.set_bind_group(0, &dispatch.bind, &[]);
+                    pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
+                    if let Some(profile) = profile.as_deref_mut() {
+                        profile.mark(&mut pass, dispatch.kernel);
+                    }
+                }
+            }
+            if let Some(profile) = profile.as_deref_mut() {
+                profile.resolve(&mut encoder);
+            }
+            self.gpu.queue.submit([encoder.finish()]);
+        })?;
+        match profile {
+            Some(profile) => profile.collect(&self.gpu),
+            None => Ok(()),
+        }
+    }
+
+    fn encoder(&self) -> CommandEncoder {
+        self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sorb") })
+    }
+
+    /// What the device has to say: a few hundred bytes.
+    fn answer(&self) -> Result<Answer, GpuError> {
+        let wrenches = self.rows.bodies as u64 * 64;
+        let data = self.read(&[("clock", 128), ("body_wrenches", wrenches)])?;
+        Ok(Answer::new(bytemuck::cast_slice(&data[0]), bytemuck::cast_slice(&data[1])))
+    }
+
+    /// Reads the beginnings of buffers back, after everything that was submitted.
+    pub(super) fn read(&self, wanted: &[(&'static str, u64)]) -> Result<Vec<Vec<u8>>, GpuError> {
+        let total: u64 = wanted.iter().map(|(_, size)| size).sum();
+        if total == 0 {
+            return Ok(wanted.iter().map(|_| Vec::new()).collect());
+        }
+        let staging = self.gpu.guarded(Some(("columns that are read back", total)), || {
+            let staging = self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size: total,
+                usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            let mut encoder = self.encoder();
+            let mut offset = 0;
+            for (name, size) in wanted.iter().filter(|(_, size)| *size > 0) {
+                encoder.copy_buffer_to_buffer(self.buffer(name), 0, &staging, offset, *size);
+                offset += size;
+            }
+            self.gpu.queue.submit([encoder.finish()]);
+            staging
+        })?;
+        let bytes = self.gpu.map(&staging)?;
+        let mut rest = &bytes[..];
+        let mut parts = Vec::new();
+        for (_, size) in wanted {
+            let (part, after) = rest.split_at(*size as usize);
+            parts.push(part.to_vec());
+            rest = after;
+        }
+        Ok(parts)
+    }
+}
+
+impl super::device::Gpu {
+    /// The content of a buffer, once all that was submitted is done.
+    pub(super) fn map(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+        let (sender, receiver) = mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            // Nobody listens if waiting has failed already.
+            let _ = sender.send(result);
+        });
+        let refused = |reason: String| GpuError::Refused { reason };
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.check_lost()?;
+        waited.map_err(|error| refused(error.to_string()))?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {
+                let view = buffer.get_mapped_range(..).map_err(|error| refused(error.to_string()))?;
+                Ok(view.to_vec())
+            }
+            Ok(Err(error)) => Err(refused(error.to_string())),
+            Err(_) => Err(refused("a buffer was not mapped".to_owned())),
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! Columns to the device and back.
+
+use super::{error::GpuError, resident::Resident};
+use crate::{
+    body::Wrench,
+    columns::{Column, Columns, FAR_ROW, padded},
+    grid::neighbors::Neighbors,
+    reduce::{Extreme, Extremes, Wrenches},
+};
+
+/// The data of a column that is a plain array.
+enum Plain<'a> {
+    Rows(&'a mut Vec<[f32; 4]>, [f32; 4]),
+    Values(&'a mut Vec<f32>),
+    Words(&'a mut Vec<u32>, u32),
+}
+
+/// A column that is a plain array, with its buffer and what padding rows hold.
+fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'static str, Plain<'_>)> {
+    use Plain::{Rows, Values, Words};
+    let (fluid, nodes, controls) = (&mut columns.fluid, &mut columns.nodes, &mut columns.controls);
+    let at = |sorted_name, name| if sorted { sorted_name } else { name };
+    let zero = [0.0; 4];
+    Some(match column {
+        Column::FluidPosition => {
+            (at("fluid_position_sorted", "fluid_position"), Rows(&mut fluid.position, FAR_ROW))
+        }
+        Column::FluidVelocity => {
+            (at("fluid_velocity_sorted", "fluid_velocity"), Rows(&mut fluid.velocity, zero))
+        }
+        Column::FluidId => (at("fluid_id_sorted", "fluid_id"), Words(&mut fluid.id, u32::MAX)),
+        Column::FluidDensity => ("fluid_density", Values(&mut fluid.density)),
+        Column::FluidAcceleration => ("fluid_acceleration", Rows(&mut fluid.acceleration, zero)),
+        Column::FluidInterior => ("fluid_interior", Values(&mut fluid.interior)),
+        Column::FluidDragRate => ("fluid_drag_rate", Values(&mut fluid.drag_rate)),
+        Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
+        Column::NodePosition => ("node_position", Rows(&mut nodes.position, FAR_ROW)),
+        Column::NodeVelocity => ("node_velocity", Rows(&mut nodes.velocity, zero)),
+        Column::NodeVolume => ("node_volume", Values(&mut nodes.volume)),
+        Column::NodeSponge => ("node_sponge", Words(&mut nodes.sponge, 0)),
+        Column::NodeGrip => ("node_grip", Words(&mut nodes.grip, u32::MAX)),
+        Column::NodeGripOffset => ("node_grip_offset", Rows(&mut nodes.grip_offset, zero)),
+        Column::NodePredicted => ("node_predicted", Rows(&mut nodes.predicted, FAR_ROW)),
+        Column::NodeAcceleration => ("node_acceleration", Rows(&mut nodes.acceleration, zero)),
+        Column::NodeSaturation => ("node_saturation", Values(&mut nodes.saturation)),
+        Column::ControlNode => ("control_node", Words(&mut controls.node, u32::MAX)),
+        Column::ControlPosition => ("control_position", Rows(&mut controls.position, FAR_ROW)),
+        Column::ControlVelocity => ("control_velocity", Rows(&mut controls.velocity, zero)),
+        Column::ControlUnfiltered => ("control_unfiltered", Rows(&mut controls.unfiltered, zero)),
+        Column::ControlSaturation => ("control_saturation", Values(&mut controls.saturation)),
+        Column::ControlSuction => ("control_suction", Values(&mut controls.suction)),
+        _ => return None,
+    })
+}
+
+impl Plain<'_> {
+    fn bytes(&self, rows: usize) -> &[u8] {
+        match self {
+            Self::Rows(data, _) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+            Self::Values(data) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+            Self::Words(data, _) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        }
+    }
+
+    fn row_bytes(&self) -> usize {
+        if matches!(self, Self::Rows(..)) { 16 } else { 4 }
+    }
+
+    /// Takes over rows, and pads them.
+    fn take(self, bytes: &[u8], rows: usize, to: usize) {
+        match self {
+            Self::Rows(data, padding) => {
+                data.resize(rows, padding);
+                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(bytes);
+                data.resize(to, padding);
+            }
+            Self::Values(data) => {
+                data.resize(rows, 0.0);
+                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(bytes);
+                data.resize(to, 0.0);
+            }
+            Self::Words(data, padding) => {
+                data.resize(rows, padding);
+                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(bytes);
+                data.resize(to, padding);
+            }
+        }
+    }
+}
+
+/// The lists of a column: which of the three they are.
+fn list_of(column: Column) -> Option<(&'static str, usize)> {
+    match column {
+        Column::FluidNeighbors => Some(("fluid_neighbors", 0)),
+        Column::FluidControls => Some(("fluid_controls", 1)),
+        Column::ControlFluid => Some(("control_fluid", 2)),
+        _ => None,
+    }
+}
+
+fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usize, usize) {
+    let rows = columns.rows;
+    match which {
+        0 => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
+        1 => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
+        _ => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
+    }
+}
+
+/// Columns that a device never holds, because it computes them anew or keeps them in another form.
+#[must_use]
+pub fn is_internal(column: Column) -> bool {
+    matches!(
+        column,
+        Column::FluidCells
+            | Column::ControlCells
+            | Column::FluidControlWeights
+            | Column::ControlFluidWeights
+            | Column::NodeTopology
+            | Column::NodeSuction
+            | Column::NodeInterior
+    )
+}
+
+impl Resident {
+    /// Sends columns to the device; those that it does not hold ([`is_internal`]) are left out. `sorted` says that the
+    /// particles are in the order of this step already, for kernels that come after `grid::sort_fluid`.
+    ///
+    /// # Errors
+    /// Lists that are longer than those of the device do not fit its memory, or the device was lost.
+    pub fn upload(&mut self, columns: &mut Columns, which: &[Column], sorted: bool) -> Result<(), GpuError> {
+        self.sorted = sorted;
+        for column in which {
+            if let Some((name, data)) = plain(columns, *column, sorted) {
+                let rows = columns_rows(self, *column);
+                self.write(name, data.bytes(rows));
+            } else if let Some((name, list)) = list_of(*column) {
+                self.upload_lists(columns, name, list)?;
+            } else {
+                self.upload_other(columns, *column);
+            }
+        }
+        self.gpu.check_lost()
+    }
+
+    fn upload_lists(&mut self, columns: &mut Columns, name: &'static str, which: usize) -> Result<(), GpuError> {
+        let (lists, rows, targets) = lists(columns, which);
+        let lists: Vec<Vec<u32>> = (0..rows).map(|query| lists.of(query, targets).collect()).collect();
+        let longest = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
+        if longest > self.capacities[which] {
+            let mut needed = [0; 3];
+            needed[which] = longest;
+            self.lengthen(needed)?;
+        }
+        let mut words = vec![0_u32; rows * (self.capacities[which] as usize + 1)];
+        for (row, list) in lists.iter().enumerate() {
+            words[row] = list.len() as u32;
+            list.iter().enumerate().for_each(|(k, target)| words[(k + 1) * rows + row] = *target);
+        }
+        self.write(name, bytemuck::cast_slice(&words));
+        Ok(())
+    }
+
+    fn upload_other(&self, columns: &Columns, column: Column) {
+        let bodies = columns.rows.bodies;
+        match column {
+            Column::BodyStates => self.upload_bodies(&columns.bodies.states.0),
+            Column::BodyNodeWrenches => self.upload_wrenches("node_wrenches", &columns.bodies.node_wrenches, bodies),
+            Column::BodyFluidWrenches => {
+                self.upload_wrenches("fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
+            }
+            Column::FluidExtremes | Column::NodeExtremes => {
+                let (fluid, nodes) = (columns.fluid.extremes.total(), columns.nodes.extremes.total());
+                let row = |failed: u32| failed.checked_sub(1).map_or(0, |row| u32::MAX - row);
+                let words = [
+                    fluid.speed_squared.to_bits(),
+                    fluid.acceleration_squared.to_bits(),
+                    nodes.speed_squared.to_bits(),
+                    row(fluid.not_finite),
+                    row(nodes.not_finite),
+                    0,
+                    0,
+                    0,
+                ];
+                self.write("extremes", bytemuck::cast_slice(&words));
+            }
+            _ => {}
+        }
+    }
+
+    /// All of a wrench in the first group, none in the others.
+    fn upload_wrenches(&self, name: &'static str, wrenches: &Wrenches, bodies: usize) {
+        let mut words = vec![0.0_f32; self.buffer(name).size() as usize / 4];
+        for body in 0..bodies {
+            let total = wrenches.total(body, bodies);
+            let rows = [total.impulse, total.angular_impulse].map(glam::DVec3::as_vec3);
+            for (half, vector) in rows.into_iter().enumerate() {
+                let first = (body * 2 + half) * 4;
+                if let Some(slot) = words.get_mut(first..first + 3) {
+                    slot.copy_from_slice(&vector.to_array());
+                }
+            }
+        }
+        self.write(name, bytemuck::cast_slice(&words));
+    }
+
+    /// Reads columns back; those that the device does not hold are left as they are.
+    ///
+    /// # Errors
+    /// The device was lost, or there is no memory to copy to.
+    pub fn download(&self, columns: &mut Columns, which: &[Column]) -> Result<(), GpuError> {
+        let mut wanted = Vec::new();
+        for column in which {
+            if let Some((name, data)) = plain(columns, *column, self.sorted) {
+                wanted.push((*column, name, columns_rows(self, *column) * data.row_bytes()));
+            } else if let Some((name, list)) = list_of(*column) {
+                let rows = lists(columns, list).1;
+                wanted.push((*column, name, rows * (self.capacities[list] as usize + 1) * 4));
+            } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
+                wanted.push((*column, "extremes", 32));
+            } else if let Some((name, size)) = self.wrench_buffer(*column) {
+                wanted.push((*column, name, size));
+            }
+        }
+        let names: Vec<_> = wanted.iter().map(|(_, name, size)| (*name, *size as u64)).collect();
+        let data = self.read(&names)?;
+        for ((column, _, _), bytes) in wanted.iter().zip(&data) {
+            self.take(columns, *column, bytes);
+        }
+        Ok(())
+    }
+
+    fn wrench_buffer(&self, column: Column) -> Option<(&'static str, usize)> {
+        let groups = |rows: usize| rows.div_ceil(256) * self.rows.bodies * 32;
+        match column {
+            Column::BodyFluidWrenches => Some(("fluid_wrenches", groups(self.rows.fluid))),
+            Column::BodyNodeWrenches => Some(("node_wrenches", groups(self.rows.nodes))),
+            _ => None,
+        }
+    }
+
+    fn take(&self, columns: &mut Columns, column: Column, bytes: &[u8]) {
+        if let Some((_, data)) = plain(columns, column, self.sorted) {
+            let rows = columns_rows(self, column);
+            // The one column that the CPU does not pad.
+            let to = if column == Column::ControlNode { rows } else { padded(rows) };
+            data.take(bytes, rows, to);
+        } else if let Some((_, which)) = list_of(column) {
+            let words: &[u32] = bytemuck::cast_slice(bytes);
+            let (lists, rows, targets) = lists(columns, which);
+            let entries = |row: usize| (1..=words[row] as usize).map(|k| words[k * rows + row]).collect();
+            let mut all: Vec<Vec<u32>> = (0..rows).map(entries).collect();
+            all.resize_with(padded(rows), Vec::new);
+            *lists = Neighbors::from_lists(&all, targets as u32);
+        } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
+            take_extremes(columns, column, bytemuck::cast_slice(bytes));
+        } else {
+            let words: &[f32] = bytemuck::cast_slice(bytes);
+            let wrenches = words.chunks_exact(8).map(|words| Wrench {
+                impulse: vector(&words[..3]),
+                angular_impulse: vector(&words[4..7]),
+            });
+            let wrenches = Wrenches(wrenches.collect());
+            match column {
+                Column::BodyFluidWrenches => columns.bodies.fluid_wrenches = wrenches,
+                _ => columns.bodies.node_wrenches = wrenches,
+            }
+        }
+    }
+}
+
+pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
+    glam::DVec3::new(f64::from(words[0]), f64::from(words[1]), f64::from(words[2]))
+}
+
+fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
+    let row = |word: u32| if word == 0 { 0 } else { u32::MAX - word + 1 };
+    let all = |extreme: Extreme| Extremes(vec![extreme]);
+    if column == Column::FluidExtremes {
+        columns.fluid.extremes = all(Extreme {
+            speed_squared: f32::from_bits(words[0]),
+            acceleration_squared: f32::from_bits(words[1]),
+            not_finite: row(words[3]),
+        });
+    } else {
+        columns.nodes.extremes = all(Extreme {
+            speed_squared: f32::from_bits(words[2]),
+            acceleration_squared: 0.0,
+            not_finite: row(words[4]),
+        });
+    }
+}
+
+/// Rows of a column that the device holds.
+fn columns_rows(resident: &Resident, column: Column) -> usize {
+    resident.rows.of(column.store())
+}

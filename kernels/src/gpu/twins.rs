@@ -1,0 +1,214 @@
+//! The table of twins: which passes make up a kernel on the GPU, over which rows, bound to which buffers.
+
+/// How many threads or groups a pass needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rows {
+    /// One thread.
+    One,
+    /// A thread per particle.
+    Fluid,
+    /// A thread per node.
+    Nodes,
+    /// A thread per particle or node, whichever are more.
+    FluidOrNodes,
+    /// A group per page of the cells over the particles.
+    FluidPages,
+    /// A group per page of the cells over the controls.
+    ControlPages,
+    /// A group per body.
+    Bodies,
+    /// A thread per tet of a colour, and a pass per colour.
+    Colors,
+}
+
+/// One pass of a twin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pass {
+    /// Name of the shader, `family::file`.
+    pub(super) shader: &'static str,
+    pub(super) entry: &'static str,
+    pub(super) rows: Rows,
+    /// Bindings whose buffer has another name than the variable.
+    pub(super) names: Names,
+}
+
+type Names = &'static [(&'static str, &'static str)];
+
+const fn pass(shader: &'static str, rows: Rows, names: Names) -> Pass {
+    Pass { shader, entry: "main", rows, names }
+}
+
+/// Particles in the order of this step, and their lists.
+const FLUID: Names = &[
+    ("position", "fluid_position_sorted"),
+    ("velocity", "fluid_velocity_sorted"),
+    ("acceleration", "fluid_acceleration"),
+    ("density", "fluid_density"),
+    ("list", "fluid_neighbors"),
+    ("grid", "fluid_grid"),
+    ("starts", "fluid_starts"),
+    ("wrenches", "fluid_wrenches"),
+];
+
+/// Particles before and after the sort.
+const SORT: Names = &[
+    ("position", "fluid_position"),
+    ("velocity", "fluid_velocity"),
+    ("id", "fluid_id"),
+    ("sorted_position", "fluid_position_sorted"),
+    ("sorted_velocity", "fluid_velocity_sorted"),
+    ("sorted_id", "fluid_id_sorted"),
+    ("points", "fluid_position"),
+    ("grid", "fluid_grid"),
+    ("cells", "fluid_cells"),
+    ("slots", "fluid_slots"),
+    ("counts", "fluid_counts"),
+    ("starts", "fluid_starts"),
+    ("page_sums", "fluid_page_sums"),
+    ("grouped", "fluid_grouped"),
+];
+
+/// Nodes before and after they are sorted as controls.
+const CONTROLS: Names = &[
+    ("points", "node_position"),
+    ("grid", "control_grid"),
+    ("cells", "control_cells"),
+    ("slots", "control_slots"),
+    ("counts", "control_counts"),
+    ("starts", "control_starts"),
+    ("page_sums", "control_page_sums"),
+    ("grouped", "control_grouped"),
+];
+
+/// Controls around every particle.
+const NEAR_FLUID: Names = &[
+    ("queries", "fluid_position_sorted"),
+    ("points", "control_position"),
+    ("grid", "control_grid"),
+    ("near", "fluid_near"),
+    ("starts", "control_starts"),
+    ("list", "fluid_controls"),
+];
+
+/// Particles around every control.
+const NEAR_CONTROLS: Names = &[
+    ("queries", "control_position"),
+    ("points", "fluid_position_sorted"),
+    ("grid", "fluid_grid"),
+    ("near", "control_near"),
+    ("starts", "fluid_starts"),
+    ("list", "control_fluid"),
+];
+
+/// What particles take from the controls around them.
+const FROM_CONTROLS: Names = &[
+    ("position", "fluid_position_sorted"),
+    ("velocity", "fluid_velocity_sorted"),
+    ("acceleration", "fluid_acceleration"),
+    ("interior", "fluid_interior"),
+    ("drag_rate", "fluid_drag_rate"),
+    ("drag", "fluid_drag"),
+    ("list", "fluid_controls"),
+];
+
+/// What controls take from the particles around them.
+const FROM_FLUID: Names = &[
+    ("position", "fluid_position_sorted"),
+    ("interior", "fluid_interior"),
+    ("drag", "fluid_drag"),
+    ("unfiltered", "control_unfiltered"),
+    ("list", "control_fluid"),
+];
+
+const NODES: Names = &[
+    ("position", "node_position"),
+    ("velocity", "node_velocity"),
+    ("acceleration", "node_acceleration"),
+    ("grip", "node_grip"),
+    ("grip_offset", "node_grip_offset"),
+    ("predicted", "node_predicted"),
+    ("wrenches", "node_wrenches"),
+];
+
+const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::One, names: &[] };
+
+/// Before the first step of a batch.
+pub(super) const BEGIN: Pass = Pass { shader: "clock::clock", entry: "begin", rows: Rows::One, names: &[] };
+/// After the last phase of a step.
+pub(super) const FINISH: Pass = Pass { shader: "clock::clock", entry: "finish", rows: Rows::One, names: &[] };
+/// Before bodies can move.
+pub(super) const BODY_WRENCHES: Pass = pass("sph::body_wrenches", Rows::Bodies, &[]);
+
+/// The passes of every twin.
+pub(super) static TWINS: &[(&str, &[Pass])] = &[
+    (
+        "grid::sort_fluid",
+        &[
+            pass("grid::count", Rows::Fluid, SORT),
+            pass("grid::page_sums", Rows::FluidPages, SORT),
+            pass("grid::scan_sums", Rows::One, SORT),
+            pass("grid::scan_pages", Rows::FluidPages, SORT),
+            pass("grid::scatter", Rows::Fluid, SORT),
+            pass("grid::sort_fluid", Rows::Fluid, SORT),
+        ],
+    ),
+    ("grid::fluid_neighbors", &[pass("grid::fluid_neighbors", Rows::Fluid, FLUID), CHECK]),
+    ("sph::density", &[pass("sph::density", Rows::Fluid, FLUID)]),
+    ("sph::pressure", &[pass("sph::pressure", Rows::Fluid, FLUID)]),
+    ("sph::forces", &[pass("sph::forces", Rows::Fluid, FLUID)]),
+    ("sph::surface_tension", &[pass("sph::surface_tension", Rows::Fluid, FLUID)]),
+    ("sph::repulsion", &[pass("sph::repulsion", Rows::Fluid, FLUID)]),
+    ("sph::kick", &[pass("sph::kick", Rows::Fluid, FLUID)]),
+    ("sph::advect", &[pass("sph::advect", Rows::Fluid, SORT)]),
+    ("pbd::gravity", &[pass("pbd::gravity", Rows::Nodes, NODES)]),
+    ("pbd::predict", &[pass("pbd::predict", Rows::Nodes, NODES)]),
+    ("pbd::strain", &[pass("pbd::strain", Rows::Colors, NODES)]),
+    ("pbd::contact", &[pass("pbd::contact", Rows::Nodes, NODES)]),
+    ("pbd::velocity", &[pass("pbd::velocity", Rows::Nodes, NODES)]),
+    (
+        "couple::controls",
+        &[
+            pass("grid::count", Rows::Nodes, CONTROLS),
+            pass("grid::page_sums", Rows::ControlPages, CONTROLS),
+            pass("grid::scan_sums", Rows::One, CONTROLS),
+            pass("grid::scan_pages", Rows::ControlPages, CONTROLS),
+            pass("grid::scatter", Rows::Nodes, CONTROLS),
+            pass("couple::controls", Rows::Nodes, CONTROLS),
+            pass("couple::near", Rows::Fluid, NEAR_FLUID),
+            pass("couple::near", Rows::Nodes, NEAR_CONTROLS),
+            CHECK,
+        ],
+    ),
+    ("couple::saturation", &[pass("couple::saturation", Rows::Nodes, FROM_FLUID)]),
+    ("couple::interior", &[pass("couple::interior", Rows::Fluid, FROM_CONTROLS)]),
+    ("couple::suction", &[pass("couple::suction", Rows::Fluid, FROM_CONTROLS)]),
+    ("couple::zero_distance", &[pass("couple::zero_distance", Rows::Nodes, FROM_FLUID)]),
+    (
+        "couple::control_velocity",
+        &[
+            pass("couple::begin_drag", Rows::FluidOrNodes, FROM_FLUID),
+            pass("couple::control_velocity", Rows::Nodes, FROM_FLUID),
+        ],
+    ),
+    ("couple::drag", &[pass("couple::drag", Rows::Fluid, FROM_CONTROLS)]),
+    ("couple::velocity_filter", &[pass("couple::velocity_filter", Rows::Nodes, FROM_FLUID)]),
+    (
+        "couple::exchange",
+        &[
+            pass("couple::exchange", Rows::Nodes, FROM_FLUID),
+            pass("couple::exchange_fluid", Rows::Fluid, FROM_CONTROLS),
+        ],
+    ),
+];
+
+/// The passes of a kernel, if it has a twin.
+pub(super) fn twin(kernel: &str) -> Option<&'static [Pass]> {
+    TWINS.iter().find(|(name, _)| *name == kernel).map(|(_, passes)| *passes)
+}
+
+impl Pass {
+    /// The buffer that a variable is bound to.
+    pub(super) fn buffer(&self, variable: &'static str) -> &'static str {
+        self.names.iter().find(|(name, _)| *name == variable).map_or(variable, |(_, buffer)| buffer)
+    }
+}

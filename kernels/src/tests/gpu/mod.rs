@@ -1,0 +1,52 @@
+//! Kernels on the GPU against those on the CPU. A machine without an adapter fails here: lavapipe is one.
+
+mod device;
+mod parity;
+
+use std::sync::{Arc, OnceLock};
+
+use super::scene::Scene;
+use crate::{
+    columns::{Column, Columns},
+    gpu::{Gpu, Resident, StepLimits, is_internal},
+    kernel::{Kernel, kernel},
+};
+
+/// One device for all tests.
+fn gpu() -> &'static Arc<Gpu> {
+    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| {
+        Arc::new(Gpu::new().unwrap_or_else(|error| {
+            panic!("{error}; these tests need one, and do not pass without: install mesa-vulkan-drivers and libvulkan1")
+        }))
+    })
+}
+
+/// Bounds of the step that allow anything.
+const LIMITS: StepLimits =
+    StepLimits { courant: 0.25, edge: f32::INFINITY, minimum: 1e-9, constant: 1.0, constant_bound: 0 };
+
+/// The columns after one kernel on a device.
+fn after_on(gpu: &Arc<Gpu>, kernel: &'static Kernel, before: &Scene) -> Columns {
+    let mut columns = before.columns.clone();
+    let mut resident =
+        Resident::new(gpu, &columns, &before.params, LIMITS).unwrap_or_else(|error| panic!("{error}"));
+    let sorted = kernel.name != "grid::sort_fluid";
+    // The search of the device goes through its own cells.
+    let search = ["grid::fluid_neighbors", "couple::controls"].contains(&kernel.name);
+    let mut names = vec![kernel.name];
+    if search {
+        names.insert(0, "grid::sort_fluid");
+    }
+    let kernels: Vec<_> = names.iter().map(|name| self::kernel(name).expect("a name of the table")).collect();
+    let mut given: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+    // Rows that a kernel leaves alone stay what they are.
+    given.extend(kernel.writes.iter().copied().filter(|column| !matches!(column, Column::FluidNeighbors)));
+    resident.upload(&mut columns, &given, sorted && !search).unwrap_or_else(|error| panic!("{error}"));
+    let mut program = resident.program(&kernels).unwrap_or_else(|error| panic!("{error}"));
+    resident.run_kernels(&mut program, before.params.step).unwrap_or_else(|error| panic!("{error}"));
+    let mut wanted: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.writes).copied().collect();
+    wanted.retain(|column| !is_internal(*column));
+    resident.download(&mut columns, &wanted).unwrap_or_else(|error| panic!("{error}"));
+    columns
+}

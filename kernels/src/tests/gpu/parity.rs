@@ -1,0 +1,140 @@
+//! Every kernel on the GPU against its body for the CPU.
+
+use super::{
+    super::{
+        compare::errors,
+        scene::{FULL, Options, Scene, best},
+    },
+    after_on, gpu,
+};
+use crate::{
+    columns::{Column, Columns},
+    gpu::is_internal,
+    grid::neighbors::Neighbors,
+    kernel::{KERNELS, Kernel},
+    params::EquationOfState,
+};
+
+/// Largest error of any column over the scale of its changes; lists must be equal but for pairs at the very radius.
+const BOUNDS: &[(&str, f64)] = &[
+    ("grid::sort_fluid", 0.0),
+    ("grid::fluid_neighbors", 0.0),
+    ("sph::density", 2e-6),
+    ("sph::pressure", 4e-6),
+    ("sph::forces", 2e-6),
+    ("sph::surface_tension", 1e-5),
+    ("sph::repulsion", 4e-6),
+    ("sph::kick", 1e-6),
+    ("sph::advect", 1e-5),
+    ("pbd::gravity", 0.0),
+    ("pbd::predict", 4e-6),
+    ("pbd::strain", 5e-4),
+    ("pbd::contact", 3e-5),
+    ("pbd::velocity", 1e-6),
+    ("couple::controls", 0.0),
+    ("couple::saturation", 3e-6),
+    ("couple::interior", 2e-6),
+    ("couple::suction", 4e-6),
+    ("couple::zero_distance", 6e-6),
+    ("couple::control_velocity", 3e-6),
+    ("couple::drag", 2e-6),
+    ("couple::velocity_filter", 2e-6),
+    ("couple::exchange", 2e-6),
+];
+
+/// Sizes around those of a vector, of a group and of two lines of groups.
+const SIZES: [usize; 7] = [0, 1, 63, 64, 65, 1000, 65_537];
+
+fn bound(kernel: &Kernel) -> f64 {
+    let found = BOUNDS.iter().find(|(name, _)| *name == kernel.name);
+    found.unwrap_or_else(|| panic!("{} has no bound", kernel.name)).1
+}
+
+/// The columns after a kernel on the CPU.
+fn on_cpu(kernel: &Kernel, before: &Scene) -> Columns {
+    let mut after = before.clone();
+    after.run(&best(), &[kernel.name]);
+    after.columns
+}
+
+/// Pairs of particles or controls that only one of two lists has, farther from the radius than rounding.
+fn list_error(column: Column, before: &Scene, found: &Columns, expected: &Columns) -> Option<f64> {
+    fn pairs(columns: &Columns, column: Column) -> (&Neighbors, usize, usize, bool, bool) {
+        let (fluid, nodes) = (columns.rows.fluid, columns.rows.nodes);
+        match column {
+            Column::FluidNeighbors => (&columns.fluid.neighbors, fluid, fluid, true, true),
+            Column::FluidControls => (&columns.fluid.controls, fluid, nodes, true, false),
+            _ => (&columns.controls.fluid, nodes, fluid, false, true),
+        }
+    }
+    let radius = match column {
+        Column::FluidNeighbors => before.params.fluid.smoothing.support_radius,
+        Column::FluidControls | Column::ControlFluid => before.params.coupling.support_radius,
+        _ => return None,
+    };
+    let all = |columns: &Columns| {
+        let (lists, queries, targets, of_fluid, to_fluid) = pairs(columns, column);
+        let (fluid, controls) = (&columns.fluid, &columns.controls);
+        let identity = |row: usize, is_fluid: bool| if is_fluid { fluid.id[row] } else { controls.node[row] };
+        let place = |row: usize, is_fluid: bool| if is_fluid { fluid.position[row] } else { controls.position[row] };
+        let mut all = Vec::new();
+        for query in 0..queries {
+            for target in lists.of(query, targets) {
+                let (a, b) = (place(query, of_fluid), place(target as usize, to_fluid));
+                let square: f64 = (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum();
+                let ratio = square / f64::from(radius).powi(2);
+                if (ratio - 1.0).abs() > 1e-6 {
+                    all.push((identity(query, of_fluid), identity(target as usize, to_fluid)));
+                }
+            }
+        }
+        all.sort_unstable();
+        all
+    };
+    Some(if all(found) == all(expected) { 0.0 } else { f64::INFINITY })
+}
+
+/// Errors of everything that a kernel writes and a device holds.
+fn gpu_errors(kernel: &Kernel, before: &Scene, found: &Columns, expected: &Columns) -> Vec<(Column, f64)> {
+    let mut all = errors(kernel, &before.params, &before.columns, found, expected);
+    all.retain(|(column, _)| !is_internal(*column));
+    for (column, error) in &mut all {
+        if let Some(list) = list_error(*column, before, found, expected) {
+            *error = list;
+        }
+    }
+    all
+}
+
+fn scenes() -> Vec<Options> {
+    let mut all: Vec<_> = SIZES.map(|fluid| Options { fluid, ..FULL }).to_vec();
+    all.push(Options { bodies: false, bounded: false, equation_of_state: EquationOfState::Linear, ..FULL });
+    all.push(Options { walls: false, bounded: false, ..FULL });
+    all.push(Options { sponges: false, ..FULL });
+    all
+}
+
+#[test]
+fn twins_agree_with_the_cpu() {
+    let (mut failures, mut worst) = (Vec::new(), vec![0.0_f64; KERNELS.len()]);
+    for options in scenes() {
+        for (index, kernel) in KERNELS.iter().enumerate() {
+            let before = Scene::new(options).before(kernel.name, &best());
+            if !before.has_work(kernel) {
+                continue;
+            }
+            let expected = on_cpu(kernel, &before);
+            let found = after_on(gpu(), kernel, &before);
+            for (column, error) in gpu_errors(kernel, &before, &found, &expected) {
+                worst[index] = worst[index].max(error);
+                if error > bound(kernel) || error.is_nan() {
+                    failures.push(format!("{} {}: {error:.1e} in {options:?}", kernel.name, column.name()));
+                }
+            }
+        }
+    }
+    for (kernel, worst) in KERNELS.iter().zip(worst) {
+        println!("{:26} {worst:.1e} of {:.0e}", kernel.name, bound(kernel));
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}

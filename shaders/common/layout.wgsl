@@ -1,0 +1,98 @@
+// What all twins share: the layout of the uniforms, and which row a thread has.
+
+// One smoothing function: support radius H, 1/H, and the factors of `smoothing.rs`.
+struct Smoothing {
+    radius: f32,
+    inverse_radius: f32,
+    value: f32,
+    gradient: f32,
+    laplacian: f32,
+    viscosity: f32,
+    unused_0: f32,
+    unused_1: f32,
+}
+
+struct Params {
+    gravity: vec4<f32>,
+    // Corners of the container; w of the first is 1 if there is one.
+    wall_low: vec4<f32>,
+    wall_high: vec4<f32>,
+    fluid_rows: u32,
+    node_rows: u32,
+    body_rows: u32,
+    tet_rows: u32,
+    spacing: f32,
+    rest_density: f32,
+    particle_mass: f32,
+    sound_speed: f32,
+    viscosity: f32,
+    surface_tension: f32,
+    repulsion_range: f32,
+    repulsion_stiffness: f32,
+    repulsion_damping: f32,
+    // 1 for Tait's equation of state, 0 for the linear one.
+    tait: u32,
+    courant: f32,
+    // Smallest lattice constant of the sponges.
+    edge: f32,
+    minimum_step: f32,
+    constant_step: f32,
+    constant_bound: u32,
+    // Entries that fit a list: fluid to fluid, fluid to controls, controls to fluid.
+    neighbor_capacity: u32,
+    control_capacity: u32,
+    control_fluid_capacity: u32,
+    unused_0: u32,
+    unused_1: u32,
+    smoothing: Smoothing,
+    coupling: Smoothing,
+}
+
+// Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.
+struct Clock {
+    step: f32,
+    inverse_step: f32,
+    // 0: nothing is to be done; every kernel leaves at once.
+    running: u32,
+    // Why nothing is to be done: 0 for the end of the time that was asked for, else see `clock.wgsl`.
+    status: u32,
+    // Time left of what was asked for.
+    left: f32,
+    fluid_speed: f32,
+    fluid_acceleration: f32,
+    node_speed: f32,
+    steps: u32,
+    bound: u32,
+    shortest: f32,
+    maximum_speed: f32,
+    // A row that is not finite, plus one.
+    failed_row: u32,
+    // Longest list: fluid to fluid, fluid to controls, controls to fluid.
+    longest_0: u32,
+    longest_1: u32,
+    longest_2: u32,
+    last_step: f32,
+    last_bound: u32,
+    // The step that stability asks for, where it is too small.
+    needed: f32,
+    // 1: the host gave the step, and there is one.
+    given: u32,
+    // How many steps every bound limited.
+    bounds_0: vec4<u32>,
+    bounds_1: vec4<u32>,
+    bounds_2: vec4<u32>,
+}
+
+// The row of a thread; groups beyond the limit of one dimension continue in the second.
+fn row_of(group: vec3<u32>, groups: vec3<u32>, lane: u32) -> u32 {
+    return (group.y * groups.x + group.x) * 256u + lane;
+}
+
+fn group_of(group: vec3<u32>, groups: vec3<u32>) -> u32 {
+    return group.y * groups.x + group.x;
+}
+
+// By its bits: compilers may assume that no number is infinite or not a number.
+fn is_finite(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
+}

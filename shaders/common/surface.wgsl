@@ -1,0 +1,73 @@
+// Signed distance from a body (negative inside) and outward normal, at a point of the world, as in `body.rs`.
+
+struct Surface {
+    normal: vec3<f32>,
+    distance: f32,
+}
+
+fn round_surface(local: vec3<f32>, radius: f32) -> Surface {
+    let length = sqrt(dot(local, local));
+    if (length > 1.0e-12) {
+        return Surface(local * (1.0 / length), length - radius);
+    }
+    return Surface(vec3<f32>(0.0, 1.0, 0.0), length - radius);
+}
+
+fn cuboid_surface(local: vec3<f32>, half: vec3<f32>) -> Surface {
+    let sides = select(vec3<f32>(1.0), vec3<f32>(-1.0), local < vec3<f32>(0.0));
+    let beyond = local * sides - half;
+    let outside = max(beyond, vec3<f32>(0.0));
+    let length = sqrt(dot(outside, outside));
+    if (length > 0.0) {
+        return Surface(sides * (outside * (1.0 / length)), length);
+    }
+    // Inside, the face that is nearest.
+    if (beyond.x >= beyond.y && beyond.x >= beyond.z) {
+        return Surface(vec3<f32>(sides.x, 0.0, 0.0), beyond.x);
+    }
+    if (beyond.y >= beyond.z) {
+        return Surface(vec3<f32>(0.0, sides.y, 0.0), beyond.y);
+    }
+    return Surface(vec3<f32>(0.0, 0.0, sides.z), beyond.z);
+}
+
+fn hull_surface(body: Body, local: vec3<f32>) -> Surface {
+    var nearest = Surface(vec3<f32>(0.0, 1.0, 0.0), -3.4e38);
+    for (var face = 0u; face < body.info.z; face += 1u) {
+        let plane = planes[body.info.y + face];
+        let distance = dot(local, plane.xyz) - plane.w;
+        if (distance > nearest.distance) {
+            nearest = Surface(plane.xyz, distance);
+        }
+    }
+    return nearest;
+}
+
+fn local_surface(body: Body, local: vec3<f32>) -> Surface {
+    switch (body.info.x) {
+        case PLANE: {
+            return Surface(vec3<f32>(0.0, 1.0, 0.0), local.y);
+        }
+        case SPHERE: {
+            return round_surface(local, body.extents.w);
+        }
+        case CUBOID: {
+            return cuboid_surface(local, body.extents.xyz);
+        }
+        case CAPSULE: {
+            let on_axis = clamp(local.y, -body.extents.x, body.extents.x);
+            return round_surface(vec3<f32>(local.x, local.y - on_axis, local.z), body.extents.w);
+        }
+        default: {
+            return hull_surface(body, local);
+        }
+    }
+}
+
+fn body_surface(body: Body, point: vec3<f32>) -> Surface {
+    let arm = point - body.position.xyz;
+    let local = vec3<f32>(dot(body.x.xyz, arm), dot(body.y.xyz, arm), dot(body.z.xyz, arm));
+    let surface = local_surface(body, local);
+    let normal = surface.normal.x * body.x.xyz + surface.normal.y * body.y.xyz + surface.normal.z * body.z.xyz;
+    return Surface(normal, surface.distance);
+}

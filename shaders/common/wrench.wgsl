@@ -1,0 +1,42 @@
+// Sums over the threads of a group, always in the same order.
+
+var<workgroup> impulses: array<vec3<f32>, 256>;
+var<workgroup> angular_impulses: array<vec3<f32>, 256>;
+var<workgroup> any_touches: atomic<u32>;
+
+struct Wrench {
+    impulse: vec3<f32>,
+    angular: vec3<f32>,
+}
+
+// The same for all threads: whether one of them touches.
+fn group_touches(lane: u32, touches: bool) -> bool {
+    if (lane == 0u) {
+        atomicStore(&any_touches, 0u);
+    }
+    workgroupBarrier();
+    if (touches) {
+        atomicStore(&any_touches, 1u);
+    }
+    workgroupBarrier();
+    let any = atomicLoad(&any_touches);
+    workgroupBarrier();
+    return any != 0u;
+}
+
+// Valid in thread 0.
+fn group_sum(lane: u32, own: Wrench) -> Wrench {
+    impulses[lane] = own.impulse;
+    angular_impulses[lane] = own.angular;
+    for (var half = 128u; half > 0u; half = half / 2u) {
+        workgroupBarrier();
+        if (lane < half) {
+            impulses[lane] += impulses[lane + half];
+            angular_impulses[lane] += angular_impulses[lane + half];
+        }
+    }
+    workgroupBarrier();
+    let sum = Wrench(impulses[0], angular_impulses[0]);
+    workgroupBarrier();
+    return sum;
+}

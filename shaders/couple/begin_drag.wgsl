@@ -1,0 +1,28 @@
+// First pass of `couple::control_velocity`: velocities of the nodes in the order of the controls, and no drag yet.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> control_node: array<u32>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_velocity: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> unfiltered: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> drag: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u) {
+        return;
+    }
+    if (row < params.fluid_rows) {
+        drag[row] = vec4<f32>(0.0);
+    }
+    if (row < params.node_rows) {
+        let node = control_node[row];
+        unfiltered[row] = vec4<f32>(node_velocity[node].xyz, node_position[node].w);
+    }
+}

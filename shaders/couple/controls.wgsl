@@ -1,0 +1,35 @@
+// Nodes as control particles: in the order of their cells, those of one cell in the order of the nodes.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> grid: Grid;
+@group(0) @binding(2) var<storage, read> grouped: array<u32>;
+@group(0) @binding(3) var<storage, read> starts: array<u32>;
+@group(0) @binding(4) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_volume: array<f32>;
+@group(0) @binding(6) var<storage, read_write> control_position: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> control_node: array<u32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let slot = row_of(group, groups, lane);
+    if (clock.running == 0u || slot >= grid.wrap.w) {
+        return;
+    }
+    let node = grouped[slot];
+    let point = node_position[node].xyz;
+    let cell = cell_of(grid, point);
+    let begin = starts[cell];
+    let end = starts[cell + 1u];
+    var row = begin;
+    for (var other = begin; other < end; other += 1u) {
+        if (grouped[other] < node) {
+            row += 1u;
+        }
+    }
+    control_position[row] = vec4<f32>(point, node_volume[node]);
+    control_node[row] = node;
+}

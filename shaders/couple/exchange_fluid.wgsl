@@ -1,0 +1,22 @@
+// Applies the drag to the particles: v_i -= J_i / m. The column holds impulses over chi.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> interior: array<f32>;
+@group(0) @binding(4) var<storage, read_write> velocity: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    let scale = interior[row] * (1.0 / params.particle_mass);
+    let before = velocity[row];
+    velocity[row] = vec4<f32>(before.xyz - drag[row].xyz * scale, before.w);
+}

@@ -1,0 +1,43 @@
+// How far inside a sponge every particle is, and how fast drag acts there.
+//
+//     chi_i = sum_a V_a W_ia,    beta_i = sum_a V_a W_ia mu phi_a / (rho K_a)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_node: array<u32>;
+@group(0) @binding(6) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(7) var<storage, read> list: array<u32>;
+@group(0) @binding(8) var<storage, read_write> interior: array<f32>;
+@group(0) @binding(9) var<storage, read_write> drag_rate: array<f32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let end = list[row];
+    var slot = row;
+    var sum = 0.0;
+    var rate = 0.0;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let there = control_position[other];
+        let apart = point - there.xyz;
+        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        sum += weight;
+        rate += weight * sponges.all[node_sponge[control_node[other]]].drag_rate;
+    }
+    interior[row] = sum;
+    drag_rate[row] = rate;
+}

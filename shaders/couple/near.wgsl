@@ -1,0 +1,82 @@
+// Lists of the points of another kind within the coupling radius: controls of every particle, or particles of every
+// control.
+
+struct Near {
+    rows: u32,
+    capacity: u32,
+    // Where the longest list is noted that does not fit.
+    extreme: u32,
+    unused: u32,
+}
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> grid: Grid;
+@group(0) @binding(3) var<uniform> near: Near;
+@group(0) @binding(4) var<storage, read> queries: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> starts: array<u32>;
+@group(0) @binding(7) var<storage, read_write> list: array<u32>;
+@group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = near.rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = queries[row].xyz;
+    let radius = params.coupling.radius;
+    let square = radius * radius;
+    let cell_square = square * grid.origin.w * grid.origin.w;
+    let reach = radius * grid.origin.w;
+    let at = vec3<f32>(
+        coordinate_of(grid, point.x, 0u),
+        coordinate_of(grid, point.y, 1u),
+        coordinate_of(grid, point.z, 2u),
+    );
+    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
+    var found = 0u;
+    var slot = row;
+    for (var z = span_z.x; z <= span_z.y; z += 1) {
+        let dz = slab_distance(grid, at.z, z, 2u);
+        let plane = wrapped(grid, z, 2u) * grid.size.y;
+        for (var y = span_y.x; y <= span_y.y; y += 1) {
+            let dy = slab_distance(grid, at.y, y, 1u);
+            let chord = cell_square - dy * dy - dz * dz;
+            if (chord <= 0.0) {
+                continue;
+            }
+            let line = (plane + wrapped(grid, y, 1u)) * grid.size.x;
+            let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+            var x = span_x.x;
+            // One run, or two where it crosses the seam of the torus.
+            while (x <= span_x.y) {
+                let first = wrapped(grid, x, 0u);
+                let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
+                x += i32(last - first) + 1;
+                let end = starts[line + last + 1u];
+                for (var other = starts[line + first]; other < end; other += 1u) {
+                    let apart = point - points[other].xyz;
+                    if (dot(apart, apart) < square) {
+                        if (found < near.capacity) {
+                            slot += rows;
+                            list[slot] = other;
+                        }
+                        found += 1u;
+                    }
+                }
+            }
+        }
+    }
+    list[row] = found;
+    if (found > near.capacity) {
+        atomicMax(&extremes[near.extreme], found);
+    }
+}

@@ -1,0 +1,48 @@
+// Saturation of every node, and the control pressure that follows from it.
+//
+//     S_a = sum_i V_0 W_ia / (phi chi_a)        p_a = -p_e (1 + g max(1 - S_a, 0)),  0 at surface nodes
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> list: array<u32>;
+// Per node: its sponge, the bits of its suction, and the bits of its kernel sum at rest.
+@group(0) @binding(6) var<storage, read> node_traits: array<vec4<u32>>;
+@group(0) @binding(7) var<storage, read> control_node: array<u32>;
+@group(0) @binding(8) var<storage, read_write> control_saturation: array<f32>;
+@group(0) @binding(9) var<storage, read_write> control_suction: array<f32>;
+@group(0) @binding(10) var<storage, read_write> node_saturation: array<f32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.node_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let own = control_position[row];
+    let end = list[row];
+    var slot = row;
+    var sum = 0.0;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let apart = own.xyz - position[list[slot]].xyz;
+        sum += shape(closeness(params.coupling, dot(apart, apart)));
+    }
+    let node = control_node[row];
+    let traits = node_traits[node];
+    let sponge = sponges.all[traits.x];
+    let volume = params.particle_mass / params.rest_density;
+    let saturation = sum * params.coupling.value * volume / (sponge.porosity * bitcast<f32>(traits.z));
+    let dry = max(1.0 - saturation, 0.0);
+    let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
+    control_saturation[row] = saturation;
+    control_suction[row] = pressure * bitcast<f32>(traits.y) * own.w;
+    node_saturation[node] = saturation;
+}

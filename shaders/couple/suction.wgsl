@@ -1,0 +1,38 @@
+// Suction: the pressure force with control nodes in place of particles.
+//
+//     F_i = -V_0 sum_a V_a p_a grad W_ia
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_suction: array<f32>;
+@group(0) @binding(5) var<storage, read> list: array<u32>;
+@group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let end = list[row];
+    var slot = row;
+    var sum = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let apart = point - control_position[other].xyz;
+        let u = closeness(params.coupling, dot(apart, apart));
+        sum += (control_suction[other] * (u * u * u)) * apart;
+    }
+    let before = acceleration[row];
+    let scale = params.coupling.gradient * (1.0 / params.rest_density);
+    acceleration[row] = vec4<f32>(before.xyz + sum * scale, before.w);
+}

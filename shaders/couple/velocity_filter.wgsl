@@ -1,0 +1,26 @@
+// What the drag makes of the velocities of the nodes: u_a = u0_a + sum_i w_ia J_i / m_a.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> list: array<u32>;
+@group(0) @binding(6) var<storage, read> unfiltered: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> control_velocity: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.node_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let before = unfiltered[row];
+    let received = received_impulse(control_position[row], row, rows);
+    control_velocity[row] = vec4<f32>(before.xyz + received * before.w, control_velocity[row].w);
+}

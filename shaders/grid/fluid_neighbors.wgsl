@@ -1,0 +1,80 @@
+// For every particle, the particles within the support radius; and, since every pair is at hand, the density, which is
+// what `sph::density` computes from the lists.
+//
+// Rows of cells along x that the ball touches are runs of particles; the run is as long as the chord of the ball there.
+// `list[row]` is the number of neighbours, `list[(k + 1) * rows + row]` the k-th.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> grid: Grid;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> starts: array<u32>;
+@group(0) @binding(5) var<storage, read_write> list: array<u32>;
+@group(0) @binding(6) var<storage, read_write> density: array<f32>;
+@group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let radius = params.smoothing.radius;
+    let square = radius * radius;
+    let cell_square = square * grid.origin.w * grid.origin.w;
+    let reach = radius * grid.origin.w;
+    let at = vec3<f32>(
+        coordinate_of(grid, point.x, 0u),
+        coordinate_of(grid, point.y, 1u),
+        coordinate_of(grid, point.z, 2u),
+    );
+    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
+    var found = 0u;
+    var slot = row;
+    var sum = 0.0;
+    for (var z = span_z.x; z <= span_z.y; z += 1) {
+        let dz = slab_distance(grid, at.z, z, 2u);
+        let plane = wrapped(grid, z, 2u) * grid.size.y;
+        for (var y = span_y.x; y <= span_y.y; y += 1) {
+            let dy = slab_distance(grid, at.y, y, 1u);
+            let chord = cell_square - dy * dy - dz * dz;
+            if (chord <= 0.0) {
+                continue;
+            }
+            let line = (plane + wrapped(grid, y, 1u)) * grid.size.x;
+            let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+            var x = span_x.x;
+            // One run, or two where it crosses the seam of the torus.
+            while (x <= span_x.y) {
+                let first = wrapped(grid, x, 0u);
+                let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
+                x += i32(last - first) + 1;
+                let end = starts[line + last + 1u];
+                for (var other = starts[line + first]; other < end; other += 1u) {
+                    let apart = point - position[other].xyz;
+                    let distance_square = dot(apart, apart);
+                    if (distance_square < square) {
+                        if (found < params.neighbor_capacity) {
+                            slot += rows;
+                            list[slot] = other;
+                        }
+                        found += 1u;
+                        sum += shape(closeness(params.smoothing, distance_square));
+                    }
+                }
+            }
+        }
+    }
+    list[row] = found;
+    density[row] = sum * (params.smoothing.value * params.particle_mass);
+    if (found > params.neighbor_capacity) {
+        atomicMax(&extremes[5], found);
+    }
+}

@@ -1,0 +1,60 @@
+// Prefix sums, third pass: where every cell begins. Leaves the counts at zero for the next step.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> grid: Grid;
+@group(0) @binding(2) var<storage, read_write> counts: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read> page_sums: array<u32>;
+@group(0) @binding(4) var<storage, read_write> starts: array<vec4<u32>>;
+
+// Sums of four tiles of 1024 values at once.
+var<workgroup> sums: array<vec4<u32>, 256>;
+
+fn total(values: vec4<u32>) -> u32 {
+    return values.x + values.y + values.z + values.w;
+}
+
+fn exclusive(values: vec4<u32>, before: u32) -> vec4<u32> {
+    let y = before + values.x;
+    let z = y + values.y;
+    return vec4<u32>(before, y, z, z + values.z);
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let page = group_of(group, groups);
+    let pages = grid.size.w / 4096u + 1u;
+    if (clock.running == 0u || page >= pages) {
+        return;
+    }
+    let first = page * 1024u + lane;
+    let a = counts[first];
+    let b = counts[first + 256u];
+    let c = counts[first + 512u];
+    let d = counts[first + 768u];
+    let own = vec4<u32>(total(a), total(b), total(c), total(d));
+    sums[lane] = own;
+    for (var step = 1u; step < 256u; step = step * 2u) {
+        workgroupBarrier();
+        var other = vec4<u32>(0u);
+        if (lane >= step) {
+            other = sums[lane - step];
+        }
+        workgroupBarrier();
+        sums[lane] += other;
+    }
+    workgroupBarrier();
+    let tiles = exclusive(sums[255], page_sums[page]);
+    let before = tiles + (sums[lane] - own);
+    starts[first] = exclusive(a, before.x);
+    starts[first + 256u] = exclusive(b, before.y);
+    starts[first + 512u] = exclusive(c, before.z);
+    starts[first + 768u] = exclusive(d, before.w);
+    counts[first] = vec4<u32>(0u);
+    counts[first + 256u] = vec4<u32>(0u);
+    counts[first + 512u] = vec4<u32>(0u);
+    counts[first + 768u] = vec4<u32>(0u);
+}

@@ -1,0 +1,89 @@
+// Contact of nodes with walls and bodies, with friction; bodies receive the opposite impulse -m dy / h, added to what
+// the iterations before gave.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(5) var<storage, read> bodies: array<Body>;
+@group(0) @binding(6) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+// Change of position: out along the normal, and back along the surface as far as friction reaches.
+fn contact(depth: f32, normal: vec3<f32>, slide: vec3<f32>, friction: f32) -> vec3<f32> {
+    if (depth <= 0.0) {
+        return vec3<f32>(0.0);
+    }
+    let tangent = slide - normal * dot(slide, normal);
+    let length = sqrt(dot(tangent, tangent));
+    let reach = depth * friction;
+    let undone = select(1.0, reach / length, length > reach);
+    return normal * depth - tangent * undone;
+}
+
+fn wall(point: vec3<f32>, old: vec3<f32>, normal: vec3<f32>, distance: f32, friction: f32) -> vec3<f32> {
+    return point + contact(max(-distance, 0.0), normal, point - old, friction);
+}
+
+fn walls(start: vec3<f32>, old: vec3<f32>, friction: f32) -> vec3<f32> {
+    let low = params.wall_low.xyz;
+    let high = params.wall_high.xyz;
+    var point = start;
+    point = wall(point, old, vec3<f32>(1.0, 0.0, 0.0), point.x - low.x, friction);
+    point = wall(point, old, vec3<f32>(-1.0, 0.0, 0.0), high.x - point.x, friction);
+    point = wall(point, old, vec3<f32>(0.0, 1.0, 0.0), point.y - low.y, friction);
+    point = wall(point, old, vec3<f32>(0.0, -1.0, 0.0), high.y - point.y, friction);
+    point = wall(point, old, vec3<f32>(0.0, 0.0, 1.0), point.z - low.z, friction);
+    return wall(point, old, vec3<f32>(0.0, 0.0, -1.0), high.z - point.z, friction);
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let is_row = row < params.node_rows;
+    var point = vec3<f32>(0.0);
+    var old = vec3<f32>(0.0);
+    var w = 0.0;
+    if (is_row) {
+        point = predicted[row].xyz;
+        w = predicted[row].w;
+        old = position[row].xyz;
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let body = bodies[index];
+        let drift = body_velocity(body, point) * clock.step;
+        // The body stands where it began the step: so is the node, in the body's frame.
+        let surface = body_surface(body, point - drift);
+        let depth = select(0.0, max(-surface.distance, 0.0), w > 0.0 && body.info.w != 0u);
+        let change = contact(depth, surface.normal, point - old - drift, body.surface.x);
+        point += change;
+        if (group_touches(lane, depth > 0.0)) {
+            var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
+            if (depth > 0.0) {
+                own.impulse = change * (-1.0 / (w * clock.step));
+                own.angular = cross(point - body.position.xyz, own.impulse);
+            }
+            let all = group_sum(lane, own);
+            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            if (lane == 0u) {
+                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+            }
+        }
+    }
+    if (is_row) {
+        if (params.wall_low.w > 0.0 && w > 0.0) {
+            point = walls(point, old, sponges.all[node_sponge[row]].friction);
+        }
+        predicted[row] = vec4<f32>(point, w);
+    }
+}

@@ -1,0 +1,43 @@
+// Velocity from the corrected positions: v = (y - x) / h, x <- y; the largest speed, and the first row that is not
+// finite.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> extremes: array<atomic<u32>>;
+
+var<workgroup> largest: atomic<u32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    if (lane == 0u) {
+        atomicStore(&largest, 0u);
+    }
+    workgroupBarrier();
+    if (row < params.node_rows) {
+        let y = predicted[row];
+        let v = (y.xyz - position[row].xyz) * clock.inverse_step;
+        velocity[row] = vec4<f32>(v, velocity[row].w);
+        position[row] = y;
+        let square = dot(v, v);
+        if (is_finite(square)) {
+            atomicMax(&largest, bitcast<u32>(square));
+        } else {
+            atomicMax(&extremes[4], 0xffffffffu - row);
+        }
+    }
+    workgroupBarrier();
+    if (lane == 0u) {
+        atomicMax(&extremes[2], atomicLoad(&largest));
+    }
+}

@@ -1,0 +1,57 @@
+// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls; the largest speed, and the first row that is
+// not finite. Leaves the particles in the columns that the next step sorts.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> sorted_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> sorted_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> sorted_id: array<u32>;
+@group(0) @binding(5) var<storage, read_write> position: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> id: array<u32>;
+@group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
+
+var<workgroup> largest: atomic<u32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    if (lane == 0u) {
+        atomicStore(&largest, 0u);
+    }
+    workgroupBarrier();
+    if (row < params.fluid_rows) {
+        let own = sorted_position[row];
+        let its_velocity = sorted_velocity[row];
+        var v = its_velocity.xyz;
+        var x = own.xyz + clock.step * v;
+        if (params.wall_low.w > 0.0) {
+            let margin = params.spacing * 0.05;
+            let low = params.wall_low.xyz + margin;
+            let high = params.wall_high.xyz - margin;
+            v = select(v, max(v, vec3<f32>(0.0)), x < low);
+            v = select(v, min(v, vec3<f32>(0.0)), x > high);
+            x = select(select(x, high, x > high), low, x < low);
+        }
+        position[row] = vec4<f32>(x, own.w);
+        velocity[row] = vec4<f32>(v, its_velocity.w);
+        id[row] = sorted_id[row];
+        let square = dot(v, v);
+        if (is_finite(square) && is_finite(x.x + x.y + x.z)) {
+            atomicMax(&largest, bitcast<u32>(square));
+        } else {
+            atomicMax(&extremes[3], 0xffffffffu - row);
+        }
+    }
+    workgroupBarrier();
+    if (lane == 0u) {
+        atomicMax(&extremes[0], atomicLoad(&largest));
+    }
+}

@@ -1,0 +1,32 @@
+// Mass density by summation over lists that are there already.
+//
+//     rho_i = sum_j m W(|x_i - x_j|)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(4) var<storage, read_write> density: array<f32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let end = list[row];
+    var slot = row;
+    var sum = 0.0;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let apart = point - position[list[slot]].xyz;
+        sum += shape(closeness(params.smoothing, dot(apart, apart)));
+    }
+    density[row] = sum * (params.smoothing.value * params.particle_mass);
+}

@@ -1,0 +1,44 @@
+// Acceleration by gravity, pressure and viscosity.
+//
+//     a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let own = position[row];
+    let own_velocity = velocity[row];
+    let end = list[row];
+    var slot = row;
+    var push = vec3<f32>(0.0);
+    var pull = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let there = position[other];
+        let its_velocity = velocity[other];
+        let apart = own.xyz - there.xyz;
+        let u = closeness(params.smoothing, dot(apart, apart));
+        push += ((own.w + there.w) * (u * u * u)) * apart;
+        pull += (its_velocity.w * u) * (its_velocity.xyz - own_velocity.xyz);
+    }
+    // mu / rho_i = mu V_i / m.
+    let pressure_scale = params.smoothing.gradient * params.particle_mass;
+    let viscosity_scale = params.smoothing.viscosity * (params.viscosity / params.particle_mass) * own_velocity.w;
+    let sum = push * pressure_scale + pull * viscosity_scale + params.gravity.xyz;
+    acceleration[row] = vec4<f32>(sum, 0.0);
+}

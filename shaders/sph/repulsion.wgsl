@@ -1,0 +1,80 @@
+// Elastic repulsion of particles from walls and bodies.
+//
+//     a_i += (k (R - d) - c v_n) n   where the distance d from the surface is less than R, not pulling
+//
+// Bodies receive the opposite: one wrench per body and group of 256 particles, added up by `body_wrenches.wgsl`.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> bodies: array<Body>;
+@group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+fn push_of(distance: f32, speed: f32) -> f32 {
+    let depth = params.repulsion_range - distance;
+    if (depth > 0.0) {
+        return max(depth * params.repulsion_stiffness - speed * params.repulsion_damping, 0.0);
+    }
+    return 0.0;
+}
+
+fn walls(point: vec3<f32>, speed: vec3<f32>) -> vec3<f32> {
+    let low = params.wall_low.xyz;
+    let high = params.wall_high.xyz;
+    return vec3<f32>(
+        push_of(point.x - low.x, speed.x) - push_of(high.x - point.x, -speed.x),
+        push_of(point.y - low.y, speed.y) - push_of(high.y - point.y, -speed.y),
+        push_of(point.z - low.z, speed.z) - push_of(high.z - point.z, -speed.z),
+    );
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let is_row = row < params.fluid_rows;
+    var point = vec3<f32>(0.0);
+    var speed = vec3<f32>(0.0);
+    var sum = vec3<f32>(0.0);
+    if (is_row) {
+        point = position[row].xyz;
+        speed = velocity[row].xyz;
+        sum = acceleration[row].xyz;
+        if (params.wall_low.w > 0.0) {
+            sum += walls(point, speed);
+        }
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let body = bodies[index];
+        let surface = body_surface(body, point);
+        var push = 0.0;
+        if (is_row) {
+            push = push_of(surface.distance, dot(speed - body_velocity(body, point), surface.normal));
+        }
+        sum += surface.normal * push;
+        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+        let is_slot = group_of(group, groups) * 256u < params.fluid_rows;
+        var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
+        if (group_touches(lane, push > 0.0)) {
+            let impulse = surface.normal * (-push * (clock.step * params.particle_mass));
+            let arm = (point - surface.normal * surface.distance) - body.position.xyz;
+            all = group_sum(lane, Wrench(impulse, cross(arm, impulse)));
+        }
+        if (lane == 0u && is_slot) {
+            wrenches[slot] = vec4<f32>(all.impulse, 0.0);
+            wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
+        }
+    }
+    if (is_row) {
+        acceleration[row] = vec4<f32>(sum, 0.0);
+    }
+}

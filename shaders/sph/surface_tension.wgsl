@@ -1,0 +1,45 @@
+// Surface tension from the colour field.
+//
+//     n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let end = list[row];
+    var slot = row;
+    var slopes = vec3<f32>(0.0);
+    var laplacian = 0.0;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let apart = point - position[other].xyz;
+        let u = closeness(params.smoothing, dot(apart, apart));
+        let weight = velocity[other].w * u * u;
+        slopes -= (weight * u) * apart;
+        laplacian -= weight * (u + u - 1.0);
+    }
+    let normal = slopes * params.smoothing.gradient;
+    let length = sqrt(dot(normal, normal));
+    if (length > 1.0 / params.smoothing.radius) {
+        let strength = laplacian * params.smoothing.laplacian * velocity[row].w
+            * (params.surface_tension / params.particle_mass);
+        let own = acceleration[row];
+        acceleration[row] = vec4<f32>(own.xyz - (strength / length) * normal, own.w);
+    }
+}
