@@ -47,6 +47,28 @@ impl Bound {
     }
 }
 
+impl Bound {
+    /// All bounds, by the numbers that shaders know them by.
+    #[cfg(feature = "gpu")]
+    const ALL: [Self; 9] = [
+        Self::Maximum,
+        Self::Frame,
+        Self::Courant,
+        Self::Acceleration,
+        Self::Viscosity,
+        Self::SurfaceTension,
+        Self::Suction,
+        Self::Elasticity,
+        Self::SpongeSpeed,
+    ];
+
+    /// The bound of a number; the first for numbers that no shader gives.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn from_index(index: u32) -> Self {
+        Self::ALL.get(index as usize).copied().unwrap_or(Self::Maximum)
+    }
+}
+
 /// Time since the start, and what the last step found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
@@ -112,6 +134,18 @@ impl Steps {
         }
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
         smallest(&bounds)
+    }
+
+    /// What a device needs to choose steps itself.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn limits(&self) -> sorb_kernels::gpu::StepLimits {
+        sorb_kernels::gpu::StepLimits {
+            courant: self.time.courant,
+            edge: self.edge,
+            minimum: self.time.minimum_step,
+            constant: self.constant.0,
+            constant_bound: Bound::ALL.iter().position(|bound| *bound == self.constant.1).unwrap_or(0) as u32,
+        }
     }
 
     /// Shortest step that is allowed \[s\].

@@ -2,6 +2,8 @@
 
 mod clock;
 mod digest;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod measure;
 #[cfg(feature = "render")]
 pub mod render;
@@ -10,10 +12,12 @@ pub mod scene;
 pub mod schedule;
 mod setup;
 pub mod sponge;
+mod stores;
 mod world;
 
 pub use clock::{Bound, Clock};
 pub use measure::Measures;
+pub use schedule::Offload;
 pub use sorb_kernels::{SimdLevel, body, columns, cpu, kernel, params};
 pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
     body::{Body, Wrench},
-    columns::{Column, Columns},
+    columns::{BodyStore, Column, Columns},
     couple,
     cpu::{Cpu, CpuError},
     grid,
@@ -18,9 +18,10 @@ use crate::{
     measure::Measures,
     rigid::{RigidEngine, RigidError},
     scene::{Scene, SceneError},
-    schedule::{Content, PhaseTime, Plan, PlanError, PlanLine, Runner, STEP, Verdict},
+    schedule::{Content, Offload, PhaseTime, Plan, PlanError, PlanLine, Runner, STEP, Verdict},
     setup::Setup,
     sponge::{Lattice, LatticeError},
+    stores::Stores,
 };
 
 /// Why a world could not be built.
@@ -57,6 +58,14 @@ pub enum WorldError {
     /// The step contradicts a kernel's declaration.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// A GPU was asked for.
+    #[cfg(not(feature = "gpu"))]
+    #[error("backend `{0}`: built without the feature `gpu`")]
+    NeedsGpu(Offload),
+    /// A GPU was asked for, and there is none that can be used.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
 }
 
 /// Why a step failed. The world keeps the state it had after the step and refuses to go on.
@@ -103,6 +112,10 @@ pub enum StepError {
     /// The engine of the bodies failed.
     #[error("rigid bodies: {0}")]
     Rigid(String),
+    /// The GPU failed. A clone of the world that was made before can go on: it uploads its state anew.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
 }
 
 /// What to run on.
@@ -114,6 +127,16 @@ pub struct Options {
     pub simd: Option<SimdLevel>,
     /// Columns to keep up to date although no phase reads them.
     pub observed: Vec<Column>,
+    /// What to run on a GPU; by default nothing.
+    pub offload: Offload,
+    /// The GPU to run on; default: the best of the machine. Worlds can share one, and it can be made of a device of the
+    /// host.
+    #[cfg(feature = "gpu")]
+    pub gpu: Option<std::sync::Arc<crate::gpu::Gpu>>,
+    /// Whether to take the time of every kernel on the GPU, which makes its steps a little longer. On the CPU it is
+    /// always taken.
+    #[cfg(feature = "gpu")]
+    pub gpu_times: bool,
 }
 
 /// What a step did.
@@ -152,16 +175,16 @@ const ROWS_FOR_THREADS: u64 = 1000;
 /// A clone continues with the same bits: keep one to go back to it.
 #[derive(Clone, Debug)]
 pub struct World {
-    scene: Scene,
+    pub(crate) scene: Scene,
     cpu: Cpu,
-    params: Params,
-    columns: Columns,
+    pub(crate) params: Params,
+    pub(crate) stores: Stores,
     lattice: Lattice,
-    engine: Box<dyn RigidEngine>,
+    pub(crate) engine: Box<dyn RigidEngine>,
     plan: Plan,
-    runner: Runner,
-    steps: Steps,
-    clock: Clock,
+    pub(crate) runner: Runner,
+    pub(crate) steps: Steps,
+    pub(crate) clock: Clock,
     failed: Option<StepError>,
 }
 
@@ -181,7 +204,7 @@ impl World {
     pub fn with_options(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
         let level = options.simd.unwrap_or_else(SimdLevel::best);
         let threads = options.threads.unwrap_or_else(default_threads);
-        Self::on(scene, Cpu::with_threads(level, threads)?, &options.observed)
+        Self::build(scene, Cpu::with_threads(level, threads)?, options)
     }
 
     /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool.
@@ -189,6 +212,10 @@ impl World {
     /// # Errors
     /// As [`Self::new`].
     pub fn on(scene: &Scene, cpu: Cpu, observed: &[Column]) -> Result<Self, WorldError> {
+        Self::build(scene, cpu, &Options { observed: observed.to_vec(), ..Options::default() })
+    }
+
+    fn build(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {
         scene.validate()?;
         let estimate = scene.estimate();
         let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
@@ -202,23 +229,36 @@ impl World {
             surface_tension: params.fluid.surface_tension > 0.0,
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };
-        let plan = Plan::new(STEP, content, observed)?;
+        let plan = Plan::new(STEP, content, &options.observed)?;
+        let steps = Steps::new(scene, &params);
+        #[cfg(not(feature = "gpu"))]
+        if options.offload.wants_gpu() {
+            return Err(WorldError::NeedsGpu(options.offload));
+        }
+        #[cfg(feature = "gpu")]
+        let (plan, device) = crate::gpu::placed(plan, columns.rows, &steps, options)?;
+        let stores = Stores {
+            host: columns,
+            #[cfg(feature = "gpu")]
+            device,
+        };
         let mut world = Self {
             runner: Runner::new(&plan),
-            steps: Steps::new(scene, &params),
+            steps,
             scene: scene.clone(),
             cpu,
             params,
-            columns,
+            stores,
             lattice,
             engine,
             plan,
             clock: Clock::default(),
             failed: None,
         };
-        world.clock.fluid_speed = fastest(&world.columns.fluid.velocity[..world.columns.rows.fluid]);
+        let Columns { rows, fluid, nodes, .. } = &world.stores.host;
+        world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
         world.clock.fluid_acceleration = scene.gravity.length();
-        world.clock.node_speed = fastest(&world.columns.nodes.velocity[..world.columns.rows.nodes]);
+        world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
         world.look();
         Ok(world)
     }
@@ -233,7 +273,8 @@ impl World {
             &couple::saturation::KERNEL,
             &couple::interior::KERNEL,
         ];
-        let Self { cpu, params, columns, plan, .. } = self;
+        let Self { cpu, params, stores, plan, .. } = self;
+        let columns = &mut stores.host;
         for kernel in phases {
             let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
             if plan.lines().iter().any(runs) {
@@ -256,6 +297,10 @@ impl World {
     /// # Errors
     /// As [`Self::step`].
     pub fn advance_frame(&mut self) -> Result<FrameReport, StepError> {
+        #[cfg(feature = "gpu")]
+        if self.is_on_device() {
+            return self.going_on(Self::frame_on_device);
+        }
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let mut report = FrameReport {
             time: self.clock.time,
@@ -284,10 +329,25 @@ impl World {
     }
 
     fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {
+        #[cfg(feature = "gpu")]
+        if self.is_on_device() {
+            return self.going_on(Self::step_on_device);
+        }
+        self.going_on(|world| world.try_step(left))
+    }
+
+    /// Does something unless the world has failed, and remembers if it fails now.
+    fn going_on<R>(&mut self, work: impl FnOnce(&mut Self) -> Result<R, StepError>) -> Result<R, StepError> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
-        self.try_step(left).inspect_err(|error| self.failed = Some(error.clone()))
+        work(self).inspect_err(|error| self.failed = Some(error.clone()))
+    }
+
+    /// Whether a device takes the steps on its own.
+    #[cfg(feature = "gpu")]
+    fn is_on_device(&self) -> bool {
+        self.stores.device.as_ref().is_some_and(crate::gpu::Device::has_all)
     }
 
     fn try_step(&mut self, left: f64) -> Result<StepReport, StepError> {
@@ -299,10 +359,7 @@ impl World {
         }
         let (step, bound) = within(stable, left);
         self.params.step = step;
-        let Self { runner, cpu, params, columns, engine, .. } = self;
-        let mut rigid = Ok(());
-        runner.run(cpu, params, columns, |columns| rigid = move_bodies(engine.as_mut(), columns, step));
-        rigid.map_err(|error| StepError::Rigid(error.to_string()))?;
+        self.run_phases(step)?;
         self.clock.time += f64::from(step);
         self.clock.steps += 1;
         self.check()?;
@@ -310,12 +367,33 @@ impl World {
         Ok(StepReport { step, bound, time: self.clock.time, maximum_speed })
     }
 
+    /// All phases of a step of given length.
+    fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
+        let Self { runner, cpu, params, stores, engine, .. } = self;
+        let mut rigid = Ok(());
+        let mut host = |columns: &mut Columns| {
+            let wrenches = wrenches(columns);
+            rigid = move_bodies(engine.as_mut(), &mut columns.bodies, &wrenches, step);
+        };
+        #[cfg(feature = "gpu")]
+        if let Some(device) = &mut stores.device {
+            device.step_with(cpu, &mut stores.host, params)?;
+            if stores.host.rows.bodies > 0 {
+                host(&mut stores.host);
+            }
+            return rigid.map_err(|error| StepError::Rigid(error.to_string()));
+        }
+        runner.run(cpu, params, &mut stores.host, host);
+        rigid.map_err(|error| StepError::Rigid(error.to_string()))
+    }
+
     /// Takes over the extremes of the step, and refuses what is not finite.
     fn check(&mut self) -> Result<(), StepError> {
-        let (fluid, nodes) = (self.columns.fluid.extremes.total(), self.columns.nodes.extremes.total());
+        let columns = &self.stores.host;
+        let (fluid, nodes) = (columns.fluid.extremes.total(), columns.nodes.extremes.total());
         let (step, time) = (self.clock.steps, self.clock.time);
         if let Some(row) = fluid.not_finite.checked_sub(1) {
-            let id = self.columns.fluid.id.get(row as usize).copied().unwrap_or(row);
+            let id = columns.fluid.id.get(row as usize).copied().unwrap_or(row);
             return Err(StepError::Particle { id, step, time });
         }
         if let Some(node) = nodes.not_finite.checked_sub(1) {
@@ -370,46 +448,64 @@ impl World {
     }
 
     /// All columns, read only. Rows of the fluid change their order from step to step.
+    ///
+    /// On a GPU this reads back the state and what measures need (density, interior, saturation), once after every step
+    /// or frame that is looked at; other scratch columns are not kept.
     #[must_use]
     pub fn columns(&self) -> &Columns {
-        &self.columns
+        self.stores.view()
+    }
+
+    /// The columns on the GPU, for a renderer that draws from the same buffers; none for a world on the CPU, and before
+    /// the first step.
+    #[cfg(feature = "gpu")]
+    #[must_use]
+    pub fn resident(&self) -> Option<&sorb_kernels::gpu::Resident> {
+        self.stores.device.as_ref().and_then(crate::gpu::Device::resident)
+    }
+
+    /// The GPU that the world runs on.
+    #[cfg(feature = "gpu")]
+    #[must_use]
+    pub fn gpu(&self) -> Option<&std::sync::Arc<crate::gpu::Gpu>> {
+        self.stores.device.as_ref().map(crate::gpu::Device::gpu)
     }
 
     /// Positions of the particles \[m\], in the order of their cells; w: pressure over squared density.
     #[must_use]
     pub fn particle_positions(&self) -> &[[f32; 4]] {
-        &self.columns.fluid.position[..self.columns.rows.fluid]
+        &self.columns().fluid.position[..self.stores.host.rows.fluid]
     }
 
     /// Velocities of the particles \[m/s\]; w: volume \[m^3\].
     #[must_use]
     pub fn particle_velocities(&self) -> &[[f32; 4]] {
-        &self.columns.fluid.velocity[..self.columns.rows.fluid]
+        &self.columns().fluid.velocity[..self.stores.host.rows.fluid]
     }
 
     /// Identities of the particles: `ids[row]` is the same particle for ever.
     #[must_use]
     pub fn particle_ids(&self) -> &[u32] {
-        &self.columns.fluid.id[..self.columns.rows.fluid]
+        &self.columns().fluid.id[..self.stores.host.rows.fluid]
     }
 
     /// Positions of the sponge nodes \[m\], of all sponges; w: inverse mass \[1/kg\].
     #[must_use]
     pub fn node_positions(&self) -> &[[f32; 4]] {
-        &self.columns.nodes.position[..self.columns.rows.nodes]
+        &self.columns().nodes.position[..self.stores.host.rows.nodes]
     }
 
     /// Velocities of the sponge nodes \[m/s\].
     #[must_use]
     pub fn node_velocities(&self) -> &[[f32; 4]] {
-        &self.columns.nodes.velocity[..self.columns.rows.nodes]
+        &self.columns().nodes.velocity[..self.stores.host.rows.nodes]
     }
 
     /// Saturation of the sponge nodes \[1\], about 0 to 1; empty without fluid.
     #[must_use]
     pub fn node_saturations(&self) -> &[f32] {
-        let saturation = &self.columns.nodes.saturation;
-        &saturation[..saturation.len().min(self.columns.rows.nodes)]
+        let saturation = &self.columns().nodes.saturation;
+        &saturation[..saturation.len().min(self.stores.host.rows.nodes)]
     }
 
     /// The lattice: tets, outer surface, which node belongs to which sponge.
@@ -421,7 +517,7 @@ impl World {
     /// Shapes and poses of the bodies, in the order of the scene.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
-        &self.columns.bodies.states.0
+        &self.stores.host.bodies.states.0
     }
 
     /// The engine that moves the bodies.
@@ -439,7 +535,7 @@ impl World {
     /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        digest::digest(&self.columns, &self.clock)
+        digest::digest(self.columns(), &self.clock)
     }
 }
 
@@ -456,8 +552,9 @@ fn fastest(velocities: &[[f32; 4]]) -> f32 {
     velocities.iter().map(|v| Vec3::new(v[0], v[1], v[2]).length()).fold(0.0, f32::max)
 }
 
-fn move_bodies(engine: &mut dyn RigidEngine, columns: &mut Columns, step: f32) -> Result<(), RigidError> {
-    let store = &mut columns.bodies;
+/// What fluid and sponges gave to every body in this step.
+fn wrenches(columns: &Columns) -> Vec<Wrench> {
+    let store = &columns.bodies;
     let count = store.states.0.len();
     let total = |body| {
         let (fluid, nodes) =
@@ -467,9 +564,18 @@ fn move_bodies(engine: &mut dyn RigidEngine, columns: &mut Columns, step: f32) -
             angular_impulse: fluid.angular_impulse + nodes.angular_impulse,
         }
     };
-    let wrenches: Vec<_> = (0..count).map(total).collect();
-    engine.step(step, &wrenches)?;
-    for (index, body) in store.states.0.iter_mut().enumerate() {
+    (0..count).map(total).collect()
+}
+
+/// Hands the wrenches to the engine, and takes over where the bodies are then.
+pub(crate) fn move_bodies(
+    engine: &mut dyn RigidEngine,
+    bodies: &mut BodyStore,
+    wrenches: &[Wrench],
+    step: f32,
+) -> Result<(), RigidError> {
+    engine.step(step, wrenches)?;
+    for (index, body) in bodies.states.0.iter_mut().enumerate() {
         body.state = engine.state(index);
     }
     Ok(())

@@ -12,7 +12,7 @@ struct Near {
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> grid: Grid;
-@group(0) @binding(3) var<uniform> near: Near;
+@group(0) @binding(3) var<storage, read> near: Near;
 @group(0) @binding(4) var<storage, read> queries: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> points: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> starts: array<u32>;

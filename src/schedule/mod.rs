@@ -1,9 +1,16 @@
 //! What runs, in which order, for which scene.
 
+mod offload;
 mod plan;
 mod run;
+mod shares;
 mod step;
 
+#[cfg(feature = "gpu")]
+pub(crate) use offload::beginning;
+pub use offload::{Offload, OffloadError, Place, Placement, Transfer};
+#[cfg(feature = "gpu")]
+pub(crate) use shares::Shares;
 pub use plan::{Content, Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
 pub use step::{HostPhase, Phase, RIGID, STEP, Times};

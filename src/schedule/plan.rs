@@ -7,7 +7,10 @@ use sorb_kernels::{
     kernel::Kernel,
 };
 
-use super::step::{HostPhase, Phase, RIGID_NEEDS, Times, is_met};
+use super::{
+    offload::{Place, Placement},
+    step::{HostPhase, Phase, RIGID_NEEDS, Times, is_met},
+};
 
 /// What a scene contains, as far as phases depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,6 +71,7 @@ pub struct PlanError {
 #[derive(Clone, Debug)]
 pub struct Plan {
     lines: Vec<PlanLine>,
+    placement: Option<Placement>,
 }
 
 impl Plan {
@@ -76,7 +80,7 @@ impl Plan {
     /// # Errors
     /// A phase reads a scratch column that no phase before it has written.
     pub fn new(step: &[Phase], content: Content, observed: &[Column]) -> Result<Self, PlanError> {
-        let mut plan = Self { lines: Vec::new() };
+        let mut plan = Self { lines: Vec::new(), placement: None };
         plan.collect(step, content, None, &mut 0);
         plan.drop_dead(observed);
         plan.check()?;
@@ -87,6 +91,26 @@ impl Plan {
     #[must_use]
     pub fn lines(&self) -> &[PlanLine] {
         &self.lines
+    }
+
+    /// Where the step runs; none if nobody asked for anything but the CPU.
+    #[must_use]
+    pub fn placement(&self) -> Option<&Placement> {
+        self.placement.as_ref()
+    }
+
+    /// Where a phase runs.
+    #[must_use]
+    pub fn place(&self, name: &str) -> Place {
+        let shares = self.shares();
+        let on_gpu = shares.gpu.iter().any(|kernel| kernel.name == name);
+        if on_gpu { Place::Gpu } else { Place::Cpu }
+    }
+
+    /// The same plan, placed.
+    pub(crate) fn placed(mut self, placement: Placement) -> Self {
+        self.placement = Some(placement);
+        self
     }
 
     fn collect(
@@ -167,7 +191,7 @@ impl Plan {
 
 impl PlanLine {
     /// The group that the line is repeated in.
-    fn group(&self) -> Option<usize> {
+    pub(super) fn group(&self) -> Option<usize> {
         self.repeat.map(|(group, _)| group)
     }
 
@@ -192,7 +216,15 @@ impl PlanLine {
 
 impl fmt::Display for Plan {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let transfers = self.placement.as_ref().map_or(&[][..], |placement| &placement.transfers);
+        if let Some(Placement { offload, first, reason, .. }) = &self.placement {
+            let place = if first.is_some() { "gpu" } else { "cpu" };
+            writeln!(formatter, "backend {place}, of {offload}: {reason}")?;
+        }
         for line in &self.lines {
+            for transfer in transfers.iter().filter(|transfer| transfer.before == Some(line.name)) {
+                writeln!(formatter, "{transfer}")?;
+            }
             let repeat = match line.repeat {
                 Some((_, times)) => format!("{times} x "),
                 None => String::new(),
@@ -202,13 +234,28 @@ impl fmt::Display for Plan {
                     let names = |columns: &[Column]| {
                         columns.iter().map(|column| column.name()).collect::<Vec<_>>().join(", ")
                     };
-                    writeln!(formatter, "run   {repeat}{}", line.name)?;
+                    writeln!(formatter, "{:5} {repeat}{}", self.verb(line), line.name)?;
                     writeln!(formatter, "      reads  {}", names(line.reads()))?;
                     writeln!(formatter, "      writes {}", names(line.writes()))?;
                 }
                 Verdict::Skipped(reason) => writeln!(formatter, "skip  {repeat}{}: {reason}", line.name)?,
             }
         }
+        for transfer in transfers.iter().filter(|transfer| transfer.before.is_none()) {
+            writeln!(formatter, "{transfer}")?;
+        }
         Ok(())
+    }
+}
+
+impl Plan {
+    /// What a line of a phase begins with.
+    fn verb(&self, line: &PlanLine) -> &'static str {
+        match (&self.placement, line.work, self.place(line.name)) {
+            (None, ..) => "run",
+            (_, Work::Host(_), _) => "host",
+            (_, _, Place::Cpu) => "cpu",
+            (_, _, Place::Gpu) => "gpu",
+        }
     }
 }

@@ -35,7 +35,10 @@ impl PhaseTime {
     }
 
     fn record(&mut self, start: Instant) {
-        let seconds = start.elapsed().as_secs_f64();
+        self.record_seconds(start.elapsed().as_secs_f64());
+    }
+
+    fn record_seconds(&mut self, seconds: f64) {
         let slot = self.calls as usize % RECENT;
         self.calls += 1;
         self.total_s += seconds;
@@ -109,6 +112,23 @@ impl Runner {
             cpu.enter(work);
         }
         step.record(start_of_step);
+    }
+
+    /// Takes over the time of steps on a device: of all of them together, and of every call of a kernel \[ms\] as far as
+    /// it was taken.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn record(&mut self, seconds: f64, steps: u32, calls: &[(&'static str, f32)]) {
+        for _ in 0..steps {
+            self.step.record_seconds(seconds / f64::from(steps));
+        }
+        for (name, milliseconds) in calls {
+            let found = self.times.iter().position(|time| time.name == *name);
+            let at = found.unwrap_or_else(|| {
+                self.times.push(PhaseTime::new(name));
+                self.times.len() - 1
+            });
+            self.times[at].record_seconds(f64::from(*milliseconds) * 1e-3);
+        }
     }
 
     /// Time spent in whole steps.

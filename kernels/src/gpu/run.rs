@@ -90,6 +90,14 @@ pub struct Program {
     finish: Vec<Dispatch>,
 }
 
+impl Program {
+    /// Passes of a step.
+    #[must_use]
+    pub fn passes(&self) -> usize {
+        self.step.len() + self.finish.len()
+    }
+}
+
 impl Resident {
     /// Binds kernels, in the order in which they are to run.
     ///
@@ -345,11 +353,11 @@ impl Resident {
     fn answer(&self) -> Result<Answer, GpuError> {
         let wrenches = self.rows.bodies as u64 * 64;
         let data = self.read(&[("clock", 128), ("body_wrenches", wrenches)])?;
-        Ok(Answer::new(bytemuck::cast_slice(&data[0]), bytemuck::cast_slice(&data[1])))
+        Ok(Answer::new(&data[0], bytemuck::cast_slice(&data[1])))
     }
 
-    /// Reads the beginnings of buffers back, after everything that was submitted.
-    pub(super) fn read(&self, wanted: &[(&'static str, u64)]) -> Result<Vec<Vec<u8>>, GpuError> {
+    /// Reads the beginnings of buffers back, sizes in bytes, after everything that was submitted.
+    pub(super) fn read(&self, wanted: &[(&'static str, u64)]) -> Result<Vec<Vec<u32>>, GpuError> {
         let total: u64 = wanted.iter().map(|(_, size)| size).sum();
         if total == 0 {
             return Ok(wanted.iter().map(|_| Vec::new()).collect());
@@ -375,7 +383,8 @@ impl Resident {
         let mut parts = Vec::new();
         for (_, size) in wanted {
             let (part, after) = rest.split_at(*size as usize);
-            parts.push(part.to_vec());
+            // The bytes of a part lie anywhere; its words must not.
+            parts.push(bytemuck::pod_collect_to_vec(part));
             rest = after;
         }
         Ok(parts)

@@ -67,21 +67,21 @@ impl Plain<'_> {
     }
 
     /// Takes over rows, and pads them.
-    fn take(self, bytes: &[u8], rows: usize, to: usize) {
+    fn take(self, words: &[u32], rows: usize, to: usize) {
         match self {
             Self::Rows(data, padding) => {
                 data.resize(rows, padding);
-                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(bytes);
+                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
                 data.resize(to, padding);
             }
             Self::Values(data) => {
                 data.resize(rows, 0.0);
-                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(bytes);
+                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
                 data.resize(to, 0.0);
             }
             Self::Words(data, padding) => {
                 data.resize(rows, padding);
-                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(bytes);
+                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
                 data.resize(to, padding);
             }
         }
@@ -122,6 +122,9 @@ pub fn is_internal(column: Column) -> bool {
     )
 }
 
+/// What weights of the coupling are functions of.
+const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
+
 impl Resident {
     /// Sends columns to the device; those that it does not hold ([`is_internal`]) are left out. `sorted` says that the
     /// particles are in the order of this step already, for kernels that come after `grid::sort_fluid`.
@@ -130,7 +133,10 @@ impl Resident {
     /// Lists that are longer than those of the device do not fit its memory, or the device was lost.
     pub fn upload(&mut self, columns: &mut Columns, which: &[Column], sorted: bool) -> Result<(), GpuError> {
         self.sorted = sorted;
-        for column in which {
+        // Weights are computed where they are needed, from the points on both sides.
+        let weighs = |column: &Column| matches!(column, Column::FluidControlWeights | Column::ControlFluidWeights);
+        let points = if which.iter().any(weighs) { POINTS } else { &[] };
+        for column in which.iter().chain(points) {
             if let Some((name, data)) = plain(columns, *column, sorted) {
                 let rows = columns_rows(self, *column);
                 self.write(name, data.bytes(rows));
@@ -224,8 +230,8 @@ impl Resident {
         }
         let names: Vec<_> = wanted.iter().map(|(_, name, size)| (*name, *size as u64)).collect();
         let data = self.read(&names)?;
-        for ((column, _, _), bytes) in wanted.iter().zip(&data) {
-            self.take(columns, *column, bytes);
+        for ((column, _, _), words) in wanted.iter().zip(&data) {
+            self.take(columns, *column, words);
         }
         Ok(())
     }
@@ -239,23 +245,22 @@ impl Resident {
         }
     }
 
-    fn take(&self, columns: &mut Columns, column: Column, bytes: &[u8]) {
+    fn take(&self, columns: &mut Columns, column: Column, words: &[u32]) {
         if let Some((_, data)) = plain(columns, column, self.sorted) {
             let rows = columns_rows(self, column);
             // The one column that the CPU does not pad.
             let to = if column == Column::ControlNode { rows } else { padded(rows) };
-            data.take(bytes, rows, to);
+            data.take(words, rows, to);
         } else if let Some((_, which)) = list_of(column) {
-            let words: &[u32] = bytemuck::cast_slice(bytes);
             let (lists, rows, targets) = lists(columns, which);
             let entries = |row: usize| (1..=words[row] as usize).map(|k| words[k * rows + row]).collect();
             let mut all: Vec<Vec<u32>> = (0..rows).map(entries).collect();
             all.resize_with(padded(rows), Vec::new);
             *lists = Neighbors::from_lists(&all, targets as u32);
         } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
-            take_extremes(columns, column, bytemuck::cast_slice(bytes));
+            take_extremes(columns, column, words);
         } else {
-            let words: &[f32] = bytemuck::cast_slice(bytes);
+            let words: &[f32] = bytemuck::cast_slice(words);
             let wrenches = words.chunks_exact(8).map(|words| Wrench {
                 impulse: vector(&words[..3]),
                 angular_impulse: vector(&words[4..7]),

@@ -35,6 +35,18 @@ pub(super) fn errors(
     found: &Columns,
     oracle: &Columns,
 ) -> Vec<(Column, f64)> {
+    errors_of(kernel, kernel.writes, params, before, found, oracle)
+}
+
+/// [`errors`] of some of the columns that the kernel wrote.
+pub(super) fn errors_of(
+    kernel: &Kernel,
+    columns: &[Column],
+    params: &Params,
+    before: &Columns,
+    found: &Columns,
+    oracle: &Columns,
+) -> Vec<(Column, f64)> {
     let error = |column: &Column| {
         let base = match column {
             Column::NodePredicted => Some(Column::NodePosition),
@@ -47,7 +59,7 @@ pub(super) fn errors(
             [(found, false), (oracle, true)].map(|(columns, brute)| content(*column, params, columns, brute));
         (*column, distance(base, found, oracle))
     };
-    kernel.writes.iter().map(error).collect()
+    columns.iter().map(error).collect()
 }
 
 fn distance(base: Option<Content>, found: Content, oracle: Content) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::{
     super::{
-        compare::errors,
+        compare::errors_of,
         scene::{FULL, Options, Scene, best},
     },
     after_on, gpu,
@@ -96,8 +96,8 @@ fn list_error(column: Column, before: &Scene, found: &Columns, expected: &Column
 
 /// Errors of everything that a kernel writes and a device holds.
 fn gpu_errors(kernel: &Kernel, before: &Scene, found: &Columns, expected: &Columns) -> Vec<(Column, f64)> {
-    let mut all = errors(kernel, &before.params, &before.columns, found, expected);
-    all.retain(|(column, _)| !is_internal(*column));
+    let held: Vec<_> = kernel.writes.iter().copied().filter(|column| !is_internal(*column)).collect();
+    let mut all = errors_of(kernel, &held, &before.params, &before.columns, found, expected);
     for (column, error) in &mut all {
         if let Some(list) = list_error(*column, before, found, expected) {
             *error = list;

@@ -1,0 +1,190 @@
+//! The columns of one world on a device.
+
+use std::sync::{Arc, OnceLock};
+
+use sorb_kernels::{
+    columns::{Column, Columns, Life},
+    cpu::Cpu,
+    gpu::{Answer, Gpu, GpuError, Profile, Program, Resident, Start, StepLimits, is_internal},
+    kernel::Kernel,
+    params::Params,
+};
+
+use crate::schedule::{Plan, Shares};
+
+/// Scratch columns that measures and pictures look at.
+const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
+
+/// What runs the kernels of a world on a device.
+#[derive(Debug)]
+pub(crate) struct Device {
+    gpu: Arc<Gpu>,
+    limits: StepLimits,
+    shares: Shares,
+    /// What is read back when the host looks.
+    looked_at: Vec<Column>,
+    wants_times: bool,
+    resident: Option<On>,
+    /// Whether the device is ahead of the host.
+    is_ahead: bool,
+    /// The present state, once the host has looked at it.
+    mirror: OnceLock<Columns>,
+}
+
+/// Columns on the device, with the kernels bound to them.
+#[derive(Debug)]
+struct On {
+    resident: Resident,
+    program: Program,
+    profile: Option<Profile>,
+}
+
+impl Device {
+    pub(crate) fn new(
+        gpu: Arc<Gpu>,
+        plan: &Plan,
+        limits: StepLimits,
+        observed: &[Column],
+        wants_times: bool,
+    ) -> Self {
+        let shares = plan.shares();
+        let written: Vec<Column> = shares.gpu.iter().flat_map(|kernel| kernel.writes).copied().collect();
+        let wanted = |column: &Column| {
+            let is_state = column.life() == Life::State;
+            (is_state || LOOKED_AT.contains(column) || observed.contains(column))
+                && written.contains(column)
+                && !is_internal(*column)
+        };
+        let looked_at = Column::ALL.iter().copied().filter(wanted).collect();
+        Self {
+            gpu,
+            limits,
+            shares,
+            looked_at,
+            wants_times,
+            resident: None,
+            is_ahead: false,
+            mirror: OnceLock::new(),
+        }
+    }
+
+    /// The same without the columns.
+    pub(crate) fn another(&self) -> Self {
+        Self {
+            gpu: Arc::clone(&self.gpu),
+            limits: self.limits,
+            shares: self.shares.clone(),
+            looked_at: self.looked_at.clone(),
+            wants_times: self.wants_times,
+            resident: None,
+            is_ahead: false,
+            mirror: OnceLock::new(),
+        }
+    }
+
+    /// The device.
+    pub(crate) fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// The columns on the device, if there are any yet.
+    pub(crate) fn resident(&self) -> Option<&Resident> {
+        self.resident.as_ref().map(|on| &on.resident)
+    }
+
+    /// Whether all kernels of the step run here, so that the device can take many steps on its own.
+    pub(crate) fn has_all(&self) -> bool {
+        self.shares.cpu.is_empty()
+    }
+
+    /// The present state: read back when it is first looked at. If that fails the device is lost, which the next step
+    /// says; until then this is the state that was read back before.
+    pub(crate) fn view<'a>(&'a self, host: &'a Columns) -> &'a Columns {
+        let Some(on) = self.resident.as_ref().filter(|_| self.is_ahead) else { return host };
+        if let Some(mirror) = self.mirror.get() {
+            return mirror;
+        }
+        let mut columns = host.clone();
+        match on.resident.download(&mut columns, &self.looked_at) {
+            Ok(()) => self.mirror.get_or_init(|| columns),
+            Err(_) => host,
+        }
+    }
+
+    /// What the host has read back becomes its state: the newest that it has if the device is lost.
+    fn leave(&mut self, host: &mut Columns) {
+        if let Some(mut mirror) = self.mirror.take() {
+            std::mem::swap(&mut mirror.bodies, &mut host.bodies);
+            *host = mirror;
+        }
+        self.is_ahead = true;
+    }
+
+    /// Uploads a state, if the device has none yet.
+    fn ready(&mut self, host: &mut Columns, params: &Params) -> Result<(), GpuError> {
+        if self.resident.is_some() {
+            return Ok(());
+        }
+        let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
+        let lives = |column: &Column| column.life() != Life::Scratch && !is_internal(*column);
+        let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
+        resident.upload(host, &columns, false)?;
+        let program = resident.program(&self.shares.gpu)?;
+        let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
+        self.resident = Some(On { resident, program, profile });
+        Ok(())
+    }
+
+    /// Sets the time that the next steps are to fill.
+    pub(crate) fn begin(
+        &mut self,
+        host: &mut Columns,
+        params: &Params,
+        start: &Start,
+    ) -> Result<(), GpuError> {
+        self.ready(host, params)?;
+        if let Some(on) = &mut self.resident {
+            on.resident.set_time(start);
+        }
+        Ok(())
+    }
+
+    /// Takes steps that the device chooses.
+    pub(crate) fn advance(&mut self, host: &mut Columns, steps: u32) -> Result<Answer, GpuError> {
+        self.leave(host);
+        let Some(On { resident, program, profile }) = &mut self.resident else {
+            return Err(GpuError::Refused { reason: "no state was uploaded".to_owned() });
+        };
+        resident.upload_bodies(&host.bodies.states.0);
+        let steps = if profile.is_some() { steps.min(Profile::steps(program.passes())) } else { steps };
+        resident.advance(program, steps, profile.as_mut())
+    }
+
+    /// One step of given length, of which the CPU does its share first. Everything travels both ways.
+    pub(crate) fn step_with(
+        &mut self,
+        cpu: &Cpu,
+        host: &mut Columns,
+        params: &Params,
+    ) -> Result<(), GpuError> {
+        self.ready(host, params)?;
+        for kernel in &self.shares.cpu {
+            cpu.enter(|| (kernel.cpu)(cpu, params, host));
+        }
+        let Some(On { resident, program, .. }) = &mut self.resident else { return Ok(()) };
+        resident.upload(host, &self.shares.sent, self.shares.sort_is_done)?;
+        resident.run_kernels(program, params.step)?;
+        resident.download(host, &self.shares.fetched)
+    }
+
+    /// Milliseconds of every call of a kernel since the last time this was asked.
+    pub(crate) fn times(&mut self) -> Vec<(&'static str, f32)> {
+        let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
+        profile.map(Profile::take).unwrap_or_default()
+    }
+
+    /// Kernels of the device, as often as a step runs them.
+    pub(crate) fn kernels(&self) -> &[&'static Kernel] {
+        &self.shares.gpu
+    }
+}

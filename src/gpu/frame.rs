@@ -1,0 +1,149 @@
+//! Steps and frames of a world that lives on a device.
+
+use std::time::Instant;
+
+use sorb_kernels::{
+    body::Wrench,
+    gpu::{Answer, Outcome, Start},
+};
+
+use crate::{
+    clock::Bound,
+    world::{FrameReport, StepError, StepReport, World, move_bodies},
+};
+
+/// Most steps of a submission: the host must be able to stop.
+const BATCH: u32 = 256;
+
+impl World {
+    /// One step, as long as stability allows.
+    pub(crate) fn step_on_device(&mut self) -> Result<StepReport, StepError> {
+        self.begin_on_device(f32::MAX)?;
+        let before = self.clock.steps;
+        let answer = self.advance_on_device(1)?;
+        let time = f64::from(answer.last_step);
+        if answer.steps == 1 {
+            self.clock.time += time;
+            self.clock.steps = before + 1;
+        }
+        self.take_over(&answer, answer.steps)?;
+        Ok(StepReport {
+            step: answer.last_step,
+            bound: Bound::from_index(answer.last_bound),
+            time: self.clock.time,
+            maximum_speed: answer.maximum_speed,
+        })
+    }
+
+    /// As many steps as fill a frame: all of them in one or two submissions, if there are no bodies to move in between.
+    pub(crate) fn frame_on_device(&mut self) -> Result<FrameReport, StepError> {
+        let (start, first) = (self.clock.time, self.clock.steps);
+        let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
+        let whole = end - start;
+        let mut report = FrameReport {
+            time: start,
+            steps: 0,
+            shortest_step: f32::INFINITY,
+            bound: Bound::Frame,
+            maximum_speed: 0.0,
+        };
+        if whole > 1e-9 {
+            self.begin_on_device(whole as f32)?;
+        }
+        while end - self.clock.time > 1e-9 {
+            let answer = self.advance_on_device(self.steps_to(end))?;
+            let taken = answer.steps - (self.clock.steps - first) as u32;
+            self.clock.steps = first + u64::from(answer.steps);
+            // The end is reached exactly: the last step is what is left.
+            let is_over = answer.left <= 1e-9;
+            self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
+            self.take_over(&answer, taken)?;
+            report.steps = answer.steps;
+            report.shortest_step = answer.shortest;
+            report.maximum_speed = answer.maximum_speed;
+            let most = (0..answer.bounds.len() as u32).rev().max_by_key(|bound| answer.bounds[*bound as usize]);
+            report.bound = Bound::from_index(most.unwrap_or(answer.last_bound));
+        }
+        self.clock.frames += 1;
+        report.time = self.clock.time;
+        Ok(report)
+    }
+
+    /// Steps that are likely to be left of a frame.
+    fn steps_to(&self, end: f64) -> u32 {
+        if !self.stores.host.bodies.states.0.is_empty() {
+            return 1;
+        }
+        let step = f64::from(self.steps.stable(&self.params, &self.clock).0);
+        // The last whole step becomes two halves.
+        (((end - self.clock.time) / step).ceil() as u32).saturating_add(1).min(BATCH)
+    }
+
+    fn begin_on_device(&mut self, left: f32) -> Result<(), StepError> {
+        let start = Start {
+            left,
+            fluid_speed: self.clock.fluid_speed,
+            fluid_acceleration: self.clock.fluid_acceleration,
+            node_speed: self.clock.node_speed,
+        };
+        let crate::stores::Stores { host, device } = &mut self.stores;
+        match device {
+            Some(device) => Ok(device.begin(host, &self.params, &start)?),
+            None => Ok(()),
+        }
+    }
+
+    fn advance_on_device(&mut self, steps: u32) -> Result<Answer, StepError> {
+        let clock = Instant::now();
+        let before = self.clock.steps;
+        let crate::stores::Stores { host, device } = &mut self.stores;
+        let Some(device) = device else {
+            return Err(StepError::Rigid("the world has no device".to_owned()));
+        };
+        let answer = device.advance(host, steps)?;
+        let seconds = clock.elapsed().as_secs_f64();
+        let _ = before;
+        self.runner.record(seconds, answer.steps.max(1).min(steps), &device.times());
+        Ok(answer)
+    }
+
+    /// Takes over what the device found, moves the bodies, and refuses what is not finite.
+    fn take_over(&mut self, answer: &Answer, taken: u32) -> Result<(), StepError> {
+        let (step, time) = (self.clock.steps, self.clock.time);
+        self.clock.fluid_speed = answer.fluid_speed;
+        self.clock.fluid_acceleration = answer.fluid_acceleration;
+        self.clock.node_speed = answer.node_speed;
+        if taken > 0 {
+            self.params.step = answer.last_step;
+            let wrenches: Vec<Wrench> = answer
+                .wrenches
+                .iter()
+                .map(|(fluid, nodes)| Wrench {
+                    impulse: fluid.impulse + nodes.impulse,
+                    angular_impulse: fluid.angular_impulse + nodes.angular_impulse,
+                })
+                .collect();
+            if !wrenches.is_empty() {
+                let bodies = &mut self.stores.host.bodies;
+                move_bodies(self.engine.as_mut(), bodies, &wrenches, answer.last_step)
+                    .map_err(|error| StepError::Rigid(error.to_string()))?;
+            }
+        }
+        match answer.outcome {
+            Outcome::Particle(row) => {
+                let id = self.particle_ids().get(row as usize).copied().unwrap_or(row);
+                Err(StepError::Particle { id, step, time })
+            }
+            Outcome::Node(node) => Err(StepError::Node { node, step, time }),
+            // A step that was taken is a success; the next one says why it is not.
+            Outcome::TooSmall(needed, bound) if taken == 0 => Err(StepError::TooSmall {
+                bound: Bound::from_index(bound),
+                needed,
+                minimum: self.steps.minimum(),
+                step,
+                time,
+            }),
+            Outcome::TooSmall(..) | Outcome::Done => Ok(()),
+        }
+    }
+}
