@@ -16,7 +16,11 @@ pub(crate) struct Arguments {
 }
 
 /// The features of the library that the command is built with.
-const FEATURES: [&str; 4] = ["threads", "rigid", "serde", "render"];
+const FEATURES: &[&str] = if cfg!(feature = "gpu") {
+    &["threads", "rigid", "serde", "render", "gpu"]
+} else {
+    &["threads", "rigid", "serde", "render"]
+};
 
 /// Prints what there is.
 ///
@@ -37,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
             "threads": cores,
             "simd": { "auto": best, "supported": names(true), "missing": names(false) },
             "features": FEATURES,
-            "gpu": null,
+            "gpu": gpu_json(),
         });
         format!("{}\n", serde_json::to_string_pretty(&report)?)
     } else {
@@ -46,11 +50,60 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
              threads   {cores} by default (--threads 1 to 1024)\n\
              SIMD      {best} by default; supported: {}; missing: {}\n\
              features  {}\n\
-             GPU       not built in\n",
+             GPU       {}\n",
             names(true).join(", "),
             names(false).join(", "),
-            FEATURES.join(", ")
+            FEATURES.join(", "),
+            gpu_text()
         )
     };
     output::print(&text)
+}
+
+/// The adapters, best first.
+#[cfg(feature = "gpu")]
+fn gpu_json() -> serde_json::Value {
+    let adapters = sorb::gpu::Gpu::adapters();
+    let adapter = |adapter: &sorb::gpu::AdapterReport| {
+        json!({
+            "name": adapter.name,
+            "driver": adapter.driver,
+            "interface": adapter.backend,
+            "kind": adapter.kind,
+            "largest_binding_bytes": adapter.largest_binding,
+            "times_kernels": adapter.timestamps,
+            "auto": !adapter.is_software(),
+        })
+    };
+    adapters.iter().map(adapter).collect()
+}
+
+#[cfg(not(feature = "gpu"))]
+fn gpu_json() -> serde_json::Value {
+    serde_json::Value::Null
+}
+
+#[cfg(feature = "gpu")]
+fn gpu_text() -> String {
+    let adapters = sorb::gpu::Gpu::adapters();
+    if adapters.is_empty() {
+        return "no adapter (on Linux, is a Vulkan driver and libvulkan1 installed?)".to_owned();
+    }
+    let line = |adapter: &sorb::gpu::AdapterReport| {
+        let auto = if adapter.is_software() {
+            "; `auto` does not take it: it is a program on the CPU"
+        } else {
+            ""
+        };
+        let sorb::gpu::AdapterReport { name, driver, backend, kind, largest_binding, timestamps, .. } = adapter;
+        let times = if *timestamps { "times kernels" } else { "does not time kernels" };
+        let mebibytes = largest_binding >> 20;
+        format!("{name}, {kind}, {backend}, {driver}; buffers up to {mebibytes} MiB, {times}{auto}")
+    };
+    adapters.iter().map(line).collect::<Vec<_>>().join("\n          ")
+}
+
+#[cfg(not(feature = "gpu"))]
+fn gpu_text() -> String {
+    "not built in (feature `gpu`)".to_owned()
 }

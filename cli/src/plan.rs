@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 use sorb::{
-    Options, World,
+    Offload, Options, World,
     columns::Column,
-    schedule::{PlanLine, Verdict},
+    schedule::{Place, Plan, PlanLine, Verdict},
 };
 
 use crate::{choice::Choice, error::CliError, output};
@@ -14,6 +14,9 @@ use crate::{choice::Choice, error::CliError, output};
 pub(crate) struct Arguments {
     #[command(flatten)]
     choice: Choice,
+    /// Where to run: cpu, gpu, auto or from:KERNEL
+    #[arg(long, value_name = "BACKEND", default_value = "cpu")]
+    backend: Offload,
     /// Prints a JSON object instead of text
     #[arg(long)]
     json: bool,
@@ -25,17 +28,29 @@ pub(crate) struct Arguments {
 /// The scene cannot be read or built, or standard output cannot be written.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let scene = arguments.choice.load()?;
-    let options = Options { threads: Some(1), ..Options::default() };
+    let options = Options { threads: Some(1), offload: arguments.backend, ..Options::default() };
     let world = World::with_options(&scene, &options)?;
     if !arguments.json {
         return output::print(&world.plan().to_string());
     }
-    let phases: Vec<Value> = world.plan().lines().iter().map(line).collect();
-    let plan = json!({ "scene": scene.name, "phases": phases });
+    let plan = world.plan();
+    let phases: Vec<Value> = plan.lines().iter().map(|entry| line(plan, entry)).collect();
+    let reason = plan.placement().map(|placement| placement.reason.as_str());
+    let transfers: Vec<Value> = plan.placement().map_or(&[][..], |placement| &placement.transfers).iter()
+        .map(|transfer| {
+            json!({
+                "before": transfer.before,
+                "to_device": transfer.to_device,
+                "what": transfer.what,
+                "bytes": transfer.bytes,
+            })
+        })
+        .collect();
+    let plan = json!({ "scene": scene.name, "reason": reason, "transfers": transfers, "phases": phases });
     output::print(&format!("{}\n", serde_json::to_string_pretty(&plan)?))
 }
 
-fn line(line: &PlanLine) -> Value {
+fn line(plan: &Plan, line: &PlanLine) -> Value {
     let names = |columns: &[Column]| columns.iter().map(|column| column.name()).collect::<Vec<_>>();
     let why = match line.verdict {
         Verdict::Runs => None,
@@ -43,6 +58,10 @@ fn line(line: &PlanLine) -> Value {
     };
     json!({
         "name": line.name,
+        "backend": match plan.place(line.name) {
+            Place::Cpu => "cpu",
+            Place::Gpu => "gpu",
+        },
         "times": line.repeat.map_or(1, |(_, times)| times),
         "reads": names(line.reads()),
         "writes": names(line.writes()),

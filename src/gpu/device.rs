@@ -6,7 +6,6 @@ use sorb_kernels::{
     columns::{Column, Columns, Life},
     cpu::Cpu,
     gpu::{Answer, Gpu, GpuError, Profile, Program, Resident, Start, StepLimits, is_internal},
-    kernel::Kernel,
     params::Params,
 };
 
@@ -181,10 +180,5 @@ impl Device {
     pub(crate) fn times(&mut self) -> Vec<(&'static str, f32)> {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
-    }
-
-    /// Kernels of the device, as often as a step runs them.
-    pub(crate) fn kernels(&self) -> &[&'static Kernel] {
-        &self.shares.gpu
     }
 }

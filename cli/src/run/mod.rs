@@ -39,7 +39,14 @@ struct Record {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let scene = arguments.choice.load()?;
     let frames = arguments.frames(&scene);
-    let options = Options { threads: arguments.threads, simd: arguments.simd.0, ..Options::default() };
+    let options = Options {
+        threads: arguments.threads,
+        simd: arguments.simd.0,
+        offload: arguments.backend,
+        #[cfg(feature = "gpu")]
+        gpu_times: arguments.gpu_times,
+        ..Options::default()
+    };
     let mut world = World::with_options(&scene, &options)?;
     let folder = Folder::create(&arguments.folder(&scene))?;
     let mut table = Table::create(&folder.table())?;

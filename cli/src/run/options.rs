@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use sorb::{
-    SimdLevel,
+    Offload, SimdLevel,
     render::Style,
     scene::{Scene, Time},
 };
@@ -27,6 +27,13 @@ pub(crate) struct Arguments {
     /// SIMD level: auto, fallback, sse2, sse4.2, avx2, avx512 or neon; results do not depend on it
     #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = simd, hide_possible_values = true)]
     pub(super) simd: Simd,
+    /// Where to run: cpu, gpu, auto (a GPU if it is worth it), or from:KERNEL (that kernel and all after it on the GPU)
+    #[arg(long, value_name = "BACKEND", default_value = "cpu")]
+    pub(super) backend: Offload,
+    /// Takes the time of every kernel on the GPU, which makes its steps a little longer
+    #[cfg(feature = "gpu")]
+    #[arg(long)]
+    pub(super) gpu_times: bool,
     /// Folder for the results, by default out/SCENE; an earlier run in it is replaced
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,

@@ -12,6 +12,8 @@ use super::{Record, table::Named};
 pub(super) struct Summary {
     scene: String,
     backend: &'static str,
+    /// What was asked for, and the adapter or why there is none; nothing for a plain run on the CPU.
+    backend_reason: Option<String>,
     threads: usize,
     simd: &'static str,
     /// What the scene was refined by.
@@ -47,10 +49,12 @@ impl Summary {
     pub(super) fn new(world: &World, record: &Record, resolution: f32, failure: Option<&StepError>) -> Self {
         let (clock, wall_s) = (world.clock(), record.wall.as_secs_f64());
         let particles = world.particle_positions().len();
+        let placement = world.plan().placement();
         let particle_steps = particles as f64 * clock.steps as f64;
         Self {
             scene: world.scene().name.clone(),
-            backend: "cpu",
+            backend: if placement.is_some_and(|placement| placement.first.is_some()) { "gpu" } else { "cpu" },
+            backend_reason: placement.map(|placement| format!("{}: {}", placement.offload, placement.reason)),
             threads: world.cpu().threads(),
             simd: world.cpu().simd().name(),
             resolution,

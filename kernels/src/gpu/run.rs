@@ -15,6 +15,9 @@ use super::{
 };
 use crate::{body::Wrench, kernel::Kernel, pbd::lattice::COLORS};
 
+/// Steps of one submission.
+const STEPS_AT_ONCE: u32 = 16;
+
 /// What happened to the last step of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
@@ -241,7 +244,7 @@ impl Resident {
         Ok(())
     }
 
-    /// Takes up to `steps` steps of the time that was set; fewer if that is filled, or something went wrong.
+    /// Takes up to `steps` steps (1 or more) of the time that was set; fewer if that is filled, or something went wrong.
     ///
     /// # Errors
     /// The device was lost, or lists that have to be longer do not fit its memory: no state of a half-finished step is
@@ -254,11 +257,7 @@ impl Resident {
     ) -> Result<Answer, GpuError> {
         let mut to_do = steps;
         loop {
-            let mut parts: Vec<&[Dispatch]> = vec![&program.begin];
-            for _ in 0..to_do {
-                parts.extend([&program.step[..], &program.finish[..]]);
-            }
-            self.submit(&parts, profile.as_deref_mut())?;
+            self.submit_steps(program, to_do, profile.as_deref_mut())?;
             let answer = self.answer()?;
             to_do -= to_do.min(answer.steps - self.steps);
             self.steps = answer.steps;
@@ -267,6 +266,25 @@ impl Resident {
             };
             self.grow(longest, program)?;
         }
+    }
+
+    /// Submits steps, a few at a time: the device works on some while the host encodes the next.
+    fn submit_steps(
+        &self,
+        program: &Program,
+        steps: u32,
+        mut profile: Option<&mut Profile>,
+    ) -> Result<(), GpuError> {
+        let at_once = if profile.is_some() { steps } else { STEPS_AT_ONCE };
+        let mut parts: Vec<&[Dispatch]> = vec![&program.begin];
+        for step in 1..=steps {
+            parts.extend([&program.step[..], &program.finish[..]]);
+            if step % at_once == 0 || step == steps {
+                self.submit(&parts, profile.as_deref_mut())?;
+                parts.clear();
+            }
+        }
+        Ok(())
     }
 
     fn grow(&mut self, longest: Capacities, program: &mut Program) -> Result<(), GpuError> {

@@ -35,13 +35,15 @@ pub(super) fn errors(
     found: &Columns,
     oracle: &Columns,
 ) -> Vec<(Column, f64)> {
-    errors_of(kernel, kernel.writes, params, before, found, oracle)
+    errors_of(kernel, kernel.writes, 0.0, params, before, found, oracle)
 }
 
-/// [`errors`] of some of the columns that the kernel wrote.
+/// [`errors`] of some of the columns that the kernel wrote; rounding of the values themselves by up to `ulps` units in
+/// the last place of the largest one is no error.
 pub(super) fn errors_of(
     kernel: &Kernel,
     columns: &[Column],
+    ulps: f64,
     params: &Params,
     before: &Columns,
     found: &Columns,
@@ -57,12 +59,12 @@ pub(super) fn errors_of(
         let base = base.map(|column| content(column, params, before, true));
         let [found, oracle] =
             [(found, false), (oracle, true)].map(|(columns, brute)| content(*column, params, columns, brute));
-        (*column, distance(base, found, oracle))
+        (*column, distance(base, found, oracle, ulps))
     };
     columns.iter().map(error).collect()
 }
 
-fn distance(base: Option<Content>, found: Content, oracle: Content) -> f64 {
+fn distance(base: Option<Content>, found: Content, oracle: Content, ulps: f64) -> f64 {
     match (found, oracle) {
         (Content::Numbers(found), Content::Numbers(oracle)) => {
             let base = match base {
@@ -70,7 +72,7 @@ fn distance(base: Option<Content>, found: Content, oracle: Content) -> f64 {
                 _ => oracle.iter().map(|group| vec![0.0; group.len()]).collect(),
             };
             let groups = found.iter().zip(&oracle).zip(&base);
-            groups.map(|((found, oracle), base)| group_distance(base, found, oracle)).fold(0.0, f64::max)
+            groups.map(|((found, oracle), base)| group_distance(base, found, oracle, ulps)).fold(0.0, f64::max)
         }
         (found, oracle) => {
             if found == oracle {
@@ -82,12 +84,14 @@ fn distance(base: Option<Content>, found: Content, oracle: Content) -> f64 {
     }
 }
 
-fn group_distance(base: &[f64], found: &[f64], oracle: &[f64]) -> f64 {
+fn group_distance(base: &[f64], found: &[f64], oracle: &[f64], ulps: f64) -> f64 {
     if found.len() != oracle.len() || !found.iter().all(|value| value.is_finite()) {
         return f64::INFINITY;
     }
     let scale = oracle.iter().zip(base).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let error = oracle.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let largest = oracle.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    let error = (error - ulps * 0.5 * f64::from(f32::EPSILON) * largest).max(0.0);
     if error > 0.0 { error / scale } else { 0.0 }
 }
 

@@ -28,25 +28,26 @@ const LIMITS: StepLimits =
 
 /// The columns after one kernel on a device.
 fn after_on(gpu: &Arc<Gpu>, kernel: &'static Kernel, before: &Scene) -> Columns {
+    after_on_all(gpu, &[kernel], before)
+}
+
+/// The columns after kernels on a device.
+fn after_on_all(gpu: &Arc<Gpu>, kernels: &[&'static Kernel], before: &Scene) -> Columns {
+    let mut kernels = kernels.to_vec();
+    // The search of the device goes through its own cells.
+    if ["grid::fluid_neighbors", "couple::controls"].contains(&kernels[0].name) {
+        kernels.insert(0, kernel("grid::sort_fluid").expect("a name of the table"));
+    }
+    let sorted = kernels[0].name != "grid::sort_fluid";
     let mut columns = before.columns.clone();
     let mut resident =
         Resident::new(gpu, &columns, &before.params, LIMITS).unwrap_or_else(|error| panic!("{error}"));
-    let sorted = kernel.name != "grid::sort_fluid";
-    // The search of the device goes through its own cells.
-    let search = ["grid::fluid_neighbors", "couple::controls"].contains(&kernel.name);
-    let mut names = vec![kernel.name];
-    if search {
-        names.insert(0, "grid::sort_fluid");
-    }
-    let kernels: Vec<_> = names.iter().map(|name| self::kernel(name).expect("a name of the table")).collect();
-    let mut given: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
-    // Rows that a kernel leaves alone stay what they are.
-    given.extend(kernel.writes.iter().copied().filter(|column| !matches!(column, Column::FluidNeighbors)));
-    resident.upload(&mut columns, &given, sorted && !search).unwrap_or_else(|error| panic!("{error}"));
+    let reads: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+    let mut writes: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.writes).copied().collect();
+    writes.retain(|column| !is_internal(*column));
+    resident.upload(&mut columns, &reads, sorted).unwrap_or_else(|error| panic!("{error}"));
     let mut program = resident.program(&kernels).unwrap_or_else(|error| panic!("{error}"));
     resident.run_kernels(&mut program, before.params.step).unwrap_or_else(|error| panic!("{error}"));
-    let mut wanted: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.writes).copied().collect();
-    wanted.retain(|column| !is_internal(*column));
-    resident.download(&mut columns, &wanted).unwrap_or_else(|error| panic!("{error}"));
+    resident.download(&mut columns, &writes).unwrap_or_else(|error| panic!("{error}"));
     columns
 }
