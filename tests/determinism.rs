@@ -12,7 +12,7 @@ const RESOLUTION: f32 = 0.6;
 const STEPS: u32 = 40;
 
 fn with(scene: &Scene, threads: usize, simd: SimdLevel) -> World {
-    let options = Options { threads: Some(threads), simd: Some(simd), observed: Vec::new() };
+    let options = Options { threads: Some(threads), simd: Some(simd), ..Options::default() };
     World::with_options(scene, &options).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
 }
 
