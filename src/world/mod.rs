@@ -1,12 +1,15 @@
 //! The world: the one object that a host builds, steps and looks at.
 
+mod error;
+mod views;
+
 use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
-    body::{Body, Wrench},
+    body::Wrench,
     columns::{Column, Columns},
     couple,
-    cpu::{Cpu, CpuError},
+    cpu::Cpu,
     grid,
     params::Params,
     sph,
@@ -14,96 +17,14 @@ use sorb_kernels::{
 
 use crate::{
     clock::{Bound, Clock, Steps, within},
-    digest,
-    measure::Measures,
     rigid::{RigidEngine, RigidError},
-    scene::{Scene, SceneError},
-    schedule::{Content, PhaseTime, Plan, PlanError, PlanLine, Runner, STEP, Verdict},
+    scene::Scene,
+    schedule::{Content, Plan, PlanLine, Runner, STEP, Verdict},
     setup::Setup,
-    sponge::{Lattice, LatticeError},
+    sponge::Lattice,
 };
 
-/// Why a world could not be built.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum WorldError {
-    /// The scene has values out of range, or that do not fit together.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The lattice of a sponge cannot be made.
-    #[error(transparent)]
-    Lattice(#[from] LatticeError),
-    /// The corners of a hull do not span a volume.
-    #[cfg(feature = "rigid")]
-    #[error("body `{body}`: {source}")]
-    Hull {
-        /// Name of the body.
-        body: String,
-        /// What is wrong.
-        source: crate::rigid::HullError,
-    },
-    /// A body needs rapier3d.
-    #[error("body `{body}`: convex hulls need the feature `rigid`")]
-    NeedsRigid {
-        /// Name of the body.
-        body: String,
-    },
-    /// A body has bad values.
-    #[error(transparent)]
-    Rigid(#[from] RigidError),
-    /// Threads or SIMD level.
-    #[error(transparent)]
-    Cpu(#[from] CpuError),
-    /// The step contradicts a kernel's declaration.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-}
-
-/// Why a step failed. The world keeps the state it had after the step and refuses to go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// A particle's position or velocity is not a finite number.
-    #[error("step {step} at {time:.6} s: particle {id} is no longer finite after `sph::advect`")]
-    Particle {
-        /// Identity of the particle.
-        id: u32,
-        /// Steps taken.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// A node's position is not a finite number.
-    #[error("step {step} at {time:.6} s: node {node} is no longer finite after `pbd::velocity`")]
-    Node {
-        /// Row of the node.
-        node: u32,
-        /// Steps taken.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// Stability asks for a step below `time.minimum_step`.
-    #[error(
-        "step {step} at {time:.6} s: `{}` asks for a step of {needed:e} s, below time.minimum_step = {minimum:e} s",
-        .bound.name()
-    )]
-    TooSmall {
-        /// What asks for it.
-        bound: Bound,
-        /// The step it asks for \[s\].
-        needed: f32,
-        /// `time.minimum_step` \[s\].
-        minimum: f32,
-        /// Steps taken.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// The engine of the bodies failed.
-    #[error("rigid bodies: {0}")]
-    Rigid(String),
-}
+pub use error::{StepError, WorldError};
 
 /// What to run on.
 #[derive(Clone, Debug, Default)]
@@ -325,121 +246,6 @@ impl World {
         self.clock.fluid_acceleration = fluid.acceleration_squared.sqrt();
         self.clock.node_speed = nodes.speed_squared.sqrt();
         Ok(())
-    }
-
-    /// The scene that the world was built from.
-    #[must_use]
-    pub fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    /// What runs in a step, and what is skipped and why.
-    #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
-    /// Time spent in every phase that runs.
-    #[must_use]
-    pub fn phase_times(&self) -> &[PhaseTime] {
-        self.runner.times()
-    }
-
-    /// Time spent in whole steps.
-    #[must_use]
-    pub fn step_time(&self) -> &PhaseTime {
-        self.runner.step_time()
-    }
-
-    /// Threads and SIMD level.
-    #[must_use]
-    pub fn cpu(&self) -> &Cpu {
-        &self.cpu
-    }
-
-    /// Simulated time, steps and frames.
-    #[must_use]
-    pub fn clock(&self) -> &Clock {
-        &self.clock
-    }
-
-    /// Parameters of the last step.
-    #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.params
-    }
-
-    /// All columns, read only. Rows of the fluid change their order from step to step.
-    #[must_use]
-    pub fn columns(&self) -> &Columns {
-        &self.columns
-    }
-
-    /// Positions of the particles \[m\], in the order of their cells; w: pressure over squared density.
-    #[must_use]
-    pub fn particle_positions(&self) -> &[[f32; 4]] {
-        &self.columns.fluid.position[..self.columns.rows.fluid]
-    }
-
-    /// Velocities of the particles \[m/s\]; w: volume \[m^3\].
-    #[must_use]
-    pub fn particle_velocities(&self) -> &[[f32; 4]] {
-        &self.columns.fluid.velocity[..self.columns.rows.fluid]
-    }
-
-    /// Identities of the particles: `ids[row]` is the same particle for ever.
-    #[must_use]
-    pub fn particle_ids(&self) -> &[u32] {
-        &self.columns.fluid.id[..self.columns.rows.fluid]
-    }
-
-    /// Positions of the sponge nodes \[m\], of all sponges; w: inverse mass \[1/kg\].
-    #[must_use]
-    pub fn node_positions(&self) -> &[[f32; 4]] {
-        &self.columns.nodes.position[..self.columns.rows.nodes]
-    }
-
-    /// Velocities of the sponge nodes \[m/s\].
-    #[must_use]
-    pub fn node_velocities(&self) -> &[[f32; 4]] {
-        &self.columns.nodes.velocity[..self.columns.rows.nodes]
-    }
-
-    /// Saturation of the sponge nodes \[1\], about 0 to 1; empty without fluid.
-    #[must_use]
-    pub fn node_saturations(&self) -> &[f32] {
-        let saturation = &self.columns.nodes.saturation;
-        &saturation[..saturation.len().min(self.columns.rows.nodes)]
-    }
-
-    /// The lattice: tets, outer surface, which node belongs to which sponge.
-    #[must_use]
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
-    }
-
-    /// Shapes and poses of the bodies, in the order of the scene.
-    #[must_use]
-    pub fn bodies(&self) -> &[Body] {
-        &self.columns.bodies.states.0
-    }
-
-    /// The engine that moves the bodies.
-    #[must_use]
-    pub fn rigid_engine(&self) -> &dyn RigidEngine {
-        &*self.engine
-    }
-
-    /// Masses, momenta, energies and errors of the present state.
-    #[must_use]
-    pub fn measures(&self) -> Measures {
-        Measures::of(self)
-    }
-
-    /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
-    #[must_use]
-    pub fn digest(&self) -> u64 {
-        digest::digest(&self.columns, &self.clock)
     }
 }
 
