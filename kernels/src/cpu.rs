@@ -57,12 +57,7 @@ impl Cpu {
     pub fn serial(level: SimdLevel) -> Result<Self, CpuError> {
         let token = level.token().ok_or_else(|| CpuError::UnsupportedLevel {
             level,
-            supported: SimdLevel::ALL
-                .into_iter()
-                .filter(|level| level.is_supported())
-                .map(SimdLevel::name)
-                .collect::<Vec<_>>()
-                .join(", "),
+            supported: SimdLevel::supported().map(SimdLevel::name).collect::<Vec<_>>().join(", "),
         })?;
         Ok(Self {
             level,

@@ -204,7 +204,7 @@ mod tests {
         for count in [0, 1, 7, 8, 9, 1500] {
             let points = random_points(count, 1.0, 11);
             for domain in [bounded, Domain::Unbounded] {
-                for level in SimdLevel::ALL.into_iter().filter(|level| level.is_supported()) {
+                for level in SimdLevel::supported() {
                     let cpu = Cpu::with_threads(level, 2).expect("supported");
                     let (sorted, lists) = build(&points, 0.21, domain, &cpu);
                     for query in 0..count {

@@ -46,6 +46,11 @@ impl SimdLevel {
             .unwrap_or(Self::Fallback)
     }
 
+    /// The levels of this machine, worst first.
+    pub fn supported() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|level| level.is_supported())
+    }
+
     /// Whether this machine has the level.
     #[must_use]
     pub fn is_supported(self) -> bool {
