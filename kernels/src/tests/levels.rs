@@ -20,6 +20,7 @@ fn difference(columns: &[Column], left: &Columns, right: &Columns) -> Option<Col
     columns.iter().copied().find(|column| words(left, *column) != words(right, *column))
 }
 
+#[expect(clippy::print_stdout, reason = "the log of a test says what it did not run")]
 fn machines() -> Vec<Cpu> {
     for missing in SimdLevel::ALL.into_iter().filter(|level| !level.is_supported()) {
         println!("SKIPPED: {missing}, which this machine lacks");
