@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::lanes::SimdLevel;
 
 /// Rows of a chunk.
-pub const CHUNK: usize = 256;
+pub const CHUNK: usize = 64;
 
 /// Why a CPU context could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -57,12 +57,7 @@ impl Cpu {
     pub fn serial(level: SimdLevel) -> Result<Self, CpuError> {
         let token = level.token().ok_or_else(|| CpuError::UnsupportedLevel {
             level,
-            supported: SimdLevel::ALL
-                .into_iter()
-                .filter(|level| level.is_supported())
-                .map(SimdLevel::name)
-                .collect::<Vec<_>>()
-                .join(", "),
+            supported: SimdLevel::supported().map(SimdLevel::name).collect::<Vec<_>>().join(", "),
         })?;
         Ok(Self {
             level,
@@ -152,24 +147,38 @@ impl Cpu {
     /// [`Self::for_chunks`] with chunks of `chunk` rows.
     pub(crate) fn for_chunks_of<R: Rows>(&self, chunk: usize, rows: R, body: impl Fn(usize, R) + Sync) {
         let chunks = rows.rows().div_ceil(chunk);
-        self.split_chunks(chunk, 0, chunks, self.threads, rows, &body);
+        self.split_chunks(chunk, 0, chunks, self.threads, rows, &|(): &mut (), first, rows| {
+            body(first, rows)
+        });
     }
 
-    fn split_chunks<R: Rows>(
+    /// [`Self::for_chunks`] with working memory that lasts from chunk to chunk of a thread. What a body finds in it
+    /// must not show in what the body writes.
+    pub(crate) fn for_chunks_with<M: Default, R: Rows>(
+        &self,
+        rows: R,
+        body: impl Fn(&mut M, usize, R) + Sync,
+    ) {
+        let chunks = rows.rows().div_ceil(CHUNK);
+        self.split_chunks(CHUNK, 0, chunks, self.threads, rows, &body);
+    }
+
+    fn split_chunks<M: Default, R: Rows>(
         &self,
         chunk: usize,
         first: usize,
         chunks: usize,
         parts: usize,
         rows: R,
-        body: &(impl Fn(usize, R) + Sync),
+        body: &(impl Fn(&mut M, usize, R) + Sync),
     ) {
         if parts <= 1 || chunks <= 1 {
+            let mut memory = M::default();
             let mut rest = rows;
             for index in 0..chunks {
                 let at = rest.rows().min(chunk);
                 let (head, tail) = rest.split(at);
-                body((first + index) * chunk, head);
+                body(&mut memory, (first + index) * chunk, head);
                 rest = tail;
             }
             return;

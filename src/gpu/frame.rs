@@ -95,14 +95,12 @@ impl World {
 
     fn advance_on_device(&mut self, steps: u32) -> Result<Answer, StepError> {
         let clock = Instant::now();
-        let before = self.clock.steps;
         let crate::stores::Stores { host, device } = &mut self.stores;
         let Some(device) = device else {
             return Err(StepError::Rigid("the world has no device".to_owned()));
         };
         let answer = device.advance(host, steps)?;
         let seconds = clock.elapsed().as_secs_f64();
-        let _ = before;
         self.runner.record(seconds, answer.steps.max(1).min(steps), &device.times());
         Ok(answer)
     }

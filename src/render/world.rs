@@ -38,15 +38,36 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
     draw(&picture, camera, width, height)
 }
 
-/// How wet each node is; before the first step, what the scene says.
+/// How wet each node looks; before the first step, what the scene says.
+///
+/// The outermost nodes do not suck, and the water stays one layer below them: a skin looks as wet as what lies under it.
 fn wetness(world: &World) -> Vec<f32> {
+    let lattice = world.lattice();
     let saturations = world.node_saturations();
     if saturations.is_empty() {
         let sponges = &world.scene().sponges;
-        let owners = &world.lattice().node_sponge;
-        return owners.iter().map(|&sponge| sponges[sponge as usize].saturation).collect();
+        return lattice.node_sponge.iter().map(|&sponge| sponges[sponge as usize].saturation).collect();
     }
-    saturations.iter().map(|saturation| saturation.clamp(0.0, 1.0)).collect()
+    let mut wetness: Vec<f32> = saturations.iter().map(|saturation| saturation.clamp(0.0, 1.0)).collect();
+    // Twice: an edge of the block has no node inside beside it, only nodes of the faces.
+    let mut known: Vec<bool> = lattice.node_surface.iter().map(|surface| !surface).collect();
+    for _ in 0..2 {
+        let mut sums = vec![(0.0, 0.0_f32); wetness.len()];
+        for tet in &lattice.tets {
+            let nodes = tet.map(|node| node as usize);
+            for node in nodes.into_iter().filter(|node| !known[*node]) {
+                for under in nodes.into_iter().filter(|under| known[*under]) {
+                    sums[node].0 += wetness[under];
+                    sums[node].1 += 1.0;
+                }
+            }
+        }
+        for (node, (sum, count)) in sums.into_iter().enumerate().filter(|(_, (_, count))| *count > 0.0) {
+            wetness[node] = wetness[node].max(sum / count);
+            known[node] = true;
+        }
+    }
+    wetness
 }
 
 impl From<scene::Camera> for Camera {
@@ -57,5 +78,27 @@ impl From<scene::Camera> for Camera {
             up: Vec3::Y,
             field_of_view: camera.field_of_view_degrees.to_radians(),
         }
+    }
+}
+
+#[cfg(all(test, feature = "serde"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_skin_of_a_soaked_sponge_looks_wet_up_to_its_edges() {
+        let world = |overrides: &[&str]| {
+            let scene = scene::preset("squish").and_then(|scene| scene.scaled(0.5));
+            let scene = scene.and_then(|scene| scene.with_overrides(overrides.iter().copied()));
+            World::new(&scene.unwrap_or_else(|error| panic!("{error}")))
+                .unwrap_or_else(|error| panic!("{error}"))
+        };
+        let lowest = |world: &World| wetness(world).into_iter().fold(1.0, f32::min);
+        let soaked = world(&[]);
+        let skin = soaked.node_saturations().iter().copied().fold(1.0, f32::min);
+        assert!(lowest(&soaked) > 0.8, "{}", lowest(&soaked));
+        assert!(lowest(&soaked) >= skin);
+        let dry = world(&["sponges.sponge.saturation=0"]);
+        assert!(wetness(&dry).iter().all(|wet| *wet < 0.05));
     }
 }

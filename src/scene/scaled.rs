@@ -43,6 +43,7 @@ fn refine(sponge: &mut Sponge, resolution: f32) {
     let along_x = whole_cells(sponge.cells.x as f32 * resolution);
     sponge.edge = size.x / along_x as f32;
     sponge.cells = UVec3::new(along_x, whole_cells(size.y / sponge.edge), whole_cells(size.z / sponge.edge));
+    sponge.position.z += (size.z - sponge.size().z) / 2.0;
 }
 
 /// Nearest number of cells, at least 2: with fewer the lattice has no tets across.

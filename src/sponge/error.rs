@@ -8,7 +8,7 @@ use super::limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LatticeError {
     /// The edge is not a number or outside its range.
-    #[error("sponge {sponge}: edge = {value} m is outside [{MIN_EDGE}, {MAX_EDGE}] m")]
+    #[error("sponges[{sponge}]: edge = {value} m is outside [{MIN_EDGE}, {MAX_EDGE}] m")]
     Edge {
         /// Index of the sponge.
         sponge: usize,
@@ -16,7 +16,7 @@ pub enum LatticeError {
         value: f32,
     },
     /// A number of cells is zero.
-    #[error("sponge {sponge}: cells = {value:?}: each must be at least 1")]
+    #[error("sponges[{sponge}]: cells = {value:?}: each must be at least 1")]
     NoCells {
         /// Index of the sponge.
         sponge: usize,
@@ -25,7 +25,7 @@ pub enum LatticeError {
     },
     /// The blocks of all sponges together have too many cells.
     #[error(
-        "sponge {sponge}: cells = {value:?} brings all sponges to {total} cells; at most {MAX_CELLS} are allowed"
+        "sponges[{sponge}]: cells = {value:?} brings all sponges to {total} cells; at most {MAX_CELLS} are allowed"
     )]
     TooManyCells {
         /// Index of the first sponge that does not fit.
@@ -36,7 +36,7 @@ pub enum LatticeError {
         total: u64,
     },
     /// A coordinate of the origin is infinite or not a number.
-    #[error("sponge {sponge}: origin = {value} m must be finite")]
+    #[error("sponges[{sponge}]: origin = {value} m must be finite")]
     Origin {
         /// Index of the sponge.
         sponge: usize,
@@ -45,7 +45,7 @@ pub enum LatticeError {
     },
     /// The block lies so far out that single precision would distort its tets.
     #[error(
-        "sponge {sponge}: origin: the block reaches {reach} m from the world's origin, where single precision \
+        "sponges[{sponge}]: origin: the block reaches {reach} m from the world's origin, where single precision \
          cannot resolve edge = {edge} m; the reach must be at most {limit} m"
     )]
     Reach {
@@ -60,7 +60,7 @@ pub enum LatticeError {
     },
     /// No tet is left, because the block is too small or the mask keeps nothing.
     #[error(
-        "sponge {sponge}: the mask keeps none of the {candidates} tets of cells = {cells:?} (a block of one cell has \
+        "sponges[{sponge}]: the mask keeps none of the {candidates} tets of cells = {cells:?} (a block of one cell has \
          none)"
     )]
     Empty {

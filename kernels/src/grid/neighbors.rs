@@ -6,15 +6,15 @@
 
 use std::ops::Range;
 
-use super::cells::Cells;
+use super::{cells::Cells, search::Search};
 use crate::{
     columns::{ColumnData, FAR},
     cpu::{CHUNK, Cpu, PerChunk},
-    lanes::{self, LANES, Simd, prelude::*, u32x8, with_lanes},
-    vector::{self, dot, minus},
+    lanes::{LANES, with_lanes},
 };
 
-const GROUPS: usize = CHUNK / LANES;
+/// Groups of a chunk.
+pub(super) const GROUPS: usize = CHUNK / LANES;
 
 /// Neighbour lists of all queries, in chunks of [`CHUNK`] queries.
 #[derive(Clone, Debug, Default)]
@@ -104,21 +104,27 @@ impl Neighbors {
     ) {
         let Self { chunks, planes } = self;
         chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
-        planes.iter_mut().for_each(|plane| plane.resize(targets.len(), FAR));
+        fill_planes(cpu, targets, planes);
         let [x, y, z] = planes;
-        cpu.for_chunks((&mut x[..], &mut y[..], &mut z[..]), |first, (x, y, z)| {
-            for (row, target) in targets[first..].iter().take(x.len()).enumerate() {
-                (x[row], y[row], z[row]) = (target[0], target[1], target[2]);
-            }
-        });
-        let planes = [&x[..], &y[..], &z[..]];
-        cpu.for_chunks(PerChunk(chunks), |first, lists| {
+        let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius };
+        cpu.for_chunks_with(PerChunk(chunks), |memory, first, lists| {
             let end = queries.len().min(first + CHUNK);
-            let task = Task { planes, padding: target_count as u32, cells, radius };
             let used = count.saturating_sub(first).min(end - first);
-            with_lanes!(cpu, simd => task.chunk(simd, &queries[first..end], used, &mut lists.0[0]));
+            let ChunkLists { start, entries } = &mut lists.0[0];
+            with_lanes!(cpu, simd => search.chunk(simd, &queries[first..end], used, memory, start, entries));
         });
     }
+}
+
+/// Coordinates of the targets, one array per axis, with eight rows to spare behind the last.
+fn fill_planes(cpu: &Cpu, targets: &[[f32; 4]], planes: &mut [Vec<f32>; 3]) {
+    planes.iter_mut().for_each(|plane| plane.resize(targets.len() + LANES, FAR));
+    let [x, y, z] = planes.each_mut().map(|plane| &mut plane[..targets.len()]);
+    cpu.for_chunks((x, y, z), |first, (x, y, z)| {
+        for (row, target) in targets[first..].iter().take(x.len()).enumerate() {
+            (x[row], y[row], z[row]) = (target[0], target[1], target[2]);
+        }
+    });
 }
 
 /// One value for every entry of neighbour lists, so that passes that repeat need not compute it again.
@@ -163,189 +169,6 @@ impl ColumnData for Neighbors {
     }
 }
 
-/// What all groups of a build share.
-struct Task<'a> {
-    planes: [&'a [f32]; 3],
-    padding: u32,
-    cells: &'a Cells,
-    radius: f32,
-}
-
-/// Targets near a few queries, and the lists of eight queries.
-#[derive(Default)]
-struct Candidates {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
-    row: Vec<u32>,
-    count: usize,
-    spans: Vec<[u32; 2]>,
-    lists: [Vec<u32>; LANES],
-    lengths: [usize; LANES],
-}
-
-impl Candidates {
-    /// Makes room for eight more candidates.
-    #[inline(always)]
-    fn reserve(&mut self) {
-        if self.count + LANES > self.x.len() {
-            let length = (self.count + LANES).max(256) * 2;
-            self.x.resize(length, FAR);
-            self.y.resize(length, FAR);
-            self.z.resize(length, FAR);
-            self.row.resize(length, 0);
-        }
-    }
-}
-
-impl Task<'_> {
-    #[inline(always)]
-    fn chunk<S: Simd>(&self, simd: S, queries: &[[f32; 4]], used: usize, lists: &mut ChunkLists) {
-        let mut candidates = Candidates::default();
-        lists.entries.clear();
-        lists.start.fill(0);
-        for (group, queries) in queries.chunks_exact(LANES).enumerate() {
-            let used = used.saturating_sub(group * LANES).min(LANES);
-            self.group(simd, &queries[..used], &mut candidates);
-            self.interleave(&mut candidates, &mut lists.entries);
-            lists.start[group + 1] = lists.entries.len() as u32;
-        }
-        let groups = queries.len() / LANES;
-        lists.start[groups + 1..].fill(lists.entries.len() as u32);
-    }
-
-    /// Lists of up to eight queries. Consecutive queries may lie far apart, where a row of cells ends: they are
-    /// cut into runs that fit a small box.
-    #[inline(always)]
-    fn group<S: Simd>(&self, simd: S, queries: &[[f32; 4]], candidates: &mut Candidates) {
-        candidates.lengths = [0; LANES];
-        let mut first = 0;
-        while first < queries.len() {
-            let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-            let mut end = first;
-            while end < queries.len() {
-                let grown_low = [0, 1, 2].map(|axis| low[axis].min(queries[end][axis]));
-                let grown_high = [0, 1, 2].map(|axis| high[axis].max(queries[end][axis]));
-                let fits = (0..3).all(|axis| grown_high[axis] - grown_low[axis] <= 1.5 * self.radius);
-                if end > first && !fits {
-                    break;
-                }
-                (low, high) = (grown_low, grown_high);
-                end += 1;
-            }
-            self.collect(simd, low, high, candidates);
-            self.test(simd, queries, first..end, candidates);
-            first = end;
-        }
-    }
-
-    /// Collects the targets whose distance from the box is less than the radius.
-    #[inline(always)]
-    fn collect<S: Simd>(&self, simd: S, low: [f32; 3], high: [f32; 3], candidates: &mut Candidates) {
-        let radius = self.radius;
-        let splat = |value| lanes::splat(simd, value);
-        let (lows, highs) = (vector::splat(simd, low), vector::splat(simd, high));
-        let (zero, square) = (splat(0.0), splat(radius * radius));
-        let lane_index = u32x8::from_fn(simd, |lane| lane as u32);
-        let last = self.planes[0].len() - LANES;
-        candidates.count = 0;
-        self.cells.spans(low.map(|x| x - radius), high.map(|x| x + radius), &mut candidates.spans);
-        for span in 0..candidates.spans.len() {
-            let [begin, end] = candidates.spans[span];
-            for row in (begin..end).step_by(LANES) {
-                // Near the end of the array the last eight rows are loaded; those before `row` were seen already.
-                let loaded = (row as usize).min(last);
-                let x = lanes::load(simd, self.planes[0], loaded);
-                let y = lanes::load(simd, self.planes[1], loaded);
-                let z = lanes::load(simd, self.planes[2], loaded);
-                let rows = lane_index + loaded as u32;
-                let dx = (lows[0] - x).max(x - highs[0]).max(zero);
-                let dy = (lows[1] - y).max(y - highs[1]).max(zero);
-                let dz = (lows[2] - z).max(z - highs[2]).max(zero);
-                let mut near = (dx * dx + dy * dy + dz * dz).simd_lt(square);
-                if row + 8 > end || loaded < row as usize {
-                    near &= rows.simd_ge(u32x8::splat(simd, row)) & rows.simd_lt(u32x8::splat(simd, end));
-                }
-                let hits = near.to_bitmask().count_ones() as usize;
-                if hits == 0 {
-                    continue;
-                }
-                candidates.reserve();
-                let at = candidates.count..candidates.count + LANES;
-                simd.compress_f32x8(x, near).store_slice(&mut candidates.x[at.clone()]);
-                simd.compress_f32x8(y, near).store_slice(&mut candidates.y[at.clone()]);
-                simd.compress_f32x8(z, near).store_slice(&mut candidates.z[at.clone()]);
-                simd.compress_u32x8(rows, near).store_slice(&mut candidates.row[at]);
-                candidates.count += hits;
-            }
-        }
-        candidates.reserve();
-        candidates.x[candidates.count..candidates.count + LANES].fill(FAR);
-    }
-
-    /// Appends to the lists of `range` the candidates within the radius.
-    #[inline(always)]
-    fn test<S: Simd>(&self, simd: S, queries: &[[f32; 4]], range: Range<usize>, candidates: &mut Candidates) {
-        let square = lanes::splat(simd, self.radius * self.radius);
-        let Candidates { x, y, z, row, count, lists, lengths, .. } = candidates;
-        let room = *count + LANES;
-        for list in &mut lists[range.clone()] {
-            if list.len() < room {
-                list.resize(room, 0);
-            }
-        }
-        // Two queries at a time share the loads of the candidates.
-        for lane in range.clone().step_by(2) {
-            let other = (lane + 1).min(range.end - 1);
-            let query = |lane: usize| {
-                let [x, y, z, _] = queries[lane];
-                vector::splat(simd, [x, y, z])
-            };
-            let (a, b) = (query(lane), query(other));
-            let (left, right) = lists.split_at_mut(lane + 1);
-            let mut unused = Vec::new();
-            let list_a = &mut left[lane];
-            let list_b = if other > lane { &mut right[0] } else { &mut unused };
-            list_b.resize(list_b.len().max(room), 0);
-            let (mut length_a, mut length_b) = (0, 0);
-            for at in (0..*count).step_by(LANES) {
-                let (xs, ys, zs) =
-                    (lanes::load(simd, x, at), lanes::load(simd, y, at), lanes::load(simd, z, at));
-                let rows = u32x8::from_slice(simd, &row[at..at + LANES]);
-                let to_a = minus([xs, ys, zs], a);
-                let to_b = minus([xs, ys, zs], b);
-                let (near_a, near_b) = (dot(to_a, to_a).simd_lt(square), dot(to_b, to_b).simd_lt(square));
-                simd.compress_u32x8(rows, near_a).store_slice(&mut list_a[length_a..length_a + LANES]);
-                simd.compress_u32x8(rows, near_b).store_slice(&mut list_b[length_b..length_b + LANES]);
-                length_a += near_a.to_bitmask().count_ones() as usize;
-                length_b += near_b.to_bitmask().count_ones() as usize;
-            }
-            lengths[lane] = length_a;
-            if other > lane {
-                lengths[other] = length_b;
-            }
-        }
-    }
-
-    /// Appends the lists of eight queries, one entry for all k-th neighbours.
-    #[inline(always)]
-    fn interleave(&self, candidates: &mut Candidates, entries: &mut Vec<[u32; LANES]>) {
-        let length = candidates.lengths.into_iter().max().unwrap_or(0);
-        for list in &mut candidates.lists {
-            if list.len() < length {
-                list.resize(length, 0);
-            }
-        }
-        let lists: [&[u32]; LANES] = std::array::from_fn(|lane| &candidates.lists[lane][..length]);
-        let first = entries.len();
-        entries.extend((0..length).map(|k| std::array::from_fn(|lane| lists[lane][k])));
-        let entries = &mut entries[first..];
-        for (lane, &own) in candidates.lengths.iter().enumerate() {
-            entries[own..].iter_mut().for_each(|entry| entry[lane] = self.padding);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -381,7 +204,7 @@ mod tests {
         for count in [0, 1, 7, 8, 9, 1500] {
             let points = random_points(count, 1.0, 11);
             for domain in [bounded, Domain::Unbounded] {
-                for level in SimdLevel::ALL.into_iter().filter(|level| level.is_supported()) {
+                for level in SimdLevel::supported() {
                     let cpu = Cpu::with_threads(level, 2).expect("supported");
                     let (sorted, lists) = build(&points, 0.21, domain, &cpu);
                     for query in 0..count {

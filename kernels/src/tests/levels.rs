@@ -20,11 +20,16 @@ fn difference(columns: &[Column], left: &Columns, right: &Columns) -> Option<Col
     columns.iter().copied().find(|column| words(left, *column) != words(right, *column))
 }
 
+#[expect(clippy::print_stdout, reason = "the log of a test says what it did not run")]
 fn machines() -> Vec<Cpu> {
-    let levels = || SimdLevel::ALL.into_iter().filter(|level| level.is_supported());
+    for missing in SimdLevel::ALL.into_iter().filter(|level| !level.is_supported()) {
+        println!("SKIPPED: {missing}, which this machine lacks");
+    }
     let machine = |level, threads| Cpu::with_threads(level, threads).expect("the level is there");
     let threads = if cfg!(feature = "threads") { &[1, 2, 3, 8][..] } else { &[1] };
-    levels().flat_map(|level| threads.iter().map(move |threads| machine(level, *threads))).collect()
+    SimdLevel::supported()
+        .flat_map(|level| threads.iter().map(move |threads| machine(level, *threads)))
+        .collect()
 }
 
 fn assert_same_bits(options: Options) {

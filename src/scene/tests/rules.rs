@@ -191,6 +191,10 @@ fn twice_the_resolution_has_eight_times_the_particles() {
     let coarse = bar.scaled(0.5).expect("open domain");
     assert_eq!(coarse.sponges[0].cells, UVec3::new(2, 5, 2));
     assert_eq!(coarse.sponges[0].edge, 0.02);
+    let (before, after) = (&bar.sponges[0], &coarse.sponges[0]);
+    assert_eq!(after.position.y, before.position.y);
+    assert_eq!(after.position.z + after.size().z / 2.0, before.position.z + before.size().z / 2.0);
+    assert_ne!(after.size().z, before.size().z, "nothing was rounded: the middle could not have moved");
 }
 
 #[test]

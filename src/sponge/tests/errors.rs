@@ -12,7 +12,7 @@ fn bad_numbers_are_named() {
     for value in [0.0, -1.0, f32::INFINITY, 2.0 * MAX_EDGE] {
         let found = error(LatticeSponge { edge: value, ..good });
         assert_eq!(found, LatticeError::Edge { sponge: 1, value });
-        assert!(found.to_string().starts_with("sponge 1: edge = "), "{found}");
+        assert!(found.to_string().starts_with("sponges[1]: edge = "), "{found}");
     }
     assert!(matches!(error(LatticeSponge { edge: f32::NAN, ..good }), LatticeError::Edge { sponge: 1, .. }));
     let found = error(LatticeSponge { cells: [3, 0, 2], ..good });
@@ -48,7 +48,7 @@ fn a_place_beyond_single_precision_is_refused() {
 fn an_empty_shape_is_refused() {
     let found = error(sponge([3; 3], &|_| false));
     assert_eq!(found, LatticeError::Empty { sponge: 1, cells: [3; 3], candidates: 216 });
-    assert!(found.to_string().contains("sponge 1: the mask keeps none of the 216 tets"), "{found}");
+    assert!(found.to_string().contains("sponges[1]: the mask keeps none of the 216 tets"), "{found}");
     let found = error(sponge([1; 3], &block));
     assert_eq!(found, LatticeError::Empty { sponge: 1, cells: [1; 3], candidates: 0 });
 }

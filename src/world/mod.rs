@@ -1,12 +1,15 @@
 //! The world: the one object that a host builds, steps and looks at.
 
+mod error;
+mod views;
+
 use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
-    body::{Body, Wrench},
+    body::Wrench,
     columns::{BodyStore, Column, Columns},
     couple,
-    cpu::{Cpu, CpuError},
+    cpu::Cpu,
     grid,
     params::Params,
     sph,
@@ -14,109 +17,15 @@ use sorb_kernels::{
 
 use crate::{
     clock::{Bound, Clock, Steps, within},
-    digest,
-    measure::Measures,
     rigid::{RigidEngine, RigidError},
-    scene::{Scene, SceneError},
-    schedule::{Content, Offload, PhaseTime, Plan, PlanError, PlanLine, Runner, STEP, Verdict},
+    scene::Scene,
+    schedule::{Content, Offload, Plan, PlanLine, Runner, STEP, Verdict},
     setup::Setup,
-    sponge::{Lattice, LatticeError},
+    sponge::Lattice,
     stores::Stores,
 };
 
-/// Why a world could not be built.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum WorldError {
-    /// The scene has values out of range, or that do not fit together.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The lattice of a sponge cannot be made.
-    #[error(transparent)]
-    Lattice(#[from] LatticeError),
-    /// The corners of a hull do not span a volume.
-    #[cfg(feature = "rigid")]
-    #[error("body `{body}`: {source}")]
-    Hull {
-        /// Name of the body.
-        body: String,
-        /// What is wrong.
-        source: crate::rigid::HullError,
-    },
-    /// A body needs rapier3d.
-    #[error("body `{body}`: convex hulls need the feature `rigid`")]
-    NeedsRigid {
-        /// Name of the body.
-        body: String,
-    },
-    /// A body has bad values.
-    #[error(transparent)]
-    Rigid(#[from] RigidError),
-    /// Threads or SIMD level.
-    #[error(transparent)]
-    Cpu(#[from] CpuError),
-    /// The step contradicts a kernel's declaration.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// A GPU was asked for.
-    #[cfg(not(feature = "gpu"))]
-    #[error("backend `{0}`: built without the feature `gpu`")]
-    NeedsGpu(Offload),
-    /// A GPU was asked for, and there is none that can be used.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Gpu(#[from] crate::gpu::GpuError),
-}
-
-/// Why a step failed. The world keeps the state it had after the step and refuses to go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// A particle's position or velocity is not a finite number.
-    #[error("step {step} at {time:.6} s: particle {id} is no longer finite after `sph::advect`")]
-    Particle {
-        /// Identity of the particle.
-        id: u32,
-        /// Steps taken.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// A node's position is not a finite number.
-    #[error("step {step} at {time:.6} s: node {node} is no longer finite after `pbd::velocity`")]
-    Node {
-        /// Row of the node.
-        node: u32,
-        /// Steps taken.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// Stability asks for a step below `time.minimum_step`.
-    #[error(
-        "step {step} at {time:.6} s: `{}` asks for a step of {needed:e} s, below time.minimum_step = {minimum:e} s",
-        .bound.name()
-    )]
-    TooSmall {
-        /// What asks for it.
-        bound: Bound,
-        /// The step it asks for \[s\].
-        needed: f32,
-        /// `time.minimum_step` \[s\].
-        minimum: f32,
-        /// Steps taken.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// The engine of the bodies failed.
-    #[error("rigid bodies: {0}")]
-    Rigid(String),
-    /// The GPU failed. A clone of the world that was made before can go on: it uploads its state anew.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Gpu(#[from] crate::gpu::GpuError),
-}
+pub use error::{StepError, WorldError};
 
 /// What to run on.
 #[derive(Clone, Debug, Default)]
@@ -404,139 +313,6 @@ impl World {
         self.clock.node_speed = nodes.speed_squared.sqrt();
         Ok(())
     }
-
-    /// The scene that the world was built from.
-    #[must_use]
-    pub fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    /// What runs in a step, and what is skipped and why.
-    #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
-    /// Time spent in every phase that runs.
-    #[must_use]
-    pub fn phase_times(&self) -> &[PhaseTime] {
-        self.runner.times()
-    }
-
-    /// Time spent in whole steps.
-    #[must_use]
-    pub fn step_time(&self) -> &PhaseTime {
-        self.runner.step_time()
-    }
-
-    /// Threads and SIMD level.
-    #[must_use]
-    pub fn cpu(&self) -> &Cpu {
-        &self.cpu
-    }
-
-    /// Simulated time, steps and frames.
-    #[must_use]
-    pub fn clock(&self) -> &Clock {
-        &self.clock
-    }
-
-    /// Parameters of the last step.
-    #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.params
-    }
-
-    /// All columns, read only. Rows of the fluid change their order from step to step.
-    ///
-    /// On a GPU this reads back the state and what measures need (density, interior, saturation), once after every step
-    /// or frame that is looked at; other scratch columns are not kept.
-    #[must_use]
-    pub fn columns(&self) -> &Columns {
-        self.stores.view()
-    }
-
-    /// The columns on the GPU, for a renderer that draws from the same buffers; none for a world on the CPU, and before
-    /// the first step.
-    #[cfg(feature = "gpu")]
-    #[must_use]
-    pub fn resident(&self) -> Option<&sorb_kernels::gpu::Resident> {
-        self.stores.device.as_ref().and_then(crate::gpu::Device::resident)
-    }
-
-    /// The GPU that the world runs on.
-    #[cfg(feature = "gpu")]
-    #[must_use]
-    pub fn gpu(&self) -> Option<&std::sync::Arc<crate::gpu::Gpu>> {
-        self.stores.device.as_ref().map(crate::gpu::Device::gpu)
-    }
-
-    /// Positions of the particles \[m\], in the order of their cells; w: pressure over squared density.
-    #[must_use]
-    pub fn particle_positions(&self) -> &[[f32; 4]] {
-        &self.columns().fluid.position[..self.stores.host.rows.fluid]
-    }
-
-    /// Velocities of the particles \[m/s\]; w: volume \[m^3\].
-    #[must_use]
-    pub fn particle_velocities(&self) -> &[[f32; 4]] {
-        &self.columns().fluid.velocity[..self.stores.host.rows.fluid]
-    }
-
-    /// Identities of the particles: `ids[row]` is the same particle for ever.
-    #[must_use]
-    pub fn particle_ids(&self) -> &[u32] {
-        &self.columns().fluid.id[..self.stores.host.rows.fluid]
-    }
-
-    /// Positions of the sponge nodes \[m\], of all sponges; w: inverse mass \[1/kg\].
-    #[must_use]
-    pub fn node_positions(&self) -> &[[f32; 4]] {
-        &self.columns().nodes.position[..self.stores.host.rows.nodes]
-    }
-
-    /// Velocities of the sponge nodes \[m/s\].
-    #[must_use]
-    pub fn node_velocities(&self) -> &[[f32; 4]] {
-        &self.columns().nodes.velocity[..self.stores.host.rows.nodes]
-    }
-
-    /// Saturation of the sponge nodes \[1\], about 0 to 1; empty without fluid.
-    #[must_use]
-    pub fn node_saturations(&self) -> &[f32] {
-        let saturation = &self.columns().nodes.saturation;
-        &saturation[..saturation.len().min(self.stores.host.rows.nodes)]
-    }
-
-    /// The lattice: tets, outer surface, which node belongs to which sponge.
-    #[must_use]
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
-    }
-
-    /// Shapes and poses of the bodies, in the order of the scene.
-    #[must_use]
-    pub fn bodies(&self) -> &[Body] {
-        &self.stores.host.bodies.states.0
-    }
-
-    /// The engine that moves the bodies.
-    #[must_use]
-    pub fn rigid_engine(&self) -> &dyn RigidEngine {
-        &*self.engine
-    }
-
-    /// Masses, momenta, energies and errors of the present state.
-    #[must_use]
-    pub fn measures(&self) -> Measures {
-        Measures::of(self)
-    }
-
-    /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
-    #[must_use]
-    pub fn digest(&self) -> u64 {
-        digest::digest(self.columns(), &self.clock)
-    }
 }
 
 /// One thread per core.
@@ -579,4 +355,43 @@ pub(crate) fn move_bodies(
         body.state = engine.state(index);
     }
     Ok(())
+}
+
+#[cfg(all(test, feature = "serde"))]
+mod tests {
+    use super::*;
+
+    /// The error of a step over a state that was spoilt.
+    fn failure(name: &str, spoil: impl FnOnce(&mut Columns)) -> (World, Result<StepReport, StepError>) {
+        let scene = crate::scene::preset(name).and_then(|scene| scene.scaled(0.5));
+        let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+        let mut world = World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+        assert!(world.step().is_ok());
+        spoil(&mut world.columns);
+        let result = world.step();
+        (world, result)
+    }
+
+    #[test]
+    fn a_particle_that_is_not_finite_is_named_and_stops_the_world() {
+        let (mut world, result) = failure("water", |columns| columns.fluid.velocity[5][1] = f32::NAN);
+        let error = result.expect_err("the step must not go on");
+        // The fault spreads within the step: the particle that is named is the spoilt one or a neighbour.
+        let StepError::Particle { step, .. } = error else { panic!("{error}") };
+        assert_eq!(step, 2);
+        assert!(error.to_string().contains("is no longer finite"), "{error}");
+        let digest = world.digest();
+        assert_eq!(world.step(), Err(error));
+        assert_eq!(world.digest(), digest, "a failed world must stay as it is");
+        // The control: the same step without the fault.
+        assert!(failure("water", |_| {}).1.is_ok());
+    }
+
+    #[test]
+    fn a_node_that_is_not_finite_is_named() {
+        let (_, result) = failure("dry", |columns| columns.nodes.velocity[7][0] = f32::INFINITY);
+        let error = result.expect_err("the step must not go on");
+        assert!(matches!(error, StepError::Node { step: 2, .. }), "{error}");
+        assert!(failure("dry", |_| {}).1.is_ok());
+    }
 }

@@ -4,9 +4,11 @@
 //! exactly are used: the bits of a result do not depend on the level. Not used, because they differ from
 //! machine to machine: fused multiply-add, approximate reciprocals, horizontal reductions.
 
+mod transpose;
+
 use std::fmt;
 
-use fearless_simd::{Level, f32x4};
+use fearless_simd::Level;
 pub(crate) use fearless_simd::{Simd, dispatch, f32x8, mask32x8, prelude, u32x8};
 use prelude::*;
 
@@ -38,12 +40,15 @@ impl SimdLevel {
     /// The best level of this machine.
     #[must_use]
     pub fn best() -> Self {
-        // AVX-512 gains nothing in these kernels, which are bound by 16-byte loads and shuffles, and lowers the
-        // clock on some machines; it is there for whoever asks for it by name.
-        [Self::Avx2, Self::Neon, Self::Sse42, Self::Sse2]
+        [Self::Avx512, Self::Avx2, Self::Neon, Self::Sse42, Self::Sse2]
             .into_iter()
             .find(|level| level.is_supported())
             .unwrap_or(Self::Fallback)
+    }
+
+    /// The levels of this machine, worst first.
+    pub fn supported() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|level| level.is_supported())
     }
 
     /// Whether this machine has the level.
@@ -113,6 +118,12 @@ pub(crate) fn load<S: Simd>(simd: S, values: &[f32], start: usize) -> f32x8<S> {
     f32x8::from_slice(simd, &values[start..start + LANES])
 }
 
+/// Eight values.
+#[inline(always)]
+pub(crate) fn load_array<S: Simd>(simd: S, values: &[f32; LANES]) -> f32x8<S> {
+    f32x8::load_array_ref(simd, values)
+}
+
 /// Stores eight consecutive values from `start`.
 #[inline(always)]
 pub(crate) fn store<S: Simd>(values: &mut [f32], start: usize, lanes: f32x8<S>) {
@@ -132,28 +143,11 @@ pub(crate) fn select<S: Simd>(condition: mask32x8<S>, yes: f32x8<S>, no: f32x8<S
     condition.select(yes, no)
 }
 
-/// Transposes four rows of four.
-#[inline(always)]
-fn transpose_four<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
-    let (ac_low, ac_high) = (a.zip_low(c), a.zip_high(c));
-    let (bd_low, bd_high) = (b.zip_low(d), b.zip_high(d));
-    [ac_low.zip_low(bd_low), ac_low.zip_high(bd_low), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
-}
-
-/// Transposes eight rows of four into four vectors.
-#[inline(always)]
-fn transpose<S: Simd>(simd: S, rows: [&[f32; 4]; LANES]) -> [f32x8<S>; 4] {
-    let row = |lane: usize| f32x4::load_array_ref(simd, rows[lane]);
-    let low = transpose_four([row(0), row(1), row(2), row(3)]);
-    let high = transpose_four([row(4), row(5), row(6), row(7)]);
-    [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
-}
-
 /// Rows `start..start + 8` as vectors of x, y, z and w.
 #[inline(always)]
 pub(crate) fn load_rows<S: Simd>(simd: S, rows: &[[f32; 4]], start: usize) -> [f32x8<S>; 4] {
     let rows: &[[f32; 4]; LANES] = rows[start..start + LANES].try_into().expect("the slice has eight rows");
-    transpose(simd, rows.each_ref())
+    transpose::eight_by_four(simd, rows.each_ref())
 }
 
 /// Stores vectors of x, y, z and w to rows `start..start + 8`.
@@ -165,8 +159,8 @@ pub(crate) fn store_rows<S: Simd>(rows: &mut [[f32; 4]], start: usize, vectors: 
             (x.split(), y.split(), z.split(), w.split());
         ([x, y, z, w], [x_high, y_high, z_high, w_high])
     };
-    let low = transpose_four([x, y, z, w]);
-    let high = transpose_four([x_high, y_high, z_high, w_high]);
+    let low = transpose::four_by_four([x, y, z, w]);
+    let high = transpose::four_by_four([x_high, y_high, z_high, w_high]);
     let rows = &mut rows[start..start + LANES];
     for lane in 0..4 {
         low[lane].store_slice(&mut rows[lane]);
@@ -178,7 +172,13 @@ pub(crate) fn store_rows<S: Simd>(rows: &mut [[f32; 4]], start: usize, vectors: 
 #[inline(always)]
 pub(crate) fn gather_rows<S: Simd>(simd: S, rows: &[[f32; 4]], index: &[u32; LANES]) -> [f32x8<S>; 4] {
     let row = |lane: usize| &rows[index[lane] as usize];
-    transpose(simd, [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+    transpose::eight_by_four(simd, [row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+}
+
+/// The eight columns of eight rows.
+#[inline(always)]
+pub(crate) fn transpose_rows<S: Simd>(simd: S, rows: [&[u32; LANES]; LANES]) -> [[u32; LANES]; LANES] {
+    transpose::eight_by_eight(simd, rows)
 }
 
 /// Eight values by index.

@@ -1,0 +1,99 @@
+//! Why a world could not be built, and why a step failed.
+
+use sorb_kernels::cpu::CpuError;
+
+use crate::{clock::Bound, rigid::RigidError, scene::SceneError, schedule::PlanError, sponge::LatticeError};
+
+/// Why a world could not be built.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WorldError {
+    /// The scene has values out of range, or that do not fit together.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The lattice of a sponge cannot be made.
+    #[error(transparent)]
+    Lattice(#[from] LatticeError),
+    /// The corners of a hull do not span a volume.
+    #[cfg(feature = "rigid")]
+    #[error("body `{body}`: {source}")]
+    Hull {
+        /// Name of the body.
+        body: String,
+        /// What is wrong.
+        source: crate::rigid::HullError,
+    },
+    /// A body needs rapier3d.
+    #[error("body `{body}`: convex hulls need the feature `rigid`")]
+    NeedsRigid {
+        /// Name of the body.
+        body: String,
+    },
+    /// A body has bad values.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+    /// Threads or SIMD level.
+    #[error(transparent)]
+    Cpu(#[from] CpuError),
+    /// The step contradicts a kernel's declaration.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// A GPU was asked for.
+    #[cfg(not(feature = "gpu"))]
+    #[error("backend `{0}`: built without the feature `gpu`")]
+    NeedsGpu(crate::schedule::Offload),
+    /// A GPU was asked for, and there is none that can be used.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
+}
+
+/// Why a step failed. The world keeps the state it had after the step and refuses to go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A particle's position or velocity is not a finite number.
+    #[error("step {step} at {time:.6} s: particle {id} is no longer finite after `sph::advect`")]
+    Particle {
+        /// Identity of the particle.
+        id: u32,
+        /// Steps taken.
+        step: u64,
+        /// Simulated time \[s\].
+        time: f64,
+    },
+    /// A node's position is not a finite number.
+    #[error("step {step} at {time:.6} s: node {node} is no longer finite after `pbd::velocity`")]
+    Node {
+        /// Row of the node.
+        node: u32,
+        /// Steps taken.
+        step: u64,
+        /// Simulated time \[s\].
+        time: f64,
+    },
+    /// Stability asks for a step below `time.minimum_step`.
+    #[error(
+        "step {step} at {time:.6} s: `{}` asks for a step of {needed:e} s, below time.minimum_step = {minimum:e} s",
+        .bound.name()
+    )]
+    TooSmall {
+        /// What asks for it.
+        bound: Bound,
+        /// The step it asks for \[s\].
+        needed: f32,
+        /// `time.minimum_step` \[s\].
+        minimum: f32,
+        /// Steps taken.
+        step: u64,
+        /// Simulated time \[s\].
+        time: f64,
+    },
+    /// The engine of the bodies failed.
+    #[error("rigid bodies: {0}")]
+    Rigid(String),
+    /// The GPU failed. A clone of the world that was made before can go on: it uploads its state anew.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
+}
