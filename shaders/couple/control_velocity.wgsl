@@ -17,21 +17,27 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.node_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
-    let own = control_position[row];
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let own = control_position[min(row, params.node_rows - 1u)];
     let scale = own.w * params.coupling.value;
-    let end = list[row];
-    var slot = row;
-    var sum = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = list[slot];
+    let first = row * (params.control_fluid_capacity + 1u);
+    var end = 0u;
+    if (is_row) {
+        end = list[first];
+    }
+    var part = 0.0;
+    for (var k = lane & 31u; k < end; k += 32u) {
+        let other = list[first + 1u + k];
         let apart = own.xyz - position[other].xyz;
-        sum += scale * shape(closeness(params.coupling, dot(apart, apart))) * weight_inside(interior[other]);
+        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * weight_inside(interior[other]);
+    }
+    let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;
+    if (!is_row || (lane & 31u) != 0u) {
+        return;
     }
     let before = unfiltered[row];
     control_velocity[row] = vec4<f32>(before.xyz, sum * before.w);

@@ -21,19 +21,25 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.node_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
-    let own = control_position[row];
-    let end = list[row];
-    var slot = row;
-    var sum = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let apart = own.xyz - position[list[slot]].xyz;
-        sum += shape(closeness(params.coupling, dot(apart, apart)));
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let own = control_position[min(row, params.node_rows - 1u)];
+    let first = row * (params.control_fluid_capacity + 1u);
+    var end = 0u;
+    if (is_row) {
+        end = list[first];
+    }
+    var part = 0.0;
+    for (var k = lane & 31u; k < end; k += 32u) {
+        let apart = own.xyz - position[list[first + 1u + k]].xyz;
+        part += shape(closeness(params.coupling, dot(apart, apart)));
+    }
+    let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;
+    if (!is_row || (lane & 31u) != 0u) {
+        return;
     }
     let node = control_node[row];
     let traits = node_traits[node];

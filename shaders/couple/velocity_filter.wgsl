@@ -15,12 +15,16 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.node_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let own = control_position[min(row, params.node_rows - 1u)];
+    let received = received_impulse(own, row, is_row, lane);
+    if (!is_row || (lane & 31u) != 0u) {
         return;
     }
     let before = unfiltered[row];
-    let received = received_impulse(control_position[row], row, rows);
     control_velocity[row] = vec4<f32>(before.xyz + received * before.w, control_velocity[row].w);
 }

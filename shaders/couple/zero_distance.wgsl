@@ -20,20 +20,26 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.node_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
-    let point = control_position[row].xyz;
-    let end = list[row];
-    var slot = row;
-    var sum = vec3<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let apart = point - position[list[slot]].xyz;
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let point = control_position[min(row, params.node_rows - 1u)].xyz;
+    let first = row * (params.control_fluid_capacity + 1u);
+    var end = 0u;
+    if (is_row) {
+        end = list[first];
+    }
+    var part = vec3<f32>(0.0);
+    for (var k = lane & 31u; k < end; k += 32u) {
+        let apart = point - position[list[first + 1u + k]].xyz;
         let u = closeness(params.coupling, dot(apart, apart));
-        sum += (u * u * u) * apart;
+        part += (u * u * u) * apart;
+    }
+    let sum = control_sum(lane, vec4<f32>(part, 0.0)).xyz;
+    if (!is_row || (lane & 31u) != 0u) {
+        return;
     }
     let volume = params.particle_mass / params.rest_density;
     let force = sum * (control_suction[row] * params.coupling.gradient * volume);

@@ -30,17 +30,18 @@ macro_rules! shaders {
 pub static SHADERS: &[Shader] = shaders! {
     clock::clock: ;
     couple::begin_drag: ;
-    couple::control_velocity: smoothing drag;
+    couple::control_velocity: smoothing drag control_group;
     couple::controls: grid;
     couple::drag: smoothing drag;
-    couple::exchange: smoothing received;
+    couple::exchange: smoothing control_group received;
     couple::exchange_fluid: ;
     couple::interior: smoothing sponges;
-    couple::near: grid;
-    couple::saturation: smoothing sponges;
+    couple::near_controls: grid;
+    couple::near_fluid: grid;
+    couple::saturation: smoothing sponges control_group;
     couple::suction: smoothing;
-    couple::velocity_filter: smoothing received;
-    couple::zero_distance: smoothing sponges;
+    couple::velocity_filter: smoothing control_group received;
+    couple::zero_distance: smoothing sponges control_group;
     grid::count: grid;
     grid::fluid_neighbors: grid smoothing;
     grid::page_sums: grid;

@@ -14,22 +14,25 @@
 //! are computed where they are needed and not kept; the search for neighbours sums up the density. The columns mean
 //! the same.
 
+mod answer;
 mod device;
 mod error;
 mod pack;
 mod pipeline;
 mod profile;
+mod read;
 mod resident;
 mod run;
 mod transfer;
 mod twins;
 
+pub use answer::{Answer, Outcome, Start};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
 pub use error::GpuError;
 pub use pack::StepLimits;
 pub use profile::Profile;
 pub use resident::Resident;
-pub use run::{Answer, Outcome, Program, Start};
+pub use run::Program;
 pub use transfer::is_internal;
 pub use wgpu;
 

@@ -5,6 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use wgpu::{Buffer, BufferUsages};
 
 use super::{
+    answer::{CLOCK_BYTES, WRENCH_BYTES},
     device::Gpu,
     error::GpuError,
     pack::{self, BATCH_STRIDE, BODY_BYTES, Capacities, Grid, SPONGES, StepLimits},
@@ -35,6 +36,8 @@ pub struct Resident {
     pub(super) sorted: bool,
     /// Steps since the time was set.
     pub(super) steps: u32,
+    /// Where the host reads what the device says after a batch.
+    pub(super) answer: Buffer,
 }
 
 impl Resident {
@@ -61,6 +64,14 @@ impl Resident {
             Grid::new(params.domain, params.coupling.support_radius, rows.nodes, most),
         ];
         let (colors, tet_sponge) = pack::colors(&columns.nodes.topology);
+        let answer = gpu.guarded(None, || {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("answer"),
+                size: CLOCK_BYTES + rows.bodies as u64 * WRENCH_BYTES,
+                usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        })?;
         let mut resident = Self {
             gpu: Arc::clone(gpu),
             buffers: BTreeMap::new(),
@@ -72,6 +83,7 @@ impl Resident {
             colors,
             sorted: false,
             steps: 0,
+            answer,
         };
         for (name, size, usage) in resident.layout(columns) {
             resident.allocate(name, size, usage)?;
@@ -124,12 +136,10 @@ impl Resident {
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
             ("params", 208, uniform),
-            ("clock", 128, uniform | plain),
+            ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", SPONGES as u64 * 48, uniform),
             ("fluid_grid", 48, uniform),
             ("control_grid", 48, uniform),
-            ("fluid_near", 16, plain),
-            ("control_near", 16, plain),
             ("batch", BATCH_STRIDE * COLORS as u64, uniform),
             ("extremes", 32, plain),
             ("fluid_position", fluid * 16, plain),
@@ -180,7 +190,7 @@ impl Resident {
             ("planes", planes * 16, plain),
             ("fluid_wrenches", groups(fluid), plain),
             ("node_wrenches", groups(nodes), plain),
-            ("body_wrenches", bodies * 64, plain),
+            ("body_wrenches", bodies * WRENCH_BYTES, plain),
         ]
     }
 
@@ -225,9 +235,6 @@ impl Resident {
     /// Parameters, which hold the length of lists.
     pub(super) fn fill_params(&self) {
         self.write("params", &pack::params(&self.params, self.rows, &self.limits, self.capacities));
-        let near = |rows: usize, which: usize| [rows as u32, self.capacities[which], 5 + which as u32, 0];
-        self.write("fluid_near", bytemuck::cast_slice(&near(self.rows.fluid, 1)));
-        self.write("control_near", bytemuck::cast_slice(&near(self.rows.nodes, 2)));
     }
 
     /// Writes the beginning of a buffer, before whatever is submitted next.

@@ -1,79 +1,22 @@
 //! Steps on the device: one submission for many, and one small answer.
 
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
 
-use wgpu::{BindGroup, BufferUsages, CommandEncoder};
+use wgpu::{BindGroup, CommandEncoder};
 
 use super::{
+    answer::{Answer, CLOCK_BYTES, Start, WRENCH_BYTES},
     error::GpuError,
     pack::{BATCH_STRIDE, Capacities},
     pipeline::Pipeline,
     profile::Profile,
     resident::Resident,
-    transfer::vector,
     twins::{BEGIN, BODY_WRENCHES, FINISH, Pass, Rows, twin},
 };
-use crate::{body::Wrench, kernel::Kernel, pbd::lattice::COLORS};
+use crate::{kernel::Kernel, pbd::lattice::COLORS};
 
 /// Steps of one submission.
 const STEPS_AT_ONCE: u32 = 16;
-
-/// What happened to the last step of a batch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
-    /// All that was asked for was done, or there is time left for more steps.
-    Done,
-    /// A particle's position or velocity is not finite; its row.
-    Particle(u32),
-    /// A node's velocity is not finite; its row.
-    Node(u32),
-    /// The next step would have to be this short \[s\], by the bound of this index.
-    TooSmall(f32, u32),
-}
-
-/// What the device says after a batch of steps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Answer {
-    /// What happened to the last step.
-    pub outcome: Outcome,
-    /// Steps since the time was set.
-    pub steps: u32,
-    /// Time left of what was set \[s\].
-    pub left: f32,
-    /// Length of the last step \[s\].
-    pub last_step: f32,
-    /// Bound that limited the last step.
-    pub last_bound: u32,
-    /// Shortest step \[s\].
-    pub shortest: f32,
-    /// Largest speed of particles and nodes in these steps \[m/s\].
-    pub maximum_speed: f32,
-    /// Largest speed of a particle after the last step \[m/s\].
-    pub fluid_speed: f32,
-    /// Largest acceleration of a particle in the last step \[m/s^2\].
-    pub fluid_acceleration: f32,
-    /// Largest speed of a node after the last step \[m/s\].
-    pub node_speed: f32,
-    /// How many steps each bound limited.
-    pub bounds: [u32; 12],
-    /// What the last step gave to every body, by fluid and by sponges.
-    pub wrenches: Vec<(Wrench, Wrench)>,
-    /// Lengths of lists that did not fit.
-    longest: Option<Capacities>,
-}
-
-/// Time that steps are to fill, and what the step before found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// Time to fill \[s\]; `f32::MAX` for steps as long as stability allows.
-    pub left: f32,
-    /// Largest speed of a particle \[m/s\].
-    pub fluid_speed: f32,
-    /// Largest acceleration of a particle \[m/s^2\].
-    pub fluid_acceleration: f32,
-    /// Largest speed of a node \[m/s\].
-    pub node_speed: f32,
-}
 
 /// A pass bound to its buffers.
 #[derive(Debug)]
@@ -169,6 +112,7 @@ impl Resident {
             Rows::One => 1,
             Rows::Fluid => threads(self.rows.fluid),
             Rows::Nodes => threads(self.rows.nodes),
+            Rows::Controls => self.rows.nodes.div_ceil(8) as u64,
             Rows::FluidOrNodes => threads(self.rows.fluid.max(self.rows.nodes)),
             Rows::FluidPages => self.grids[0].pages(),
             Rows::ControlPages => self.grids[1].pages(),
@@ -230,8 +174,8 @@ impl Resident {
         loop {
             self.set_step(step);
             self.clear_extremes(&program.kernels);
-            self.submit(&[&program.step], None)?;
-            let Some(longest) = self.answer()?.longest else { break };
+            self.submit(&[&program.step], true, None)?;
+            let Some(longest) = self.listen()?.longest else { break };
             self.grow(longest, program)?;
         }
         for kernel in &program.kernels {
@@ -258,7 +202,7 @@ impl Resident {
         let mut to_do = steps;
         loop {
             self.submit_steps(program, to_do, profile.as_deref_mut())?;
-            let answer = self.answer()?;
+            let answer = self.listen()?;
             to_do -= to_do.min(answer.steps - self.steps);
             self.steps = answer.steps;
             let Some(longest) = answer.longest else {
@@ -280,7 +224,7 @@ impl Resident {
         for step in 1..=steps {
             parts.extend([&program.step[..], &program.finish[..]]);
             if step % at_once == 0 || step == steps {
-                self.submit(&parts, profile.as_deref_mut())?;
+                self.submit(&parts, step == steps, profile.as_deref_mut())?;
                 parts.clear();
             }
         }
@@ -295,47 +239,14 @@ impl Resident {
     }
 }
 
-/// `clock.wgsl` has these numbers too.
-const NOT_FINITE_PARTICLE: u32 = 1;
-const NOT_FINITE_NODE: u32 = 2;
-const TOO_SMALL: u32 = 3;
-const LIST_FULL: u32 = 4;
-
-impl Answer {
-    fn new(clock: &[u32], wrenches: &[f32]) -> Self {
-        let float = |word: usize| f32::from_bits(clock[word]);
-        let wrench =
-            |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
-        let (status, row) = (clock[3], clock[12]);
-        Self {
-            outcome: match status {
-                NOT_FINITE_PARTICLE => Outcome::Particle(row),
-                NOT_FINITE_NODE => Outcome::Node(row),
-                TOO_SMALL => Outcome::TooSmall(float(18), clock[9]),
-                _ => Outcome::Done,
-            },
-            steps: clock[8],
-            left: float(4),
-            last_step: float(16),
-            last_bound: clock[17],
-            shortest: float(10),
-            maximum_speed: float(11),
-            fluid_speed: float(5),
-            fluid_acceleration: float(6),
-            node_speed: float(7),
-            bounds: std::array::from_fn(|bound| clock[20 + bound]),
-            wrenches: wrenches
-                .chunks_exact(16)
-                .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
-                .collect(),
-            longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15]]),
-        }
-    }
-}
-
 impl Resident {
-    /// Encodes and submits passes, all in one.
-    fn submit(&self, parts: &[&[Dispatch]], mut profile: Option<&mut Profile>) -> Result<(), GpuError> {
+    /// Encodes and submits passes, all in one, and the copy of what [`Self::listen`] waits for.
+    fn submit(
+        &self,
+        parts: &[&[Dispatch]],
+        answers: bool,
+        mut profile: Option<&mut Profile>,
+    ) -> Result<(), GpuError> {
         self.gpu.guarded(None, || {
             let mut encoder = self.encoder();
             {
@@ -355,6 +266,12 @@ impl Resident {
             if let Some(profile) = profile.as_deref_mut() {
                 profile.resolve(&mut encoder);
             }
+            if answers {
+                let (clock, wrenches) = (self.buffer("clock"), self.buffer("body_wrenches"));
+                encoder.copy_buffer_to_buffer(clock, 0, &self.answer, 0, CLOCK_BYTES);
+                let size = self.rows.bodies as u64 * WRENCH_BYTES;
+                encoder.copy_buffer_to_buffer(wrenches, 0, &self.answer, CLOCK_BYTES, size);
+            }
             self.gpu.queue.submit([encoder.finish()]);
         })?;
         match profile {
@@ -363,71 +280,16 @@ impl Resident {
         }
     }
 
-    fn encoder(&self) -> CommandEncoder {
+    pub(super) fn encoder(&self) -> CommandEncoder {
         self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sorb") })
     }
 
     /// What the device has to say: a few hundred bytes.
-    fn answer(&self) -> Result<Answer, GpuError> {
-        let wrenches = self.rows.bodies as u64 * 64;
-        let data = self.read(&[("clock", 128), ("body_wrenches", wrenches)])?;
-        Ok(Answer::new(&data[0], bytemuck::cast_slice(&data[1])))
-    }
-
-    /// Reads the beginnings of buffers back, sizes in bytes, after everything that was submitted.
-    pub(super) fn read(&self, wanted: &[(&'static str, u64)]) -> Result<Vec<Vec<u32>>, GpuError> {
-        let total: u64 = wanted.iter().map(|(_, size)| size).sum();
-        if total == 0 {
-            return Ok(wanted.iter().map(|_| Vec::new()).collect());
-        }
-        let staging = self.gpu.guarded(Some(("columns that are read back", total)), || {
-            let staging = self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("read back"),
-                size: total,
-                usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
-            let mut encoder = self.encoder();
-            let mut offset = 0;
-            for (name, size) in wanted.iter().filter(|(_, size)| *size > 0) {
-                encoder.copy_buffer_to_buffer(self.buffer(name), 0, &staging, offset, *size);
-                offset += size;
-            }
-            self.gpu.queue.submit([encoder.finish()]);
-            staging
-        })?;
-        let bytes = self.gpu.map(&staging)?;
-        let mut rest = &bytes[..];
-        let mut parts = Vec::new();
-        for (_, size) in wanted {
-            let (part, after) = rest.split_at(*size as usize);
-            // The bytes of a part lie anywhere; its words must not.
-            parts.push(bytemuck::pod_collect_to_vec(part));
-            rest = after;
-        }
-        Ok(parts)
-    }
-}
-
-impl super::device::Gpu {
-    /// The content of a buffer, once all that was submitted is done.
-    pub(super) fn map(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
-        let (sender, receiver) = mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // Nobody listens if waiting has failed already.
-            let _ = sender.send(result);
-        });
-        let refused = |reason: String| GpuError::Refused { reason };
-        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
-        self.check_lost()?;
-        waited.map_err(|error| refused(error.to_string()))?;
-        match receiver.try_recv() {
-            Ok(Ok(())) => {
-                let view = buffer.get_mapped_range(..).map_err(|error| refused(error.to_string()))?;
-                Ok(view.to_vec())
-            }
-            Ok(Err(error)) => Err(refused(error.to_string())),
-            Err(_) => Err(refused("a buffer was not mapped".to_owned())),
-        }
+    fn listen(&self) -> Result<Answer, GpuError> {
+        let bytes = self.gpu.map(&self.answer)?;
+        self.answer.unmap();
+        let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
+        let (clock, wrenches) = words.split_at(CLOCK_BYTES as usize / 4);
+        Ok(Answer::new(clock, bytemuck::cast_slice(wrenches)))
     }
 }

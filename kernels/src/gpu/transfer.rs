@@ -158,13 +158,21 @@ impl Resident {
             needed[which] = longest;
             self.lengthen(needed)?;
         }
+        let place = self.list_layout(which, rows);
         let mut words = vec![0_u32; rows * (self.capacities[which] as usize + 1)];
         for (row, list) in lists.iter().enumerate() {
-            words[row] = list.len() as u32;
-            list.iter().enumerate().for_each(|(k, target)| words[(k + 1) * rows + row] = *target);
+            words[place(0, row)] = list.len() as u32;
+            list.iter().enumerate().for_each(|(k, target)| words[place(k + 1, row)] = *target);
         }
         self.write(name, bytemuck::cast_slice(&words));
         Ok(())
+    }
+
+    /// Where a list has its length (0) and its entries (from 1): one line for all k-th entries, but a line a list for
+    /// controls, whose threads share a list.
+    fn list_layout(&self, which: usize, rows: usize) -> impl Fn(usize, usize) -> usize + use<> {
+        let length = self.capacities[which] as usize + 1;
+        move |k, row| if which == 2 { row * length + k } else { k * rows + row }
     }
 
     fn upload_other(&self, columns: &Columns, column: Column) {
@@ -253,7 +261,9 @@ impl Resident {
             data.take(words, rows, to);
         } else if let Some((_, which)) = list_of(column) {
             let (lists, rows, targets) = lists(columns, which);
-            let entries = |row: usize| (1..=words[row] as usize).map(|k| words[k * rows + row]).collect();
+            let place = self.list_layout(which, rows);
+            let length = |row: usize| words[place(0, row)] as usize;
+            let entries = |row: usize| (1..=length(row)).map(|k| words[place(k, row)]).collect();
             let mut all: Vec<Vec<u32>> = (0..rows).map(entries).collect();
             all.resize_with(padded(rows), Vec::new);
             *lists = Neighbors::from_lists(&all, targets as u32);

@@ -9,6 +9,8 @@ pub(super) enum Rows {
     Fluid,
     /// A thread per node.
     Nodes,
+    /// Thirty-two threads per control.
+    Controls,
     /// A thread per particle or node, whichever are more.
     FluidOrNodes,
     /// A group per page of the cells over the particles.
@@ -85,7 +87,6 @@ const NEAR_FLUID: Names = &[
     ("queries", "fluid_position_sorted"),
     ("points", "control_position"),
     ("grid", "control_grid"),
-    ("near", "fluid_near"),
     ("starts", "control_starts"),
     ("list", "fluid_controls"),
 ];
@@ -95,7 +96,6 @@ const NEAR_CONTROLS: Names = &[
     ("queries", "control_position"),
     ("points", "fluid_position_sorted"),
     ("grid", "fluid_grid"),
-    ("near", "control_near"),
     ("starts", "fluid_starts"),
     ("list", "control_fluid"),
 ];
@@ -174,28 +174,28 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
             pass("grid::scan_pages", Rows::ControlPages, CONTROLS),
             pass("grid::scatter", Rows::Nodes, CONTROLS),
             pass("couple::controls", Rows::Nodes, CONTROLS),
-            pass("couple::near", Rows::Fluid, NEAR_FLUID),
-            pass("couple::near", Rows::Nodes, NEAR_CONTROLS),
+            pass("couple::near_fluid", Rows::Fluid, NEAR_FLUID),
+            pass("couple::near_controls", Rows::Controls, NEAR_CONTROLS),
             CHECK,
         ],
     ),
-    ("couple::saturation", &[pass("couple::saturation", Rows::Nodes, FROM_FLUID)]),
+    ("couple::saturation", &[pass("couple::saturation", Rows::Controls, FROM_FLUID)]),
     ("couple::interior", &[pass("couple::interior", Rows::Fluid, FROM_CONTROLS)]),
     ("couple::suction", &[pass("couple::suction", Rows::Fluid, FROM_CONTROLS)]),
-    ("couple::zero_distance", &[pass("couple::zero_distance", Rows::Nodes, FROM_FLUID)]),
+    ("couple::zero_distance", &[pass("couple::zero_distance", Rows::Controls, FROM_FLUID)]),
     (
         "couple::control_velocity",
         &[
             pass("couple::begin_drag", Rows::FluidOrNodes, FROM_FLUID),
-            pass("couple::control_velocity", Rows::Nodes, FROM_FLUID),
+            pass("couple::control_velocity", Rows::Controls, FROM_FLUID),
         ],
     ),
     ("couple::drag", &[pass("couple::drag", Rows::Fluid, FROM_CONTROLS)]),
-    ("couple::velocity_filter", &[pass("couple::velocity_filter", Rows::Nodes, FROM_FLUID)]),
+    ("couple::velocity_filter", &[pass("couple::velocity_filter", Rows::Controls, FROM_FLUID)]),
     (
         "couple::exchange",
         &[
-            pass("couple::exchange", Rows::Nodes, FROM_FLUID),
+            pass("couple::exchange", Rows::Controls, FROM_FLUID),
             pass("couple::exchange_fluid", Rows::Fluid, FROM_CONTROLS),
         ],
     ),

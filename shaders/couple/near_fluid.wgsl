@@ -1,23 +1,13 @@
-// Lists of the points of another kind within the coupling radius: controls of every particle, or particles of every
-// control.
-
-struct Near {
-    rows: u32,
-    capacity: u32,
-    // Where the longest list is noted that does not fit.
-    extreme: u32,
-    unused: u32,
-}
+// For every particle, the controls within the coupling radius; the list has the layout of `fluid_neighbors.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> grid: Grid;
-@group(0) @binding(3) var<storage, read> near: Near;
-@group(0) @binding(4) var<storage, read> queries: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> points: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> starts: array<u32>;
-@group(0) @binding(7) var<storage, read_write> list: array<u32>;
-@group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
+@group(0) @binding(3) var<storage, read> queries: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> starts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> list: array<u32>;
+@group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -26,7 +16,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    let rows = near.rows;
+    let rows = params.fluid_rows;
     if (clock.running == 0u || row >= rows) {
         return;
     }
@@ -65,7 +55,7 @@ fn main(
                 for (var other = starts[line + first]; other < end; other += 1u) {
                     let apart = point - points[other].xyz;
                     if (dot(apart, apart) < square) {
-                        if (found < near.capacity) {
+                        if (found < params.control_capacity) {
                             slot += rows;
                             list[slot] = other;
                         }
@@ -76,7 +66,7 @@ fn main(
         }
     }
     list[row] = found;
-    if (found > near.capacity) {
-        atomicMax(&extremes[near.extreme], found);
+    if (found > params.control_capacity) {
+        atomicMax(&extremes[6], found);
     }
 }

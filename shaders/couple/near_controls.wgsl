@@ -1,0 +1,102 @@
+// For every control, the particles within the coupling radius. Thirty-two threads share a control: each takes some rows
+// of cells, and knows where its entries go once all have counted.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> grid: Grid;
+@group(0) @binding(3) var<storage, read> queries: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> starts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> list: array<u32>;
+@group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
+
+var<workgroup> found: array<u32, 256>;
+
+// Goes through the rows of cells of one thread: counts the points within the radius, and writes them from `slot` on
+// up to `last` if that is not before it.
+fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
+    let radius = params.coupling.radius;
+    let square = radius * radius;
+    let cell_square = square * grid.origin.w * grid.origin.w;
+    let reach = radius * grid.origin.w;
+    let at = vec3<f32>(
+        coordinate_of(grid, point.x, 0u),
+        coordinate_of(grid, point.y, 1u),
+        coordinate_of(grid, point.z, 2u),
+    );
+    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
+    let wide = span_y.y - span_y.x + 1;
+    let lines = wide * (span_z.y - span_z.x + 1);
+    var count = 0u;
+    for (var index = i32(sub); index < lines; index += 32) {
+        let z = span_z.x + index / wide;
+        let y = span_y.x + index % wide;
+        let dz = slab_distance(grid, at.z, z, 2u);
+        let dy = slab_distance(grid, at.y, y, 1u);
+        let chord = cell_square - dy * dy - dz * dz;
+        if (chord <= 0.0) {
+            continue;
+        }
+        let line = (wrapped(grid, z, 2u) * grid.size.y + wrapped(grid, y, 1u)) * grid.size.x;
+        let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+        var x = span_x.x;
+        // One run, or two where it crosses the seam of the torus.
+        while (x <= span_x.y) {
+            let first = wrapped(grid, x, 0u);
+            let end_cell = min(first + u32(span_x.y - x), grid.size.x - 1u);
+            x += i32(end_cell - first) + 1;
+            let end = starts[line + end_cell + 1u];
+            for (var other = starts[line + first]; other < end; other += 1u) {
+                let apart = point - points[other].xyz;
+                if (dot(apart, apart) < square) {
+                    if (slot + count <= last) {
+                        list[slot + count] = other;
+                    }
+                    count += 1u;
+                }
+            }
+        }
+    }
+    return count;
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = group_of(group, groups) * 8u + lane / 32u;
+    let is_row = row < params.node_rows;
+    let point = queries[min(row, params.node_rows - 1u)].xyz;
+    let sub = lane & 31u;
+    var own = 0u;
+    if (is_row) {
+        own = visit(point, sub, 1u, 0u);
+    }
+    found[lane] = own;
+    workgroupBarrier();
+    var before = 0u;
+    for (var other = lane - sub; other < lane; other += 1u) {
+        before += found[other];
+    }
+    if (!is_row) {
+        return;
+    }
+    let capacity = params.control_fluid_capacity;
+    let first = row * (capacity + 1u);
+    if (own > 0u) {
+        own = visit(point, sub, first + 1u + before, first + capacity);
+    }
+    if (sub == 31u) {
+        let all = before + own;
+        list[first] = all;
+        if (all > capacity) {
+            atomicMax(&extremes[7], all);
+        }
+    }
+}
