@@ -77,15 +77,33 @@ macro_rules! scenes {
 }
 scenes! { standing ball_drop squish dam_break wring water dry empty }
 
-/// Splashing water is chaotic: what is left after a second is how much there is, where, and how fast.
+/// How far apart two runs on the CPU end, of which one starts a micrometre a second faster.
+fn chaos(name: &str, frames: u32, resolution: f32) -> f64 {
+    let scene = busy::scene(name, resolution);
+    let mut other = scene.clone();
+    let shift = sorb::glam::Vec3::new(1e-6, 1e-6, -1e-6);
+    if let Some(fluid) = &mut other.fluid {
+        fluid.blocks.iter_mut().for_each(|block| block.velocity += shift);
+    }
+    let (mut a, mut b) = (world(&scene, Offload::Cpu), world(&other, Offload::Cpu));
+    for _ in 0..frames {
+        common::frame(&mut a);
+        common::frame(&mut b);
+    }
+    difference(&a.measures(), &b.measures()).0
+}
+
+/// Splashing water is chaotic: after a second, rounding has become as large as what it does to the same program.
 #[test]
 fn a_second_of_water_ends_alike() {
-    assert_alike("water", 60, 0.4, 5e-2);
+    let bound = 3.0 * chaos("water", 60, 0.4);
+    assert!(bound < 1.0, "{bound}");
+    assert_alike("water", 60, 0.4, bound);
 }
 
 #[test]
 fn a_second_of_a_ball_on_a_sponge_ends_alike() {
-    assert_alike("ball_drop", 60, 0.4, 5e-2);
+    assert_alike("ball_drop", 60, 0.4, 2e-3);
 }
 
 #[test]
@@ -139,7 +157,10 @@ fn every_kernel_can_be_the_first_on_the_gpu() {
     let kernels = cpu.plan().lines().iter().filter(|line| line.verdict == Verdict::Runs);
     for kernel in kernels.map(|line| line.name).filter(|name| *name != "rigid::step") {
         let mut mixed = world(&scene, Offload::From(kernel));
-        assert!(mixed.plan().lines().iter().any(|line| mixed.plan().place(line.name) == Place::Gpu), "{kernel}");
+        assert!(
+            mixed.plan().lines().iter().any(|line| mixed.plan().place(line.name) == Place::Gpu),
+            "{kernel}"
+        );
         common::steps(&mut mixed, 3);
         let (found, what) = difference(&cpu.measures(), &mixed.measures());
         assert!(found < 1e-4, "from {kernel}: {what} differs by {found:.1e}");
@@ -172,7 +193,8 @@ fn a_scene_that_is_too_large_for_the_adapter_is_an_error_with_its_size() {
     };
     let small = Gpu::with_limits(&adapter, limits).unwrap_or_else(|error| panic!("{error}"));
     let options = Options { offload: Offload::Gpu, gpu: Some(Arc::new(small)), ..Options::default() };
-    let mut world = World::with_options(&scene, &options).unwrap_or_else(|error: WorldError| panic!("{error}"));
+    let mut world =
+        World::with_options(&scene, &options).unwrap_or_else(|error: WorldError| panic!("{error}"));
     let error = world.step().map_err(|error| error.to_string());
     assert!(error.as_ref().is_err_and(|text| text.contains("bytes on the GPU")), "{error:?}");
     assert_eq!(world.step().map_err(|error| error.to_string()), error);

@@ -90,12 +90,10 @@ fn gpu_text() -> String {
         return "no adapter (on Linux, is a Vulkan driver and libvulkan1 installed?)".to_owned();
     }
     let line = |adapter: &sorb::gpu::AdapterReport| {
-        let auto = if adapter.is_software() {
-            "; `auto` does not take it: it is a program on the CPU"
-        } else {
-            ""
-        };
-        let sorb::gpu::AdapterReport { name, driver, backend, kind, largest_binding, timestamps, .. } = adapter;
+        let auto =
+            if adapter.is_software() { "; `auto` does not take it: it is a program on the CPU" } else { "" };
+        let sorb::gpu::AdapterReport { name, driver, backend, kind, largest_binding, timestamps, .. } =
+            adapter;
         let times = if *timestamps { "times kernels" } else { "does not time kernels" };
         let mebibytes = largest_binding >> 20;
         format!("{name}, {kind}, {backend}, {driver}; buffers up to {mebibytes} MiB, {times}{auto}")

@@ -36,7 +36,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let plan = world.plan();
     let phases: Vec<Value> = plan.lines().iter().map(|entry| line(plan, entry)).collect();
     let reason = plan.placement().map(|placement| placement.reason.as_str());
-    let transfers: Vec<Value> = plan.placement().map_or(&[][..], |placement| &placement.transfers).iter()
+    let transfers: Vec<Value> = plan
+        .placement()
+        .map_or(&[][..], |placement| &placement.transfers)
+        .iter()
         .map(|transfer| {
             json!({
                 "before": transfer.before,

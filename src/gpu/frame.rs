@@ -61,7 +61,8 @@ impl World {
             report.steps = answer.steps;
             report.shortest_step = answer.shortest;
             report.maximum_speed = answer.maximum_speed;
-            let most = (0..answer.bounds.len() as u32).rev().max_by_key(|bound| answer.bounds[*bound as usize]);
+            let most =
+                (0..answer.bounds.len() as u32).rev().max_by_key(|bound| answer.bounds[*bound as usize]);
             report.bound = Bound::from_index(most.unwrap_or(answer.last_bound));
         }
         self.clock.frames += 1;

@@ -6,4 +6,6 @@ mod place;
 
 pub(crate) use device::Device;
 pub(crate) use place::placed;
-pub use sorb_kernels::gpu::{AdapterReport, Gpu, GpuError, adapters, required_features, required_limits, wgpu};
+pub use sorb_kernels::gpu::{
+    AdapterReport, Gpu, GpuError, adapters, required_features, required_limits, wgpu,
+};

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Particles and nodes from which [`Offload::Auto`] takes a GPU; `docs/gpu.md` has the measurements.
-pub(crate) const ROWS_FOR_GPU: usize = 20_000;
+const ROWS_FOR_GPU: usize = 5_000;
 
 /// A plan with its place, and the device if it is one.
 ///
@@ -32,8 +32,7 @@ pub(crate) fn placed(
     }
     let (placement, gpu) = place(&plan, rows, options.offload, options.gpu.as_ref())?;
     let plan = plan.placed(placement);
-    let device =
-        gpu.map(|gpu| Device::new(gpu, &plan, steps.limits(), &options.observed, options.gpu_times));
+    let device = gpu.map(|gpu| Device::new(gpu, &plan, steps.limits(), &options.observed, options.gpu_times));
     Ok((plan, device))
 }
 
@@ -114,7 +113,17 @@ fn transfers(plan: &Plan, rows: RowCounts, first: &'static str) -> Vec<Transfer>
     }
     let wrenches = "clock, bodies.fluid_wrenches, bodies.node_wrenches".to_owned();
     vec![
-        Transfer { before: Some(first), to_device: true, what: "bodies.states".to_owned(), bytes: bodies * 144 },
-        Transfer { before: Some("rigid::step"), to_device: false, what: wrenches, bytes: clock + bodies * 64 },
+        Transfer {
+            before: Some(first),
+            to_device: true,
+            what: "bodies.states".to_owned(),
+            bytes: bodies * 144,
+        },
+        Transfer {
+            before: Some("rigid::step"),
+            to_device: false,
+            what: wrenches,
+            bytes: clock + bodies * 64,
+        },
     ]
 }

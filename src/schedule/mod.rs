@@ -9,8 +9,8 @@ mod step;
 #[cfg(feature = "gpu")]
 pub(crate) use offload::beginning;
 pub use offload::{Offload, OffloadError, Place, Placement, Transfer};
-#[cfg(feature = "gpu")]
-pub(crate) use shares::Shares;
 pub use plan::{Content, Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
+#[cfg(feature = "gpu")]
+pub(crate) use shares::Shares;
 pub use step::{HostPhase, Phase, RIGID, STEP, Times};

@@ -59,7 +59,8 @@ impl Plan {
     /// The shares if the device has everything from `first` on.
     pub(crate) fn shares_from(&self, first: Option<&str>) -> Shares {
         let mut shares = Shares { cpu: self.kernels(), ..Shares::default() };
-        let Some(at) = first.and_then(|first| shares.cpu.iter().position(|kernel| kernel.name == first)) else {
+        let Some(at) = first.and_then(|first| shares.cpu.iter().position(|kernel| kernel.name == first))
+        else {
             return shares;
         };
         shares.gpu = shares.cpu.split_off(at);

@@ -367,7 +367,7 @@ mod tests {
         let scene = scene.unwrap_or_else(|error| panic!("{error}"));
         let mut world = World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         assert!(world.step().is_ok());
-        spoil(&mut world.columns);
+        spoil(&mut world.stores.host);
         let result = world.step();
         (world, result)
     }

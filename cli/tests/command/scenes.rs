@@ -109,7 +109,8 @@ fn plan_follows_changes_of_the_scene() {
 fn doctor_names_the_machine() {
     let answer = sorb(&["doctor"]);
     assert_eq!(answer.code, Some(0));
-    for part in ["threads", "fallback", "not built in"] {
+    let gpu = if cfg!(feature = "gpu") { "GPU" } else { "not built in" };
+    for part in ["threads", "fallback", gpu] {
         assert!(answer.out.contains(part), "{part} is not in {}", answer.out);
     }
     let json = sorb(&["doctor", "--json"]).json();

@@ -67,8 +67,15 @@ mod tests {
             let bindings = pipeline::bindings(shader.source);
             let storage = bindings.iter().filter(|binding| binding.is_storage()).count();
             assert!((1..=8).contains(&storage), "{}: {storage}", shader.name);
+            // Mesa 22.3's lavapipe crashes with four.
+            assert!(bindings.len() - storage <= 3, "{}: uniform buffers", shader.name);
             let declared = shader.source.matches("@binding(").count();
-            assert_eq!(declared, bindings.len(), "{}: a binding that is not on a line of its own", shader.name);
+            assert_eq!(
+                declared,
+                bindings.len(),
+                "{}: a binding that is not on a line of its own",
+                shader.name
+            );
             for (index, binding) in bindings.iter().enumerate() {
                 assert_eq!(binding.index, index as u32, "{}", shader.name);
             }

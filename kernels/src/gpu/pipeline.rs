@@ -73,7 +73,11 @@ impl Gpu {
             .map(|binding| wgpu::BindGroupLayoutEntry {
                 binding: binding.index,
                 visibility: wgpu::ShaderStages::COMPUTE,
-                ty: BindingType::Buffer { ty: binding.kind, has_dynamic_offset: false, min_binding_size: None },
+                ty: BindingType::Buffer {
+                    ty: binding.kind,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
                 count: None,
             })
             .collect();

@@ -33,7 +33,12 @@ impl Profile {
         let size = u64::from(MARKS) * 8;
         let buffer = |usage| {
             let label = Some("time stamps");
-            gpu.device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false })
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label,
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         let made = gpu.guarded(Some(("time stamps", size)), || Self {
             set: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
@@ -61,7 +66,7 @@ impl Profile {
         pass.write_timestamp(&self.set, 0);
     }
 
-    /// Notes the time after a pass of a kernel; passes of one kernel in a row become one.
+    /// Notes the time after the last pass of a kernel.
     pub(super) fn mark(&mut self, pass: &mut ComputePass<'_>, kernel: &'static str) {
         if self.kernels.len() + 1 < MARKS as usize {
             self.kernels.push(kernel);
@@ -79,12 +84,9 @@ impl Profile {
         let bytes = gpu.map(&self.staging)?;
         self.staging.unmap();
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
-        let mut first = 0;
-        for group in self.kernels.chunk_by(|a, b| a == b) {
-            let end = first + group.len();
-            let passed = ticks[end].saturating_sub(ticks[first]);
-            self.times.push((group[0], (passed as f64 * self.period_ms) as f32));
-            first = end;
+        for (kernel, ticks) in self.kernels.iter().zip(ticks.windows(2)) {
+            let passed = ticks[1].saturating_sub(ticks[0]);
+            self.times.push((*kernel, (passed as f64 * self.period_ms) as f32));
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use wgpu::{BindGroup, CommandEncoder};
+use wgpu::{BindGroup, CommandBuffer, CommandEncoder};
 
 use super::{
     answer::{Answer, CLOCK_BYTES, Start, WRENCH_BYTES},
@@ -34,6 +34,8 @@ pub struct Program {
     begin: Vec<Dispatch>,
     step: Vec<Dispatch>,
     finish: Vec<Dispatch>,
+    /// A step that is encoded and waits for its turn.
+    prepared: Option<CommandBuffer>,
 }
 
 impl Program {
@@ -67,7 +69,7 @@ impl Resident {
             self.bind("clock", &BODY_WRENCHES, &mut finish)?;
         }
         self.bind("clock", &FINISH, &mut finish)?;
-        Ok(Program { kernels: kernels.to_vec(), begin, step, finish })
+        Ok(Program { kernels: kernels.to_vec(), begin, step, finish, prepared: None })
     }
 
     fn bind(&self, kernel: &'static str, pass: &Pass, into: &mut Vec<Dispatch>) -> Result<(), GpuError> {
@@ -201,7 +203,11 @@ impl Resident {
     ) -> Result<Answer, GpuError> {
         let mut to_do = steps;
         loop {
-            self.submit_steps(program, to_do, profile.as_deref_mut())?;
+            if to_do == 1 && profile.is_none() {
+                self.submit_step(program)?;
+            } else {
+                self.submit_steps(program, to_do, profile.as_deref_mut())?;
+            }
             let answer = self.listen()?;
             to_do -= to_do.min(answer.steps - self.steps);
             self.steps = answer.steps;
@@ -210,6 +216,22 @@ impl Resident {
             };
             self.grow(longest, program)?;
         }
+    }
+
+    /// Submits one step, and encodes the next while the device works: with bodies, every step waits for the host.
+    fn submit_step(&mut self, program: &mut Program) -> Result<(), GpuError> {
+        let buffer = match program.prepared.take() {
+            Some(buffer) => buffer,
+            None => self.encode_step(program)?,
+        };
+        self.hand_in(buffer)?;
+        program.prepared = Some(self.encode_step(program)?);
+        Ok(())
+    }
+
+    fn encode_step(&self, program: &Program) -> Result<CommandBuffer, GpuError> {
+        let parts = [&program.begin[..], &program.step, &program.finish];
+        self.gpu.guarded(None, || self.encode(&parts, true, None))
     }
 
     /// Submits steps, a few at a time: the device works on some while the host encodes the next.
@@ -247,37 +269,53 @@ impl Resident {
         answers: bool,
         mut profile: Option<&mut Profile>,
     ) -> Result<(), GpuError> {
-        self.gpu.guarded(None, || {
-            let mut encoder = self.encoder();
-            {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                if let Some(profile) = profile.as_deref_mut() {
-                    profile.start(&mut pass);
-                }
-                for dispatch in parts.iter().copied().flatten() {
-                    pass.set_pipeline(&dispatch.pipeline.pipeline);
-                    pass.set_bind_group(0, &dispatch.bind, &[]);
-                    pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
-                    if let Some(profile) = profile.as_deref_mut() {
-                        profile.mark(&mut pass, dispatch.kernel);
-                    }
-                }
-            }
-            if let Some(profile) = profile.as_deref_mut() {
-                profile.resolve(&mut encoder);
-            }
-            if answers {
-                let (clock, wrenches) = (self.buffer("clock"), self.buffer("body_wrenches"));
-                encoder.copy_buffer_to_buffer(clock, 0, &self.answer, 0, CLOCK_BYTES);
-                let size = self.rows.bodies as u64 * WRENCH_BYTES;
-                encoder.copy_buffer_to_buffer(wrenches, 0, &self.answer, CLOCK_BYTES, size);
-            }
-            self.gpu.queue.submit([encoder.finish()]);
-        })?;
+        let buffer = self.gpu.guarded(None, || self.encode(parts, answers, profile.as_deref_mut()))?;
+        self.hand_in(buffer)?;
         match profile {
             Some(profile) => profile.collect(&self.gpu),
             None => Ok(()),
         }
+    }
+
+    fn hand_in(&self, buffer: CommandBuffer) -> Result<(), GpuError> {
+        self.gpu.guarded(None, || {
+            self.gpu.queue.submit([buffer]);
+        })
+    }
+
+    fn encode(
+        &self,
+        parts: &[&[Dispatch]],
+        answers: bool,
+        mut profile: Option<&mut Profile>,
+    ) -> CommandBuffer {
+        let mut encoder = self.encoder();
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            if let Some(profile) = profile.as_deref_mut() {
+                profile.start(&mut pass);
+            }
+            let mut dispatches = parts.iter().copied().flatten().peekable();
+            while let Some(dispatch) = dispatches.next() {
+                pass.set_pipeline(&dispatch.pipeline.pipeline);
+                pass.set_bind_group(0, &dispatch.bind, &[]);
+                pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
+                let ends = dispatches.peek().is_none_or(|next| next.kernel != dispatch.kernel);
+                if let Some(profile) = profile.as_deref_mut().filter(|_| ends) {
+                    profile.mark(&mut pass, dispatch.kernel);
+                }
+            }
+        }
+        if let Some(profile) = profile {
+            profile.resolve(&mut encoder);
+        }
+        if answers {
+            let (clock, wrenches) = (self.buffer("clock"), self.buffer("body_wrenches"));
+            encoder.copy_buffer_to_buffer(clock, 0, &self.answer, 0, CLOCK_BYTES);
+            let size = self.rows.bodies as u64 * WRENCH_BYTES;
+            encoder.copy_buffer_to_buffer(wrenches, 0, &self.answer, CLOCK_BYTES, size);
+        }
+        encoder.finish()
     }
 
     pub(super) fn encoder(&self) -> CommandEncoder {

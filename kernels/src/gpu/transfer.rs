@@ -134,7 +134,8 @@ impl Resident {
     pub fn upload(&mut self, columns: &mut Columns, which: &[Column], sorted: bool) -> Result<(), GpuError> {
         self.sorted = sorted;
         // Weights are computed where they are needed, from the points on both sides.
-        let weighs = |column: &Column| matches!(column, Column::FluidControlWeights | Column::ControlFluidWeights);
+        let weighs =
+            |column: &Column| matches!(column, Column::FluidControlWeights | Column::ControlFluidWeights);
         let points = if which.iter().any(weighs) { POINTS } else { &[] };
         for column in which.iter().chain(points) {
             if let Some((name, data)) = plain(columns, *column, sorted) {
@@ -149,7 +150,12 @@ impl Resident {
         self.gpu.check_lost()
     }
 
-    fn upload_lists(&mut self, columns: &mut Columns, name: &'static str, which: usize) -> Result<(), GpuError> {
+    fn upload_lists(
+        &mut self,
+        columns: &mut Columns,
+        name: &'static str,
+        which: usize,
+    ) -> Result<(), GpuError> {
         let (lists, rows, targets) = lists(columns, which);
         let lists: Vec<Vec<u32>> = (0..rows).map(|query| lists.of(query, targets).collect()).collect();
         let longest = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
@@ -179,7 +185,9 @@ impl Resident {
         let bodies = columns.rows.bodies;
         match column {
             Column::BodyStates => self.upload_bodies(&columns.bodies.states.0),
-            Column::BodyNodeWrenches => self.upload_wrenches("node_wrenches", &columns.bodies.node_wrenches, bodies),
+            Column::BodyNodeWrenches => {
+                self.upload_wrenches("node_wrenches", &columns.bodies.node_wrenches, bodies)
+            }
             Column::BodyFluidWrenches => {
                 self.upload_wrenches("fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
             }
@@ -271,10 +279,9 @@ impl Resident {
             take_extremes(columns, column, words);
         } else {
             let words: &[f32] = bytemuck::cast_slice(words);
-            let wrenches = words.chunks_exact(8).map(|words| Wrench {
-                impulse: vector(&words[..3]),
-                angular_impulse: vector(&words[4..7]),
-            });
+            let wrenches = words
+                .chunks_exact(8)
+                .map(|words| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) });
             let wrenches = Wrenches(wrenches.collect());
             match column {
                 Column::BodyFluidWrenches => columns.bodies.fluid_wrenches = wrenches,

@@ -72,7 +72,9 @@ fn distance(base: Option<Content>, found: Content, oracle: Content, ulps: f64) -
                 _ => oracle.iter().map(|group| vec![0.0; group.len()]).collect(),
             };
             let groups = found.iter().zip(&oracle).zip(&base);
-            groups.map(|((found, oracle), base)| group_distance(base, found, oracle, ulps)).fold(0.0, f64::max)
+            groups
+                .map(|((found, oracle), base)| group_distance(base, found, oracle, ulps))
+                .fold(0.0, f64::max)
         }
         (found, oracle) => {
             if found == oracle {

@@ -20,7 +20,9 @@ use crate::{
 const ULPS: f64 = 4.0;
 
 /// Largest error of any column over the scale of its changes, beyond [`ULPS`]; lists must be equal but for pairs at the
-/// very radius. The bounds are those of the CPU against the oracles.
+/// very radius. The bounds are those of the CPU against the oracles, but for sums over the particles of a node: the CPU
+/// adds up the 7000 of the largest scene one after the other, where a twin adds up thirty-two parts. They differ by
+/// up to 6.2e-6 there, and by no more than the oracle's bounds in scenes of the usual density.
 const BOUNDS: &[(&str, f64)] = &[
     ("grid::sort_fluid", 0.0),
     ("grid::fluid_neighbors", 0.0),
@@ -37,14 +39,14 @@ const BOUNDS: &[(&str, f64)] = &[
     ("pbd::contact", 3e-5),
     ("pbd::velocity", 1e-6),
     ("couple::controls", 0.0),
-    ("couple::saturation", 3e-6),
+    ("couple::saturation", 1e-5),
     ("couple::interior", 2e-6),
     ("couple::suction", 4e-6),
-    ("couple::zero_distance", 6e-6),
+    ("couple::zero_distance", 1.5e-5),
     ("couple::control_velocity", 3e-6),
     ("couple::drag", 2e-6),
-    ("couple::velocity_filter", 2e-6),
-    ("couple::exchange", 2e-6),
+    ("couple::velocity_filter", 5e-6),
+    ("couple::exchange", 5e-6),
 ];
 
 /// Sizes around those of a vector, of a group and of two lines of groups.
@@ -81,7 +83,8 @@ fn list_error(column: Column, before: &Scene, found: &Columns, expected: &Column
         let (lists, queries, targets, of_fluid, to_fluid) = pairs(columns, column);
         let (fluid, controls) = (&columns.fluid, &columns.controls);
         let identity = |row: usize, is_fluid: bool| if is_fluid { fluid.id[row] } else { controls.node[row] };
-        let place = |row: usize, is_fluid: bool| if is_fluid { fluid.position[row] } else { controls.position[row] };
+        let place =
+            |row: usize, is_fluid: bool| if is_fluid { fluid.position[row] } else { controls.position[row] };
         let mut all = Vec::new();
         for query in 0..queries {
             for target in lists.of(query, targets) {
