@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 use common::busy;
 use sorb::{
     Measures, Offload, Options, World, WorldError,
+    glam::Vec3,
     gpu::Gpu,
     scene::Scene,
     schedule::{Place, Verdict},
@@ -50,6 +51,7 @@ fn difference(a: &Measures, b: &Measures) -> (f64, &'static str) {
 }
 
 #[track_caller]
+#[expect(clippy::print_stdout, reason = "how far apart they are is worth reading in a test that passes")]
 fn assert_alike(name: &str, frames: u32, resolution: f32, bound: f64) {
     let scene = busy::scene(name, resolution);
     let (mut cpu, mut gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
@@ -81,7 +83,7 @@ scenes! { standing ball_drop squish dam_break wring water dry empty }
 fn chaos(name: &str, frames: u32, resolution: f32) -> f64 {
     let scene = busy::scene(name, resolution);
     let mut other = scene.clone();
-    let shift = sorb::glam::Vec3::new(1e-6, 1e-6, -1e-6);
+    let shift = Vec3::new(1e-6, 1e-6, -1e-6);
     if let Some(fluid) = &mut other.fluid {
         fluid.blocks.iter_mut().for_each(|block| block.velocity += shift);
     }

@@ -123,6 +123,7 @@ fn scenes() -> Vec<Options> {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "how far apart they are is worth reading in a test that passes")]
 fn twins_agree_with_the_cpu() {
     let (mut failures, mut worst) = (Vec::new(), vec![0.0_f64; KERNELS.len()]);
     for options in scenes() {
