@@ -4,11 +4,12 @@ use std::time::Instant;
 
 use sorb_kernels::{
     body::Wrench,
-    gpu::{Answer, Outcome, Start},
+    gpu::{Answer, GpuError, Outcome, Start},
 };
 
 use crate::{
     clock::Bound,
+    stores::Stores,
     world::{FrameReport, StepError, StepReport, World, move_bodies},
 };
 
@@ -87,7 +88,7 @@ impl World {
             fluid_acceleration: self.clock.fluid_acceleration,
             node_speed: self.clock.node_speed,
         };
-        let crate::stores::Stores { host, device } = &mut self.stores;
+        let Stores { host, device } = &mut self.stores;
         match device {
             Some(device) => Ok(device.begin(host, &self.params, &start)?),
             None => Ok(()),
@@ -96,9 +97,9 @@ impl World {
 
     fn advance_on_device(&mut self, steps: u32) -> Result<Answer, StepError> {
         let clock = Instant::now();
-        let crate::stores::Stores { host, device } = &mut self.stores;
+        let Stores { host, device } = &mut self.stores;
         let Some(device) = device else {
-            return Err(StepError::Rigid("the world has no device".to_owned()));
+            return Err(GpuError::Refused { reason: "the world has no device".to_owned() }.into());
         };
         let answer = device.advance(host, steps)?;
         let seconds = clock.elapsed().as_secs_f64();

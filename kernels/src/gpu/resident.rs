@@ -117,7 +117,7 @@ impl Resident {
 
     /// A buffer of the layout.
     pub(super) fn buffer(&self, name: &'static str) -> &Buffer {
-        // Every name in the tables of this module is in the layout; a test of the table looks each of them up.
+        // Every name in the table of twins is in the layout: the tests bind every pass.
         &self.buffers[name]
     }
 
