@@ -131,6 +131,9 @@ impl Device {
         let program = resident.program(&self.shares.gpu)?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
         self.resident = Some(On { resident, program, profile });
+        if self.has_all() {
+            forget_lists(host);
+        }
         Ok(())
     }
 
@@ -181,4 +184,12 @@ impl Device {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
     }
+}
+
+/// Cells and lists of the CPU, which nobody keeps up to date while the device takes the steps: most of the memory.
+fn forget_lists(host: &mut Columns) {
+    let Columns { fluid, controls, .. } = host;
+    (fluid.cells, fluid.neighbors) = Default::default();
+    (fluid.controls, fluid.control_weights) = Default::default();
+    (controls.cells, controls.fluid, controls.fluid_weights) = Default::default();
 }

@@ -21,7 +21,7 @@ impl World {
     pub(crate) fn step_on_device(&mut self) -> Result<StepReport, StepError> {
         self.begin_on_device(f32::MAX)?;
         let before = self.clock.steps;
-        let answer = self.advance_on_device(1)?;
+        let answer = self.advance_on_device(1, 0)?;
         let time = f64::from(answer.last_step);
         if answer.steps == 1 {
             self.clock.time += time;
@@ -52,8 +52,9 @@ impl World {
             self.begin_on_device(whole as f32)?;
         }
         while end - self.clock.time > 1e-9 {
-            let answer = self.advance_on_device(self.steps_to(end))?;
-            let taken = answer.steps - (self.clock.steps - first) as u32;
+            let before = (self.clock.steps - first) as u32;
+            let answer = self.advance_on_device(self.steps_to(end), before)?;
+            let taken = answer.steps - before;
             self.clock.steps = first + u64::from(answer.steps);
             // The end is reached exactly: the last step is what is left.
             let is_over = answer.left <= 1e-9;
@@ -95,7 +96,8 @@ impl World {
         }
     }
 
-    fn advance_on_device(&mut self, steps: u32) -> Result<Answer, StepError> {
+    /// Takes steps, and the time they take; `before` have been taken since the time was set.
+    fn advance_on_device(&mut self, steps: u32, before: u32) -> Result<Answer, StepError> {
         let clock = Instant::now();
         let Stores { host, device } = &mut self.stores;
         let Some(device) = device else {
@@ -103,7 +105,7 @@ impl World {
         };
         let answer = device.advance(host, steps)?;
         let seconds = clock.elapsed().as_secs_f64();
-        self.runner.record(seconds, answer.steps.max(1).min(steps), &device.times());
+        self.runner.record(seconds, answer.steps - before, &device.times());
         Ok(answer)
     }
 
