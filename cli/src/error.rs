@@ -41,6 +41,15 @@ pub(crate) enum CliError {
         /// The out folder.
         folder: PathBuf,
     },
+    /// The GPU failed; everything up to there has been written.
+    #[cfg(feature = "gpu")]
+    #[error("{error}\nwhat was done until then is in {}", folder.display())]
+    Gpu {
+        /// What went wrong.
+        error: StepError,
+        /// The out folder.
+        folder: PathBuf,
+    },
 }
 
 impl CliError {

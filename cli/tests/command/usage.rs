@@ -36,6 +36,19 @@ fn an_unknown_or_missing_simd_level_names_those_there_are() {
 }
 
 #[test]
+fn an_unknown_backend_names_those_there_are() {
+    refused(&["water", "--backend", "cuda"], &["cuda", "cpu, gpu, auto, from:KERNEL"]);
+    refused(&["water", "--backend", "from:sph::nothing"], &["sph::nothing", "from:KERNEL"]);
+}
+
+#[cfg(not(feature = "gpu"))]
+#[test]
+fn a_gpu_needs_the_feature() {
+    refused(&["water", "--backend", "gpu"], &["gpu", "built without the feature"]);
+    refused(&["water", "--backend", "from:sph::kick"], &["from:sph::kick", "built without the feature"]);
+}
+
+#[test]
 fn numbers_out_of_range_are_refused() {
     refused(&["water", "--threads", "0"], &["0 threads", "1 to 1024"]);
     refused(&["water", "--threads", "100000"], &["100000 threads", "1 to 1024"]);
