@@ -6,6 +6,7 @@ use crate::support::{Answer, Scratch, sorb};
 
 const KEYS: [&str; 20] = [
     "backend",
+    "backend_reason",
     "digest",
     "diverged",
     "frame_ms_median",
