@@ -108,6 +108,7 @@ impl Plan {
     }
 
     /// The same plan, placed.
+    #[cfg(feature = "gpu")]
     pub(crate) fn placed(mut self, placement: Placement) -> Self {
         self.placement = Some(placement);
         self

@@ -41,11 +41,13 @@ impl Plan {
     }
 
     /// The first kernel that runs.
+    #[cfg(feature = "gpu")]
     pub(crate) fn first_kernel(&self) -> Option<&'static str> {
         self.kernels().first().map(|kernel| kernel.name)
     }
 
     /// Whether a kernel runs.
+    #[cfg(feature = "gpu")]
     pub(crate) fn runs(&self, name: &str) -> bool {
         self.lines().iter().any(|line| line.name == name && line.verdict == Verdict::Runs)
     }

@@ -292,7 +292,7 @@ impl World {
             }
             return rigid.map_err(|error| StepError::Rigid(error.to_string()));
         }
-        runner.run(cpu, params, &mut stores.host, host);
+        runner.run(cpu, params, &mut stores.host, &mut host);
         rigid.map_err(|error| StepError::Rigid(error.to_string()))
     }
 

@@ -4,7 +4,7 @@ use std::{collections::BTreeSet, fs::File, io::BufReader};
 
 use crate::support::{Answer, Scratch, sorb};
 
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "backend",
     "backend_reason",
     "digest",
