@@ -233,6 +233,8 @@ pub(super) fn blocks() -> Vec<Block> {
 fn params(options: Options) -> Params {
     let spacing = options.spacing();
     let radius = 2.2 * spacing;
+    // A power of a constant is rounded once, and the oracles' bounds are for that mass.
+    let cube = if options.refinement() == 1 { SPACING.powi(3) } else { spacing.powi(3) };
     let sum = Wendland::lattice_sum(f64::from(radius), f64::from(spacing)) as f32;
     let (low, high) = (Vec3::new(-0.002, 0.0024, -0.001), Vec3::new(0.0775, 0.06, 0.05));
     let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
@@ -244,7 +246,7 @@ fn params(options: Options) -> Params {
         fluid: FluidParams {
             spacing,
             rest_density: 1000.0,
-            particle_mass: 1000.0 * spacing.powi(3) / sum,
+            particle_mass: 1000.0 * cube / sum,
             smoothing: Wendland::new(radius),
             equation_of_state: options.equation_of_state,
             sound_speed: 10.0,
