@@ -44,7 +44,8 @@ const BOUNDS: &[(&str, f64)] = &[
     ("couple::exchange", 2e-6),
 ];
 
-fn bound(kernel: &Kernel) -> f64 {
+/// The bound of a kernel; twins on a GPU are held to it as well.
+pub(super) fn bound(kernel: &Kernel) -> f64 {
     let found = BOUNDS.iter().find(|(name, _)| *name == kernel.name);
     found.unwrap_or_else(|| panic!("{} has no bound", kernel.name)).1
 }
