@@ -15,8 +15,9 @@ use sorb::{
     World,
     columns::Columns,
     cpu::Cpu,
-    kernel::{KERNELS, Kernel},
-    params::Params,
+    kernel::{KERNELS, Kernel, Need},
+    params::{self, Params},
+    scene::Solver,
 };
 
 /// (name, resolution): 7650 and about 100 000 particles.
@@ -26,8 +27,9 @@ const STEPS: u32 = 5;
 /// Calls after which the columns are restored: most kernels change what they read, such as positions.
 const CALLS: u64 = 16;
 
-fn prepared(resolution: f32) -> World {
+fn prepared(resolution: f32, solver: Solver) -> World {
     let mut scene = busy::scene("ball_drop", resolution);
+    scene.sponges.iter_mut().for_each(|sponge| sponge.solver = solver);
     if let Some(fluid) = &mut scene.fluid {
         fluid.surface_tension = 0.072;
     }
@@ -42,6 +44,12 @@ fn prepared(resolution: f32) -> World {
     // What is timed must be what it claims to be: the same bits every time.
     assert_eq!(world.digest(), run().digest(), "two runs differ");
     world
+}
+
+/// The world in which a kernel has work: one per solver.
+fn world_of(kernel: &Kernel) -> usize {
+    let needs = |solver| kernel.needs.contains(&Need::Solver(solver));
+    usize::from(needs(params::Solver::Vbd)) + 2 * usize::from(needs(params::Solver::XpbdNeoHookean))
 }
 
 /// Time of some calls, each block of them on fresh columns.
@@ -66,8 +74,10 @@ fn time(kernel: &Kernel, cpu: &Cpu, params: &Params, prepared: &Columns, iterati
 
 fn kernels(criterion: &mut Criterion) {
     for (size, resolution) in SIZES {
-        let world = prepared(resolution);
+        let worlds =
+            [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean].map(|solver| prepared(resolution, solver));
         for kernel in KERNELS {
+            let world = &worlds[world_of(kernel)];
             let mut group = criterion.benchmark_group(kernel.name);
             group.sampling_mode(SamplingMode::Flat);
             let rows = world.columns().rows.of(kernel.writes[0].store());

@@ -2,9 +2,17 @@
 
 use std::f32::consts::PI;
 
-use sorb_kernels::params::Params;
+use sorb_kernels::params::{Params, Solver};
 
 use crate::scene::{Scene, Time};
+
+/// Time in which an elastic wave crosses a cell that a step of `xpbd_neo_hookean` may take: a cantilever then sags by what
+/// it should within a per cent.
+const NEO_HOOKEAN: f32 = 0.5;
+
+/// The same of `vbd`, which is stable at any step; beyond, vibrations fade more by the length of the step than by
+/// anything else.
+const DESCENT: f32 = 4.0;
 
 /// What limited a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +31,7 @@ pub enum Bound {
     SurfaceTension,
     /// Suction against the mass of a dry node.
     Suction,
-    /// Elastic waves of a dry sponge cross a quarter of the lattice constant.
+    /// Elastic waves of a dry sponge cross some part of the lattice constant, which depends on its solver.
     Elasticity,
     /// Nodes cross a quarter of the lattice constant.
     SpongeSpeed,
@@ -113,10 +121,17 @@ impl Steps {
             }
         }
         for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
-            // The solver is stable beyond, but one sweep a step is then far from converged: a ball that falls on a dry
-            // sponge gains energy, and turns tets inside out.
-            let modulus = sponge.stretch_modulus.max(sponge.shear_modulus).max(sponge.volume_modulus);
-            bounds.push((0.25 * sponge.edge * (scene.density / modulus).sqrt(), Bound::Elasticity));
+            let crossing = |modulus: f32| sponge.edge * (scene.density / modulus).sqrt();
+            bounds.push(match sponge.solver {
+                // The solver is stable beyond, but one sweep a step is then far from converged: a ball that falls on a
+                // dry sponge gains energy, and turns tets inside out.
+                Solver::Sbd => {
+                    let modulus = sponge.stretch_modulus.max(sponge.shear_modulus).max(sponge.volume_modulus);
+                    (0.25 * crossing(modulus), Bound::Elasticity)
+                }
+                Solver::XpbdNeoHookean => (NEO_HOOKEAN * crossing(scene.young_modulus), Bound::Elasticity),
+                Solver::Vbd => (DESCENT * crossing(scene.young_modulus), Bound::Elasticity),
+            });
         }
         let constant = smallest(&bounds);
         let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);

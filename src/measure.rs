@@ -1,6 +1,7 @@
 //! Measures of a state: what conservation, validation and tables need, in f64.
 
 use glam::DVec3;
+use sorb_kernels::params::{Solver, SpongeParams};
 
 use crate::{World, rigid::Mechanics};
 
@@ -116,7 +117,7 @@ impl Measures {
         self.add_tets(world);
     }
 
-    /// Volume and strain energy of the tets, as `pbd::strain` defines them.
+    /// Volume and strain energy of the tets.
     fn add_tets(&mut self, world: &World) {
         let nodes = world.node_positions();
         for (tet, sponge) in world.lattice().tets.iter().zip(&world.lattice().tet_sponge) {
@@ -126,16 +127,27 @@ impl Measures {
             let (d, e, f) = ((p1 - p0) / edge, (p2 - p3) / edge, (p2 + p3 - p0 - p1) / edge);
             let ratio = d.dot(e.cross(f));
             let rest = edge.powi(3) / 12.0;
-            let stretch: f64 = [d, e, f].iter().map(|column| (column.length() - 1.0).powi(2)).sum();
-            let shear = d.dot(e).powi(2) + d.dot(f).powi(2) + e.dot(f).powi(2);
             self.sponge_volume += rest * ratio;
-            self.elastic_energy += 0.5
-                * rest
-                * (f64::from(sponge.stretch_modulus) * stretch
-                    + f64::from(sponge.shear_modulus) * shear
-                    + f64::from(sponge.volume_modulus) * (ratio - 1.0).powi(2));
+            self.elastic_energy += rest * energy_density(sponge, [d, e, f], ratio);
         }
     }
+}
+
+/// Energy of a tet over its volume at rest \[Pa\], as the solver of its sponge defines it; zero at rest.
+fn energy_density(sponge: &SpongeParams, columns: [DVec3; 3], ratio: f64) -> f64 {
+    if sponge.solver != Solver::Sbd {
+        let (mu, lambda) = (f64::from(sponge.mu), f64::from(sponge.lambda));
+        let square: f64 = columns.iter().map(|column| column.length_squared()).sum();
+        let alpha = 1.0 + mu / lambda;
+        let rest = (1.0 - alpha).powi(2);
+        return 0.5 * (mu * (square - 3.0) + lambda * ((ratio - alpha).powi(2) - rest));
+    }
+    let [d, e, f] = columns;
+    let stretch: f64 = columns.iter().map(|column| (column.length() - 1.0).powi(2)).sum();
+    let shear = d.dot(e).powi(2) + d.dot(f).powi(2) + e.dot(f).powi(2);
+    0.5 * (f64::from(sponge.stretch_modulus) * stretch
+        + f64::from(sponge.shear_modulus) * shear
+        + f64::from(sponge.volume_modulus) * (ratio - 1.0).powi(2))
 }
 
 fn vector(row: &[f32; 4]) -> DVec3 {

@@ -7,8 +7,11 @@ use sorb_kernels::{
     couple::interior::node_interior,
     cpu::Cpu,
     grid::cells::Domain,
-    params::{EquationOfState, FluidParams, Params, SpongeParams},
-    pbd::lattice::{TetChunk, Topology},
+    params::{EquationOfState, FluidParams, Params, Solver, SpongeParams},
+    pbd::{
+        lattice::{TetChunk, Topology},
+        stars::Stars,
+    },
     smoothing::Wendland,
 };
 
@@ -118,13 +121,25 @@ fn fluid_params(scene: &Scene) -> FluidParams {
 fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
     let (viscosity, density) =
         scene.fluid.as_ref().map_or((0.0, 1.0), |fluid| (fluid.viscosity, fluid.rest_density));
+    let (mu, lambda) = SpongeParams::neo_hookean(sponge.young_modulus, sponge.poisson_ratio);
     SpongeParams {
         edge: sponge.edge,
+        solver: match sponge.solver {
+            scene::Solver::Sbd => Solver::Sbd,
+            scene::Solver::Vbd => Solver::Vbd,
+            scene::Solver::XpbdNeoHookean => Solver::XpbdNeoHookean,
+        },
+        mu,
+        lambda,
+        damping: sponge.damping,
         stretch_modulus: sponge.stretch_modulus,
         shear_modulus: sponge.shear_modulus,
         volume_modulus: sponge.volume_modulus,
         damping_time: sponge.damping_time,
-        iterations: sponge.iterations,
+        iterations: match sponge.solver {
+            scene::Solver::XpbdNeoHookean => 1,
+            _ => sponge.iterations,
+        },
         friction: sponge.friction,
         porosity: sponge.porosity,
         drag_rate: viscosity * sponge.porosity / (density * sponge.permeability),
@@ -254,6 +269,7 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     nodes.position.resize(rows, FAR_ROW);
     nodes.velocity.resize(rows, [0.0; 4]);
     nodes.topology = topology(lattice);
+    nodes.stars = Stars::new(&nodes.topology, &lattice.position, &lattice.node_sponge);
     debug_assert_eq!(params.sponges.len(), scene.sponges.len());
 }
 

@@ -8,7 +8,7 @@ use sorb::{
     columns::Column,
     cpu::Cpu,
     kernel::{Kernel, Need},
-    params::Params,
+    params::{Params, Solver},
     schedule::{Content, Phase, Plan, Runner, STEP, Verdict},
 };
 
@@ -129,6 +129,7 @@ static SATURATION: Kernel = Kernel {
 const WET: Content = Content {
     fluid: true,
     sponge: false,
+    solvers: [None; 3],
     walls: false,
     bodies: false,
     surface_tension: false,
@@ -170,9 +171,11 @@ fn what_nobody_reads_is_skipped_unless_it_is_observed() {
 
 #[test]
 fn the_step_itself_is_consistent_for_every_content() {
-    for bits in 0..32_u32 {
+    const SOLVERS: [Solver; 3] = [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean];
+    for bits in 0..256_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
-        let content = Content { fluid, sponge, walls, bodies, surface_tension, iterations: 1 };
+        let solvers = [0, 1, 2].map(|k| (bits >> (5 + k) & 1 == 1).then_some(SOLVERS[k]));
+        let content = Content { fluid, sponge, solvers, walls, bodies, surface_tension, iterations: 1 };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
         }

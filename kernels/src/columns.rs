@@ -14,7 +14,7 @@ use crate::{
         cells::Cells,
         neighbors::{ListValues, Neighbors},
     },
-    pbd::lattice::Topology,
+    pbd::{lattice::Topology, stars::Stars},
     reduce::{Extremes, Wrenches},
 };
 
@@ -184,7 +184,8 @@ columns! {
     nodes: Nodes {
         /// Position of the node; w: inverse mass \[1/kg\], 0 for a held node.
         NodePosition = position: Vec<[f32; 4]>, "m", State;
-        /// Velocity of the node; w: unused.
+        /// Velocity of the node; w: share of the external acceleration that it followed in the last step, 0 to 1, see
+        /// `pbd::guess`.
         NodeVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
         /// Volume of sponge that the node stands for, pores included.
         NodeVolume = volume: Vec<f32>, "m^3", Constant;
@@ -200,6 +201,13 @@ columns! {
         NodeGripOffset = grip_offset: Vec<[f32; 4]>, "m", Constant;
         /// Tets, their colours and the chunks that colours are solved in.
         NodeTopology = topology: Topology, "1", Constant;
+        /// Neighbours and tets of every node.
+        NodeStars = stars: Stars, "1", Constant;
+        /// Where the node would go without elastic forces; w: unused.
+        NodeTarget = target: Vec<[f32; 4]>, "m", Scratch;
+        /// What walls, bodies and grips gave to the node in this step; w: its mass if it is free to move, else minus the
+        /// mass that would resist like what holds it \[kg\].
+        NodeReaction = reaction: Vec<[f32; 4]>, "N s", Scratch;
         /// Predicted position, corrected by the constraints; w: inverse mass \[1/kg\].
         NodePredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
         /// External acceleration, by gravity and the fluid; w: unused.

@@ -5,7 +5,7 @@ use crate::{
     couple,
     cpu::Cpu,
     grid,
-    params::Params,
+    params::{Params, Solver},
     pbd, sph,
 };
 
@@ -16,6 +16,10 @@ pub enum Need {
     Fluid,
     /// A sponge.
     Sponge,
+    /// A sponge that this solver solves.
+    Solver(Solver),
+    /// A sponge whose solver moves nodes first and contact afterwards.
+    Projection,
     /// Walls of a container, or bodies.
     Obstacles,
     /// Fluid with surface tension.
@@ -29,6 +33,10 @@ impl Need {
         match self {
             Self::Fluid => "no fluid",
             Self::Sponge => "no sponge",
+            Self::Solver(Solver::Sbd) => "no sponge with solver sbd",
+            Self::Solver(Solver::Vbd) => "no sponge with solver vbd",
+            Self::Solver(Solver::XpbdNeoHookean) => "no sponge with solver xpbd_neo_hookean",
+            Self::Projection => "no sponge with solver sbd or xpbd_neo_hookean",
             Self::Obstacles => "no walls and no bodies",
             Self::SurfaceTension => "surface tension is zero",
         }
@@ -64,8 +72,13 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::advect::KERNEL,
     &pbd::gravity::KERNEL,
     &pbd::predict::KERNEL,
+    &pbd::guess::KERNEL,
     &pbd::strain::KERNEL,
+    &pbd::xpbd_neo_hookean::KERNEL,
+    &pbd::vbd::KERNEL,
     &pbd::contact::KERNEL,
+    &pbd::reaction::KERNEL,
+    &pbd::momentum::KERNEL,
     &pbd::velocity::KERNEL,
     &couple::controls::KERNEL,
     &couple::saturation::KERNEL,

@@ -23,6 +23,14 @@ pub struct Params {
     pub coupling: Wendland,
 }
 
+impl Params {
+    /// How a sponge is solved; none for what is no sponge, as in padding rows.
+    #[must_use]
+    pub(crate) fn solver(&self, sponge: u32) -> Option<Solver> {
+        self.sponges.get(sponge as usize).map(|sponge| sponge.solver)
+    }
+}
+
 /// How pressure follows from density.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EquationOfState {
@@ -59,18 +67,37 @@ pub struct FluidParams {
     pub repulsion_damping: f32,
 }
 
+/// How a sponge is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// Strain constraints on the tets, one after the other (`pbd::strain`).
+    Sbd,
+    /// Vertex block descent on the energy of the nodes (`pbd::vbd`).
+    Vbd,
+    /// Two coupled constraints per tet (`pbd::xpbd_neo_hookean`).
+    XpbdNeoHookean,
+}
+
 /// One sponge.
 #[derive(Clone, Debug)]
 pub struct SpongeParams {
     /// Lattice constant \[m\].
     pub edge: f32,
+    /// How it is solved.
+    pub solver: Solver,
+    /// Shear constant mu of the stable Neo-Hookean energy \[Pa\]; of `vbd` and `xpbd_neo_hookean`, like the next two.
+    pub mu: f32,
+    /// Volume constant lambda of that energy, the first Lame constant plus mu \[Pa\].
+    pub lambda: f32,
+    /// Ratio of viscous to elastic stress per strain rate \[s\].
+    pub damping: f32,
     /// Energy density per squared stretch \[Pa\].
     pub stretch_modulus: f32,
     /// Energy density per squared shear \[Pa\].
     pub shear_modulus: f32,
     /// Energy density per squared change of volume \[Pa\].
     pub volume_modulus: f32,
-    /// Ratio of viscous to elastic stress per strain rate \[s\].
+    /// Ratio of viscous to elastic stress per strain rate of `sbd` \[s\].
     pub damping_time: f32,
     /// Solver iterations of a step.
     pub iterations: u32,
@@ -86,4 +113,17 @@ pub struct SpongeParams {
     pub saturation_gain: f32,
     /// Stiffness of the zero-distance constraint over that of the exact reaction \[1\].
     pub reaction: f32,
+}
+
+impl SpongeParams {
+    /// Constants of the stable Neo-Hookean energy, `mu` and `lambda` \[Pa\], of Young's modulus \[Pa\] and Poisson's ratio.
+    ///
+    /// Near rest the energy is that of a linear material with `mu` and a first Lame constant of `lambda - mu`.
+    #[must_use]
+    pub fn neo_hookean(young_modulus: f32, poisson_ratio: f32) -> (f32, f32) {
+        let (young, poisson) = (f64::from(young_modulus), f64::from(poisson_ratio));
+        let mu = young / (2.0 * (1.0 + poisson));
+        let lame = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+        (mu as f32, (lame + mu) as f32)
+    }
 }

@@ -12,7 +12,16 @@ struct Sponge {
     entry_pressure: f32,
     saturation_gain: f32,
     reaction: f32,
+    solver: u32,
+    mu: f32,
+    lambda: f32,
+    damping: f32,
 }
+
+// Solvers.
+const SBD: u32 = 0u;
+const VBD: u32 = 1u;
+const XPBD_NEO_HOOKEAN: u32 = 2u;
 
 struct Sponges {
     all: array<Sponge, 256>,

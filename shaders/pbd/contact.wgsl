@@ -53,17 +53,20 @@ fn main(
     var point = vec3<f32>(0.0);
     var old = vec3<f32>(0.0);
     var w = 0.0;
+    // Held nodes, and those that meet obstacles in their own solver, stay where they are.
+    var moves = false;
     if (is_row) {
         point = predicted[row].xyz;
         w = predicted[row].w;
         old = position[row].xyz;
+        moves = w > 0.0 && sponges.all[node_sponge[row]].solver != VBD;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = bodies[index];
         let drift = body_velocity(body, point) * clock.step;
         // The body stands where it began the step: so is the node, in the body's frame.
         let surface = body_surface(body, point - drift);
-        let depth = select(0.0, max(-surface.distance, 0.0), w > 0.0 && body.info.w != 0u);
+        let depth = select(0.0, max(-surface.distance, 0.0), moves && body.info.w != 0u);
         let change = contact(depth, surface.normal, point - old - drift, body.surface.x);
         point += change;
         if (group_touches(lane, depth > 0.0)) {
@@ -81,7 +84,7 @@ fn main(
         }
     }
     if (is_row) {
-        if (params.wall_low.w > 0.0 && w > 0.0) {
+        if (params.wall_low.w > 0.0 && moves) {
             point = walls(point, old, sponges.all[node_sponge[row]].friction);
         }
         predicted[row] = vec4<f32>(point, w);

@@ -120,6 +120,9 @@ fn main(
     }
     let tet = tets[batch.first + row];
     let sponge = sponges.all[tet_sponge[batch.first + row]];
+    if (sponge.solver != SBD) {
+        return;
+    }
     let a = predicted[tet.x];
     let b = predicted[tet.y];
     let c = predicted[tet.z];

@@ -51,9 +51,15 @@ pub static SHADERS: &[Shader] = shaders! {
     grid::sort_fluid: grid;
     pbd::contact: body surface sponges wrench;
     pbd::gravity: ;
+    pbd::guess: sponges;
+    pbd::momentum: sponges;
+    pbd::momentum_sums: sponges;
     pbd::predict: body;
+    pbd::reaction: body surface sponges wrench descent;
     pbd::strain: sponges;
+    pbd::vbd: body surface sponges descent;
     pbd::velocity: ;
+    pbd::xpbd_neo_hookean: sponges;
     sph::advect: ;
     sph::body_wrenches: wrench;
     sph::density: smoothing;

@@ -66,5 +66,5 @@ pub use motion::Motion;
 pub use presets::{Preset, preset, presets};
 #[cfg(feature = "serde")]
 pub use schema::schema;
-pub use sponge::{Axis, Sponge, SpongeShape};
+pub use sponge::{Axis, Solver, Sponge, SpongeShape};
 pub use top::{Domain, Scene, Time, VERSION};

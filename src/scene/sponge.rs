@@ -45,6 +45,21 @@ impl SpongeShape {
     }
 }
 
+/// How the elasticity of a sponge is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Solver {
+    /// Vertex block descent: a material of `young_modulus`, `poisson_ratio` and `damping`, stable at any step.
+    #[default]
+    Vbd,
+    /// Strain based dynamics, the model of the paper: `stretch_modulus`, `shear_modulus`, `volume_modulus` and
+    /// `damping_time`.
+    Sbd,
+    /// Two coupled Neo-Hookean constraints per tet: the material of `vbd`, at short steps of one sweep.
+    XpbdNeoHookean,
+}
+
 /// A sponge: geometry, pores and elasticity.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
@@ -96,17 +111,33 @@ pub struct Sponge {
     ///
     /// At 1 momentum is conserved and a sponge standing in water stays where it is.
     pub reaction: f32,
-    /// Stiffness against stretching. Range 10 to 1e9 Pa; default 20000.
-    pub stretch_modulus: f32,
-    /// Stiffness against shearing. Range 10 to 1e9 Pa; default 10000.
-    pub shear_modulus: f32,
-    /// Stiffness against changes of volume. Range 10 to 1e9 Pa; default 20000.
-    pub volume_modulus: f32,
-    /// Time in which internal vibration fades. Range 0 to 10 s; default 5e-4.
-    pub damping_time: f32,
-    /// Solver sweeps per step. Range 1 to 64; default 1.
+    /// How elasticity is solved: `vbd` (default), `sbd` or `xpbd_neo_hookean`.
+    pub solver: Solver,
+    /// Young's modulus of the sponge with its pores: stress over strain of a bar that is pulled. Range 10 to 1e9 Pa;
+    /// default 20000. Of `vbd` and `xpbd_neo_hookean`, like the next two.
+    pub young_modulus: f32,
+    /// Poisson's ratio: how much thinner a bar becomes over how much longer. Range 0 to 0.49; default 0.2.
     ///
-    /// More sweeps are stiffer under load; cost grows in proportion.
+    /// Above 0.45 the lattice itself is too stiff.
+    pub poisson_ratio: f32,
+    /// Viscous stress over elastic stress per strain rate. Range 0 to 10 s; default 0.
+    ///
+    /// A vibration of angular frequency `w` fades at the rate `damping * w * w / 2`. The solver itself damps as much as
+    /// about a step's length here does.
+    pub damping: f32,
+    /// Stiffness of `sbd` against stretching. Range 10 to 1e9 Pa; default 20000.
+    pub stretch_modulus: f32,
+    /// Stiffness of `sbd` against shearing. Range 10 to 1e9 Pa; default 10000.
+    pub shear_modulus: f32,
+    /// Stiffness of `sbd` against changes of volume. Range 10 to 1e9 Pa; default 20000.
+    pub volume_modulus: f32,
+    /// Time in which internal vibration of `sbd` fades. Range 0 to 10 s; default 5e-4.
+    pub damping_time: f32,
+    /// Solver sweeps per step. Range 1 to 64; default 4.
+    ///
+    /// `vbd`: more sweeps follow fast motion better; what is at rest is exact at any number. `sbd`: more sweeps are stiffer
+    /// under load, and 1 is the number of the paper. `xpbd_neo_hookean` takes one, whatever this says. Cost grows in
+    /// proportion.
     pub iterations: u32,
     /// Coulomb friction against bodies and walls. Range 0 to 10; default 0.5.
     pub friction: f32,
@@ -130,11 +161,15 @@ impl Default for Sponge {
             suction_radius: 1.5,
             saturation_gain: 1.0,
             reaction: 1.0,
+            solver: Solver::Vbd,
+            young_modulus: 2e4,
+            poisson_ratio: 0.2,
+            damping: 0.0,
             stretch_modulus: 2e4,
             shear_modulus: 1e4,
             volume_modulus: 2e4,
             damping_time: 0.0005,
-            iterations: 1,
+            iterations: 4,
             friction: 0.5,
             saturation: 0.0,
         }

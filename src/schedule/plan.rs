@@ -5,6 +5,7 @@ use std::fmt;
 use sorb_kernels::{
     columns::{Column, Life},
     kernel::Kernel,
+    params::Solver,
 };
 
 use super::{
@@ -19,6 +20,8 @@ pub struct Content {
     pub fluid: bool,
     /// Sponges.
     pub sponge: bool,
+    /// Solvers of the sponges, each once.
+    pub solvers: [Option<Solver>; 3],
     /// Walls of a container.
     pub walls: bool,
     /// Rigid bodies.

@@ -4,6 +4,7 @@ use sorb_kernels::{
     columns::Column,
     couple, grid,
     kernel::{Kernel, Need},
+    params::Solver,
     pbd, sph,
 };
 
@@ -69,10 +70,18 @@ pub static STEP: &[Phase] = &[
     Run(&pbd::gravity::KERNEL),
     Run(&couple::zero_distance::KERNEL),
     Run(&pbd::predict::KERNEL),
+    Run(&pbd::guess::KERNEL),
     Repeat {
         times: Times::SolverIterations,
-        phases: &[Run(&pbd::strain::KERNEL), Run(&pbd::contact::KERNEL)],
+        phases: &[
+            Run(&pbd::strain::KERNEL),
+            Run(&pbd::xpbd_neo_hookean::KERNEL),
+            Run(&pbd::vbd::KERNEL),
+            Run(&pbd::contact::KERNEL),
+        ],
     },
+    Run(&pbd::reaction::KERNEL),
+    Run(&pbd::momentum::KERNEL),
     Run(&pbd::velocity::KERNEL),
     Run(&sph::forces::KERNEL),
     Run(&sph::surface_tension::KERNEL),
@@ -98,6 +107,11 @@ pub(super) fn is_met(need: Need, content: super::Content) -> bool {
     match need {
         Need::Fluid => content.fluid,
         Need::Sponge => content.sponge,
+        Need::Solver(solver) => content.solvers.contains(&Some(solver)),
+        Need::Projection => {
+            let projects = |solver: &Option<Solver>| solver.is_some_and(|solver| solver != Solver::Vbd);
+            content.solvers.iter().any(projects)
+        }
         Need::Obstacles => content.walls || content.bodies,
         Need::SurfaceTension => content.surface_tension,
     }

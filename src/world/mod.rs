@@ -11,7 +11,7 @@ use sorb_kernels::{
     couple,
     cpu::Cpu,
     grid,
-    params::Params,
+    params::{Params, Solver},
     sph,
 };
 
@@ -133,6 +133,8 @@ impl World {
         let content = Content {
             fluid: columns.rows.fluid > 0,
             sponge: columns.rows.nodes > 0,
+            solvers: [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean]
+                .map(|solver| params.sponges.iter().any(|sponge| sponge.solver == solver).then_some(solver)),
             walls: params.walls.is_some(),
             bodies: columns.rows.bodies > 0,
             surface_tension: params.fluid.surface_tension > 0.0,

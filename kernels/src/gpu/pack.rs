@@ -6,8 +6,11 @@ use crate::{
     body::{Body, Shape},
     columns::RowCounts,
     grid::cells::Domain,
-    params::{EquationOfState, Params, SpongeParams},
-    pbd::lattice::{COLORS, Topology},
+    params::{EquationOfState, Params, Solver, SpongeParams},
+    pbd::{
+        lattice::{COLORS, Topology},
+        stars::{NEIGHBORS, Stars},
+    },
     smoothing::Wendland,
 };
 
@@ -15,6 +18,10 @@ use crate::{
 pub(super) const SPONGES: usize = 256;
 /// Bytes from one batch of tets to the next: the alignment that every device takes.
 pub(super) const BATCH_STRIDE: u64 = 256;
+/// Batches: colours of tets, then colours of nodes.
+pub(super) const BATCHES: usize = COLORS + 4;
+/// Bytes of a sponge.
+pub(super) const SPONGE_BYTES: usize = 64;
 /// Bytes of a body.
 pub(super) const BODY_BYTES: u64 = 144;
 
@@ -112,8 +119,14 @@ pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
             sponge.saturation_gain,
             sponge.reaction,
         ]);
+        let solver = match sponge.solver {
+            Solver::Sbd => 0,
+            Solver::Vbd => 1,
+            Solver::XpbdNeoHookean => 2,
+        };
+        bytes.words(&[solver]).floats(&[sponge.mu, sponge.lambda, sponge.damping]);
     }
-    bytes.0.resize(SPONGES * 48, 0);
+    bytes.0.resize(SPONGES * SPONGE_BYTES, 0);
     bytes.0
 }
 
@@ -159,11 +172,11 @@ pub(super) fn plane_count(bodies: &[Body]) -> usize {
     bodies.iter().map(planes).sum()
 }
 
-/// First tet and number of tets of every colour, and the sponge of every tet.
-pub(super) fn colors(topology: &Topology) -> ([[u32; 2]; COLORS], Vec<u32>) {
+/// First tet or node and number of them of every batch, and the sponge of every tet.
+pub(super) fn batches(topology: &Topology) -> ([[u32; 2]; BATCHES], Vec<u32>) {
     let mut sponges = vec![0; topology.tets.len()];
-    let mut colors = [[0; 2]; COLORS];
-    for (color, chunks) in colors.iter_mut().zip(&topology.chunks) {
+    let mut batches = [[0; 2]; BATCHES];
+    for (color, chunks) in batches.iter_mut().zip(&topology.chunks) {
         let first = chunks.iter().map(|chunk| chunk.tets.start).min().unwrap_or(0);
         let end = chunks.iter().map(|chunk| chunk.tets.end).max().unwrap_or(0);
         *color = [first, end - first];
@@ -171,17 +184,49 @@ pub(super) fn colors(topology: &Topology) -> ([[u32; 2]; COLORS], Vec<u32>) {
             sponges[chunk.tets.start as usize..chunk.tets.end as usize].fill(chunk.sponge);
         }
     }
-    (colors, sponges)
+    for (color, batch) in batches[COLORS..].iter_mut().enumerate() {
+        let [first, end] = [topology.vertex_color_start[color], topology.vertex_color_start[color + 1]];
+        *batch = [first, end - first];
+    }
+    (batches, sponges)
 }
 
-pub(super) fn batches(colors: &[[u32; 2]; COLORS]) -> Vec<u8> {
+pub(super) fn batch_bytes(batches: &[[u32; 2]; BATCHES]) -> Vec<u8> {
     let mut bytes = Bytes::default();
-    for color in colors {
-        bytes.words(&[color[0], color[1], 0, 0]);
+    for batch in batches {
+        bytes.words(&[batch[0], batch[1], 0, 0]);
         let end = bytes.0.len().next_multiple_of(BATCH_STRIDE as usize);
         bytes.0.resize(end, 0);
     }
     bytes.0
+}
+
+/// Words of the star of a node: neighbours, tets, sponge.
+pub(super) const STAR_WORDS: usize = NEIGHBORS + 2;
+
+/// The stars of all nodes, a row each.
+pub(super) fn stars(stars: &Stars, sponge: &[u32], nodes: usize) -> Vec<u32> {
+    let mut words = vec![0; nodes * STAR_WORDS];
+    for (node, neighbors, tets) in stars.each() {
+        let first = node as usize * STAR_WORDS;
+        words[first..first + NEIGHBORS].copy_from_slice(&neighbors);
+        words[first + NEIGHBORS..][..2].copy_from_slice(&[tets, sponge[node as usize]]);
+    }
+    words
+}
+
+/// First node and end of the nodes of every sponge in each vertex colour.
+pub(super) fn sponge_ranges(stars: &Stars, sponges: usize) -> Vec<[u32; 2]> {
+    let mut ranges = vec![[0, 0]; sponges * 4];
+    for piece in &stars.pieces {
+        let color = (0..4).find(|color| piece.rows.start < stars.color_start[color + 1]).unwrap_or(0);
+        let range = &mut ranges[piece.sponge as usize * 4 + color];
+        if range[1] == 0 {
+            range[0] = piece.rows.start;
+        }
+        range[1] = piece.rows.end;
+    }
+    ranges
 }
 
 /// Cells over points.

@@ -8,13 +8,15 @@ use super::{
     answer::{CLOCK_BYTES, WRENCH_BYTES},
     device::Gpu,
     error::GpuError,
-    pack::{self, BATCH_STRIDE, BODY_BYTES, Capacities, Grid, SPONGES, StepLimits},
+    pack::{
+        self, BATCH_STRIDE, BATCHES, BODY_BYTES, Capacities, Grid, SPONGE_BYTES, SPONGES, STAR_WORDS,
+        StepLimits,
+    },
 };
 use crate::{
     body::Body,
     columns::{Columns, RowCounts},
     params::Params,
-    pbd::lattice::COLORS,
     smoothing::Wendland,
 };
 
@@ -31,7 +33,8 @@ pub struct Resident {
     pub(super) limits: StepLimits,
     pub(super) params: Params,
     pub(super) grids: [Grid; 2],
-    pub(super) colors: [[u32; 2]; COLORS],
+    /// First row and rows of every batch.
+    pub(super) batches: [[u32; 2]; BATCHES],
     /// Whether particles are where `sph::advect` leaves them (false) or where `grid::sort_fluid` does (true).
     pub(super) sorted: bool,
     /// Steps since the time was set.
@@ -63,7 +66,7 @@ impl Resident {
             Grid::new(params.domain, fluid, rows.fluid, most),
             Grid::new(params.domain, params.coupling.support_radius, rows.nodes, most),
         ];
-        let (colors, tet_sponge) = pack::colors(&columns.nodes.topology);
+        let (batches, tet_sponge) = pack::batches(&columns.nodes.topology);
         let answer = gpu.guarded(None, || {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("answer"),
@@ -80,7 +83,7 @@ impl Resident {
             limits,
             params: params.clone(),
             grids,
-            colors,
+            batches,
             sorted: false,
             steps: 0,
             answer,
@@ -137,10 +140,10 @@ impl Resident {
         vec![
             ("params", 208, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
-            ("sponges", SPONGES as u64 * 48, uniform),
+            ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),
             ("control_grid", 48, uniform),
-            ("batch", BATCH_STRIDE * COLORS as u64, uniform),
+            ("batch", BATCH_STRIDE * BATCHES as u64, uniform | plain),
             ("extremes", 32, plain),
             ("fluid_position", fluid * 16, plain),
             ("fluid_velocity", fluid * 16, plain),
@@ -165,6 +168,11 @@ impl Resident {
             ("node_velocity", nodes * 16, plain),
             ("node_acceleration", nodes * 16, plain),
             ("node_predicted", nodes * 16, plain),
+            ("node_target", nodes * 16, plain),
+            ("node_reaction", nodes * 16, plain),
+            ("node_stars", nodes * STAR_WORDS as u64 * 4, plain),
+            ("sponge_ranges", self.params.sponges.len() as u64 * 32, plain),
+            ("sponge_motions", self.params.sponges.len() as u64 * 48, plain),
             ("node_volume", nodes * 4, plain),
             ("node_sponge", nodes * 4, plain),
             ("node_traits", nodes * 16, plain),
@@ -218,7 +226,7 @@ impl Resident {
         self.write("sponges", &pack::sponges(&self.params.sponges));
         self.write("fluid_grid", &self.grids[0].bytes(self.rows.fluid));
         self.write("control_grid", &self.grids[1].bytes(self.rows.nodes));
-        self.write("batch", &pack::batches(&self.colors));
+        self.write("batch", &pack::batch_bytes(&self.batches));
         self.write("tets", bytemuck::cast_slice(&nodes.topology.tets));
         self.write("tet_sponge", bytemuck::cast_slice(tet_sponge));
         let trait_of = |values: &[f32], node: usize| values.get(node).copied().unwrap_or(0.0).to_bits();
@@ -229,6 +237,10 @@ impl Resident {
             })
             .collect();
         self.write("node_traits", bytemuck::cast_slice(&traits));
+        let stars = pack::stars(&nodes.stars, &nodes.sponge, self.rows.nodes);
+        self.write("node_stars", bytemuck::cast_slice(&stars));
+        let ranges = pack::sponge_ranges(&nodes.stars, self.params.sponges.len());
+        self.write("sponge_ranges", bytemuck::cast_slice(&ranges));
         self.fill_params();
     }
 

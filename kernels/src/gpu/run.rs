@@ -7,7 +7,7 @@ use wgpu::{BindGroup, CommandBuffer, CommandEncoder};
 use super::{
     answer::{Answer, CLOCK_BYTES, Start, WRENCH_BYTES},
     error::GpuError,
-    pack::{BATCH_STRIDE, Capacities},
+    pack::{BATCH_STRIDE, BATCHES, Capacities},
     pipeline::Pipeline,
     profile::Profile,
     resident::Resident,
@@ -74,8 +74,12 @@ impl Resident {
 
     fn bind(&self, kernel: &'static str, pass: &Pass, into: &mut Vec<Dispatch>) -> Result<(), GpuError> {
         let pipeline = self.gpu.pipeline(pass.shader, pass.entry)?;
-        let times = if pass.rows == Rows::Colors { COLORS } else { 1 };
-        for color in 0..times {
+        let batches = match pass.rows {
+            Rows::Colors => 0..COLORS,
+            Rows::VertexColors => COLORS..BATCHES,
+            _ => 0..1,
+        };
+        for color in batches {
             let groups = self.groups(pass.rows, color);
             if groups[0] > 0 {
                 let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color))?;
@@ -119,7 +123,8 @@ impl Resident {
             Rows::FluidPages => self.grids[0].pages(),
             Rows::ControlPages => self.grids[1].pages(),
             Rows::Bodies => self.rows.bodies as u64,
-            Rows::Colors => threads(self.colors[color][1] as usize),
+            Rows::Colors | Rows::VertexColors => threads(self.batches[color][1] as usize),
+            Rows::Sponges => self.params.sponges.len() as u64,
         };
         let most = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
         if count <= most {

@@ -41,6 +41,8 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::NodeGrip => ("node_grip", Words(&mut nodes.grip, u32::MAX)),
         Column::NodeGripOffset => ("node_grip_offset", Rows(&mut nodes.grip_offset, zero)),
         Column::NodePredicted => ("node_predicted", Rows(&mut nodes.predicted, FAR_ROW)),
+        Column::NodeTarget => ("node_target", Rows(&mut nodes.target, zero)),
+        Column::NodeReaction => ("node_reaction", Rows(&mut nodes.reaction, zero)),
         Column::NodeAcceleration => ("node_acceleration", Rows(&mut nodes.acceleration, zero)),
         Column::NodeSaturation => ("node_saturation", Values(&mut nodes.saturation)),
         Column::ControlNode => ("control_node", Words(&mut controls.node, u32::MAX)),
@@ -117,6 +119,7 @@ pub fn is_internal(column: Column) -> bool {
             | Column::FluidControlWeights
             | Column::ControlFluidWeights
             | Column::NodeTopology
+            | Column::NodeStars
             | Column::NodeSuction
             | Column::NodeInterior
     )

@@ -21,6 +21,10 @@ pub(super) enum Rows {
     Bodies,
     /// A thread per tet of a colour, and a pass per colour.
     Colors,
+    /// A thread per node of a vertex colour, and a pass per vertex colour.
+    VertexColors,
+    /// A group per sponge.
+    Sponges,
 }
 
 /// One pass of a twin.
@@ -127,6 +131,11 @@ const NODES: Names = &[
     ("grip", "node_grip"),
     ("grip_offset", "node_grip_offset"),
     ("predicted", "node_predicted"),
+    ("goal", "node_target"),
+    ("reaction", "node_reaction"),
+    ("stars", "node_stars"),
+    ("ranges", "sponge_ranges"),
+    ("motions", "sponge_motions"),
     ("wrenches", "node_wrenches"),
 ];
 
@@ -162,6 +171,14 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
     ("sph::advect", &[pass("sph::advect", Rows::Fluid, SORT)]),
     ("pbd::gravity", &[pass("pbd::gravity", Rows::Nodes, NODES)]),
     ("pbd::predict", &[pass("pbd::predict", Rows::Nodes, NODES)]),
+    ("pbd::guess", &[pass("pbd::guess", Rows::Nodes, NODES)]),
+    ("pbd::xpbd_neo_hookean", &[pass("pbd::xpbd_neo_hookean", Rows::Colors, NODES)]),
+    ("pbd::vbd", &[pass("pbd::vbd", Rows::VertexColors, NODES)]),
+    ("pbd::reaction", &[pass("pbd::reaction", Rows::Nodes, NODES)]),
+    (
+        "pbd::momentum",
+        &[pass("pbd::momentum_sums", Rows::Sponges, NODES), pass("pbd::momentum", Rows::Nodes, NODES)],
+    ),
     ("pbd::strain", &[pass("pbd::strain", Rows::Colors, NODES)]),
     ("pbd::contact", &[pass("pbd::contact", Rows::Nodes, NODES)]),
     ("pbd::velocity", &[pass("pbd::velocity", Rows::Nodes, NODES)]),

@@ -10,6 +10,7 @@ use glam::DVec3;
 use crate::{columns::Columns, params::Params};
 
 mod couple;
+mod descent;
 mod grid;
 mod pbd;
 mod shapes;
@@ -33,7 +34,12 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::advect" => sph::advect,
         "pbd::gravity" => pbd::gravity,
         "pbd::predict" => pbd::predict,
+        "pbd::guess" => descent::guess,
         "pbd::strain" => pbd::strain,
+        "pbd::xpbd_neo_hookean" => pbd::xpbd_neo_hookean,
+        "pbd::vbd" => descent::vbd,
+        "pbd::reaction" => descent::reaction,
+        "pbd::momentum" => descent::momentum,
         "pbd::contact" => pbd::contact,
         "pbd::velocity" => pbd::velocity,
         "couple::controls" => couple::controls,

@@ -1,12 +1,12 @@
 //! The sponge, constraint by constraint.
 
-use glam::DVec3;
+use glam::{DMat2, DVec2, DVec3};
 
 use super::{row, shapes, vector};
 use crate::{
     body::{Body, Wrench},
     columns::Columns,
-    params::{Params, SpongeParams},
+    params::{Params, Solver, SpongeParams},
     pbd::lattice::COLORS,
     reduce::{Extreme, Extremes},
 };
@@ -37,12 +37,31 @@ pub(super) fn predict(params: &Params, columns: &mut Columns) {
 }
 
 /// How every vertex enters the columns of the deformation gradient, in the frame of the tet, times the edge.
-const SHAPE: [[f64; 3]; 4] = [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
+pub(super) const SHAPE: [[f64; 3]; 4] =
+    [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
 
 pub(super) fn strain(params: &Params, columns: &mut Columns) {
+    sweep(params, columns, Solver::Sbd, Tet::solve);
+}
+
+pub(super) fn xpbd_neo_hookean(params: &Params, columns: &mut Columns) {
+    sweep(params, columns, Solver::XpbdNeoHookean, Tet::solve_neo_hookean);
+}
+
+/// Solves the tets of the sponges of a solver, one after the other.
+fn sweep(
+    params: &Params,
+    columns: &mut Columns,
+    solver: Solver,
+    solve: impl Fn(&mut Tet, &SpongeParams, f64),
+) {
     let nodes = &mut columns.nodes;
     let mut predicted: Vec<DVec3> = nodes.predicted.iter().map(|row| vector(*row)).collect();
     for chunk in (0..COLORS).flat_map(|color| &nodes.topology.chunks[color]) {
+        let sponge = &params.sponges[chunk.sponge as usize];
+        if sponge.solver != solver {
+            continue;
+        }
         for tet in &nodes.topology.tets[chunk.tets.start as usize..chunk.tets.end as usize] {
             let tet = tet.map(|node| node as usize);
             let mut state = Tet {
@@ -50,7 +69,7 @@ pub(super) fn strain(params: &Params, columns: &mut Columns) {
                 old: tet.map(|node| vector(nodes.position[node])),
                 w: tet.map(|node| f64::from(nodes.predicted[node][3])),
             };
-            state.solve(&params.sponges[chunk.sponge as usize], f64::from(params.step));
+            solve(&mut state, sponge, f64::from(params.step));
             (0..4).for_each(|vertex| predicted[tet[vertex]] = state.p[vertex]);
         }
     }
@@ -92,6 +111,31 @@ impl Tet {
         self.correct((ratio - 0.1).min(0.0), slope, (edge, rigid, 0.0));
     }
 
+    /// Both constraints at once.
+    fn solve_neo_hookean(&mut self, sponge: &SpongeParams, h: f64) {
+        let [edge, mu, lambda, tau] = [sponge.edge, sponge.mu, sponge.lambda, sponge.damping].map(f64::from);
+        let (f, volume) = (self.columns(edge), edge.powi(3) / 12.0);
+        let norm = f.iter().map(|f| f.length_squared()).sum::<f64>().sqrt();
+        let (ratio, by_ratio) = self.volume(edge);
+        let values = [norm, ratio - 1.0 - mu / lambda];
+        let by_vertex = |slope: [DVec3; 3]| {
+            [0, 1, 2, 3].map(|vertex| (0..3).map(|k| slope[k] * (SHAPE[vertex][k] / edge)).sum::<DVec3>())
+        };
+        let (by_norm, by_ratio) = (by_vertex(f.map(|f| f / norm)), by_vertex(by_ratio));
+        let mut matrix = DMat2::from_diagonal(DVec2::new(1.0 / mu, 1.0 / lambda) / (volume * h * h));
+        let mut right = -DVec2::from_array(values);
+        for (vertex, (a, b)) in by_norm.iter().zip(&by_ratio).enumerate() {
+            let way = self.p[vertex] - self.old[vertex];
+            right -= tau / h * DVec2::new(a.dot(way), b.dot(way));
+            let own = DMat2::from_cols(DVec2::new(a.dot(*a), a.dot(*b)), DVec2::new(a.dot(*b), b.dot(*b)));
+            matrix += own * ((1.0 + tau / h) * self.w[vertex]);
+        }
+        let impulse = matrix.inverse() * right;
+        for (vertex, (a, b)) in by_norm.iter().zip(&by_ratio).enumerate() {
+            self.p[vertex] += self.w[vertex] * (impulse.x * *a + impulse.y * *b);
+        }
+    }
+
     /// Volume over volume at rest, and its derivatives by the columns.
     fn volume(&self, edge: f64) -> (f64, [DVec3; 3]) {
         let [d, e, f] = self.columns(edge);
@@ -128,7 +172,7 @@ pub(super) fn contact(params: &Params, columns: &mut Columns) {
     }
     for node in 0..columns.rows.nodes {
         let w = f64::from(nodes.predicted[node][3]);
-        if w <= 0.0 {
+        if w <= 0.0 || params.sponges[nodes.sponge[node] as usize].solver == Solver::Vbd {
             continue;
         }
         let (mut point, old) = (vector(nodes.predicted[node]), vector(nodes.position[node]));

@@ -12,14 +12,14 @@ use crate::{
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::Params,
+    params::{Params, Solver},
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
 /// `pbd::contact`.
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::contact",
-    needs: &[Need::Sponge, Need::Obstacles],
+    needs: &[Need::Sponge, Need::Projection, Need::Obstacles],
     reads: &[NodePosition, NodePredicted, NodeSponge, BodyStates, BodyNodeWrenches],
     writes: &[NodePredicted, BodyNodeWrenches],
     cpu,
@@ -28,13 +28,14 @@ pub static KERNEL: Kernel = Kernel {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes { position, predicted, sponge, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
+    let some_descend = params.sponges.iter().any(|sponge| sponge.solver == Solver::Vbd);
     let chunks = predicted.len().div_ceil(CHUNK);
     let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
         0 => (0..chunks).map(|_| &mut [][..]).collect(),
         count => columns.bodies.node_wrenches.0.chunks_exact_mut(count).collect(),
     };
     cpu.for_chunks((&mut predicted[..], PerChunk(&mut wrenches)), |first, (predicted, wrenches)| {
-        let task = Task { params, bodies, position, sponge };
+        let task = Task { params, bodies, position, sponge, some_descend };
         with_lanes!(cpu, simd => task.chunk(simd, first, predicted, wrenches.0[0]));
     });
 }
@@ -44,6 +45,7 @@ struct Task<'a> {
     bodies: &'a [Body],
     position: &'a [[f32; 4]],
     sponge: &'a [u32],
+    some_descend: bool,
 }
 
 impl Task<'_> {
@@ -57,24 +59,40 @@ impl Task<'_> {
             let [x, y, z, w] = lanes::load_rows(simd, predicted, row);
             let [ox, oy, oz, _] = lanes::load_rows(simd, self.position, first + row);
             let (mut point, old) = ([x, y, z], [ox, oy, oz]);
+            let moves = self.moves(simd, first + row, w);
             for (index, placed) in &placed {
                 let body = &self.bodies[*index];
                 let drift = times(placed.velocity(point), lanes::splat(simd, self.params.step));
                 // The body stands where it began the step: so is the node, in the body's frame.
                 let (distance, normal) = placed.distance(minus(point, drift));
-                let depth = lanes::positive(simd, -distance) * touchable(simd, w);
+                let depth = lanes::positive(simd, -distance) * moves;
                 let slide = minus(minus(point, old), drift);
                 let change = contact(simd, depth, normal, slide, lanes::splat(simd, body.friction));
                 point = plus(point, change);
                 self.react(depth.to_array(), change, w, point, body.state.position, &mut wrenches[*index]);
             }
-            self.walls(simd, first + row, w, old, &mut point);
+            self.walls(simd, first + row, moves, old, &mut point);
             lanes::store_rows(predicted, row, [point[0], point[1], point[2], w]);
         }
     }
 
+    /// 1 for nodes that can be moved, 0 for held ones and for those that meet obstacles in their own solver.
     #[inline(always)]
-    fn walls<S: Simd>(&self, simd: S, row: usize, w: f32x8<S>, old: Vec3x8<S>, point: &mut Vec3x8<S>) {
+    fn moves<S: Simd>(&self, simd: S, row: usize, inverse_mass: f32x8<S>) -> f32x8<S> {
+        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+        let free = select(inverse_mass.simd_gt(zero), one, zero);
+        if !self.some_descend {
+            return free;
+        }
+        let here = f32x8::from_fn(simd, |lane| {
+            let solver = self.sponge.get(row + lane).and_then(|sponge| self.params.solver(*sponge));
+            if solver == Some(Solver::Vbd) { 0.0 } else { 1.0 }
+        });
+        free * here
+    }
+
+    #[inline(always)]
+    fn walls<S: Simd>(&self, simd: S, row: usize, moves: f32x8<S>, old: Vec3x8<S>, point: &mut Vec3x8<S>) {
         let Some((minimum, maximum)) = self.params.walls else {
             return;
         };
@@ -88,7 +106,7 @@ impl Task<'_> {
         for axis in 0..3 {
             for (sign, wall) in [(1.0, minimum[axis]), (-1.0, maximum[axis])] {
                 let distance = (point[axis] - wall) * sign;
-                let depth = lanes::positive(simd, -distance) * touchable(simd, w);
+                let depth = lanes::positive(simd, -distance) * moves;
                 let mut normal = [zero; 3];
                 normal[axis] = lanes::splat(simd, sign);
                 let slide = minus(*point, old);
@@ -117,13 +135,6 @@ impl Task<'_> {
             wrench.add(impulse, lane_of(point) - centre.as_dvec3());
         }
     }
-}
-
-/// 1 for nodes that can be moved, 0 for held ones.
-#[inline(always)]
-fn touchable<S: Simd>(simd: S, inverse_mass: f32x8<S>) -> f32x8<S> {
-    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    select(inverse_mass.simd_gt(zero), one, zero)
 }
 
 /// Change of position: out along the normal, and back along the surface.

@@ -22,12 +22,12 @@
 //! between 0 and 1 (compliance of \[MMC16\]), so that the sponge does not stiffen when the step shrinks.
 
 use crate::{
-    columns::{Column::*, Columns, Nodes},
+    columns::{Column::*, Columns},
     cpu::Cpu,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::{Params, SpongeParams},
-    pbd::lattice::{COLORS, TetChunk},
+    lanes::{self, Simd, f32x8, prelude::*, select},
+    params::{self, Params, SpongeParams},
+    pbd::tets::{Law, TetLanes, sweep},
     vector::{Vec3x8, cross, dot, minus, negative, plus, times},
 };
 
@@ -40,134 +40,25 @@ const RIGID: f32 = 1.0e-3;
 /// `pbd::strain`: one sweep over all colours.
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::strain",
-    needs: &[Need::Sponge],
+    needs: &[Need::Sponge, Need::Solver(params::Solver::Sbd)],
     reads: &[NodePosition, NodePredicted, NodeTopology],
     writes: &[NodePredicted],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, topology, predicted, .. } = &mut columns.nodes;
-    for color in 0..COLORS {
-        let task = Task {
-            params,
-            tets: &topology.tets,
-            slots: topology.slot_vertex_color[color].map(usize::from),
-            position,
-        };
-        let starts = topology.vertex_color_start.map(|start| start as usize);
-        let (rest, d) = predicted.split_at_mut(starts[3]);
-        let (rest, c) = rest.split_at_mut(starts[2]);
-        let (a, b) = rest.split_at_mut(starts[1]);
-        let nodes = NodeSlices { nodes: [a, b, c, d], first: [starts[0], starts[1], starts[2], starts[3]] };
-        task.split(cpu, cpu.threads(), &topology.chunks[color], nodes);
-    }
+    sweep::<Strain>(cpu, params, &mut columns.nodes);
 }
 
-/// The nodes of each vertex colour that a task may touch, and the row of the first.
-struct NodeSlices<'a> {
-    nodes: [&'a mut [[f32; 4]]; 4],
-    first: [usize; 4],
-}
+struct Strain;
 
-impl NodeSlices<'_> {
-    /// Cuts every vertex colour before the nodes of `chunk`.
-    fn split(self, chunk: &TetChunk) -> (Self, Self) {
-        let starts = std::array::from_fn::<_, 4, _>(|color| chunk.nodes[color].start as usize);
-        let [a, b, c, d] = self.nodes;
-        let (a_left, a_right) = a.split_at_mut(starts[0] - self.first[0]);
-        let (b_left, b_right) = b.split_at_mut(starts[1] - self.first[1]);
-        let (c_left, c_right) = c.split_at_mut(starts[2] - self.first[2]);
-        let (d_left, d_right) = d.split_at_mut(starts[3] - self.first[3]);
-        (
-            Self { nodes: [a_left, b_left, c_left, d_left], first: self.first },
-            Self { nodes: [a_right, b_right, c_right, d_right], first: starts },
-        )
-    }
-}
-
-struct Task<'a> {
-    params: &'a Params,
-    tets: &'a [[u32; 4]],
-    /// Vertex colour of every slot.
-    slots: [usize; 4],
-    position: &'a [[f32; 4]],
-}
-
-impl Task<'_> {
-    fn split(&self, cpu: &Cpu, parts: usize, chunks: &[TetChunk], mut nodes: NodeSlices<'_>) {
-        if parts <= 1 || chunks.len() <= 1 {
-            for chunk in chunks {
-                let sponge = &self.params.sponges[chunk.sponge as usize];
-                with_lanes!(cpu, simd => self.chunk(simd, sponge, chunk, &mut nodes));
-            }
-            return;
-        }
-        let middle = chunks.len() * (parts / 2) / parts;
-        let (left, right) = nodes.split(&chunks[middle]);
-        cpu.join(
-            || self.split(cpu, parts / 2, &chunks[..middle], left),
-            || self.split(cpu, parts - parts / 2, &chunks[middle..], right),
-        );
-    }
-
-    /// Predicted positions and inverse masses of one slot of eight tets.
-    #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        simd: S,
-        nodes: &NodeSlices<'_>,
-        rows: &[[u32; LANES]; 4],
-        slot: usize,
-    ) -> (Vec3x8<S>, f32x8<S>) {
-        let color = self.slots[slot];
-        let first = nodes.first[color] as u32;
-        let [x, y, z, w] = lanes::gather_rows(simd, nodes.nodes[color], &rows[slot].map(|row| row - first));
-        ([x, y, z], w)
-    }
+impl Law for Strain {
+    const SOLVER: params::Solver = params::Solver::Sbd;
 
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "the slot is an index into several arrays")]
-    fn chunk<S: Simd>(&self, simd: S, sponge: &SpongeParams, chunk: &TetChunk, nodes: &mut NodeSlices<'_>) {
-        let solver = Solver::new(simd, sponge, self.params.step);
-        let tets = &self.tets[chunk.tets.start as usize..chunk.tets.end as usize];
-        for tets in tets.chunks(LANES) {
-            // A short last group repeats its last tet, and stores it once.
-            let tet = |lane: usize| &tets[lane.min(tets.len() - 1)];
-            let row = |slot: usize| std::array::from_fn(|lane| tet(lane)[slot]);
-            let rows: [[u32; LANES]; 4] = [row(0), row(1), row(2), row(3)];
-            let (p0, w0) = self.gather(simd, nodes, &rows, 0);
-            let (p1, w1) = self.gather(simd, nodes, &rows, 1);
-            let (p2, w2) = self.gather(simd, nodes, &rows, 2);
-            let (p3, w3) = self.gather(simd, nodes, &rows, 3);
-            let old = |slot: usize| {
-                let [x, y, z, _] = lanes::gather_rows(simd, self.position, &rows[slot]);
-                [x, y, z]
-            };
-            let mut state =
-                TetLanes { p: [p0, p1, p2, p3], old: [old(0), old(1), old(2), old(3)], w: [w0, w1, w2, w3] };
-            solver.solve(&mut state);
-            for slot in 0..4 {
-                let [x, y, z] = state.p[slot];
-                let mut stored = [[0.0; 4]; LANES];
-                lanes::store_rows(&mut stored, 0, [x, y, z, state.w[slot]]);
-                let color = self.slots[slot];
-                for (row, stored) in rows[slot].iter().zip(&stored).take(tets.len()) {
-                    nodes.nodes[color][*row as usize - nodes.first[color]] = *stored;
-                }
-            }
-        }
+    fn solve<S: Simd>(simd: S, sponge: &SpongeParams, step: f32, tet: &mut TetLanes<S>) {
+        Solver::new(simd, sponge, step).solve(tet);
     }
-}
-
-/// Eight tets.
-struct TetLanes<S: Simd> {
-    /// Predicted positions.
-    p: [Vec3x8<S>; 4],
-    /// Positions at the beginning of the step.
-    old: [Vec3x8<S>; 4],
-    /// Inverse masses.
-    w: [f32x8<S>; 4],
 }
 
 struct Solver<S: Simd> {
@@ -204,7 +95,7 @@ impl<S: Simd> Solver<S> {
         let one = lanes::splat(self.simd, 1.0);
         let zero = [lanes::splat(self.simd, 0.0); 3];
         for column in 0..3 {
-            let f = self.columns(tet)[column];
+            let f = tet.columns(self.inverse_edge)[column];
             let length = dot(f, f).sqrt();
             let is_long = length.simd_gt(lanes::splat(self.simd, 1.0e-6));
             let inverse = one / select(is_long, length, one);
@@ -217,7 +108,7 @@ impl<S: Simd> Solver<S> {
             self.correct(tet, length - one, gradient, stretch, self.damping);
         }
         for pair in [(0, 1), (0, 2), (1, 2)] {
-            let f = self.columns(tet);
+            let f = tet.columns(self.inverse_edge);
             let (k, l) = (f[pair.0], f[pair.1]);
             self.correct(tet, dot(k, l), self.shear_gradient(pair, f), shear, self.damping);
         }
@@ -233,21 +124,10 @@ impl<S: Simd> Solver<S> {
     /// Volume over volume at rest, and its gradients times the edge.
     #[inline(always)]
     fn volume_gradient(&self, tet: &TetLanes<S>) -> (f32x8<S>, [Vec3x8<S>; 4]) {
-        let [d, e, f] = self.columns(tet);
+        let [d, e, f] = tet.columns(self.inverse_edge);
         let (by_d, by_e, by_f) = (cross(e, f), cross(f, d), cross(d, e));
         let gradient = [negative(plus(by_d, by_f)), minus(by_d, by_f), plus(by_e, by_f), minus(by_f, by_e)];
         (dot(d, by_d), gradient)
-    }
-
-    /// Columns of the deformation gradient in the frame of the tet.
-    #[inline(always)]
-    fn columns(&self, tet: &TetLanes<S>) -> [Vec3x8<S>; 3] {
-        let [p0, p1, p2, p3] = tet.p;
-        [
-            times(minus(p1, p0), self.inverse_edge),
-            times(minus(p2, p3), self.inverse_edge),
-            times(minus(plus(p2, p3), plus(p0, p1)), self.inverse_edge),
-        ]
     }
 
     /// Gradients of `f_k . f_l`, times the edge.

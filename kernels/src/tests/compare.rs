@@ -147,6 +147,8 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::NodePosition => rows(&nodes.position, &all_nodes),
         Column::NodeVelocity => rows(&nodes.velocity, &all_nodes),
         Column::NodePredicted => rows(&nodes.predicted, &all_nodes),
+        Column::NodeTarget => rows(&nodes.target, &all_nodes),
+        Column::NodeReaction => rows(&nodes.reaction, &all_nodes),
         Column::NodeAcceleration => rows(&nodes.acceleration, &all_nodes),
         Column::NodeSaturation => values(&nodes.saturation, &all_nodes),
         Column::FluidExtremes => extremes(fluid.extremes.total()),

@@ -2,6 +2,7 @@
 
 mod audit;
 mod compare;
+mod descent;
 mod drag;
 #[cfg(feature = "gpu")]
 mod gpu;

@@ -8,9 +8,10 @@ use crate::{
     columns::{Columns, FAR_ROW, RowCounts, padded},
     cpu::Cpu,
     grid::cells::Domain,
-    kernel::{KERNELS, Kernel, kernel},
+    kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
-    params::{EquationOfState, FluidParams, Params, SpongeParams},
+    params::{EquationOfState, FluidParams, Params, Solver, SpongeParams},
+    pbd::stars::Stars,
     smoothing::Wendland,
     testing::Random,
 };
@@ -36,8 +37,13 @@ pub(super) const CHAIN: &[&str] = &[
     "pbd::gravity",
     "couple::zero_distance",
     "pbd::predict",
+    "pbd::guess",
     "pbd::strain",
+    "pbd::xpbd_neo_hookean",
+    "pbd::vbd",
     "pbd::contact",
+    "pbd::reaction",
+    "pbd::momentum",
     "pbd::velocity",
     "couple::control_velocity",
     "couple::drag",
@@ -116,9 +122,15 @@ impl Scene {
         scene
     }
 
-    /// The scene just before the last run of a kernel, in the second step: all columns have their shape.
+    /// The scene just before the last run of a kernel, in the second step: all columns have their shape. Sponges are
+    /// solved in the way that the kernel is for.
     pub(super) fn before(&self, name: &str, cpu: &Cpu) -> Self {
         let mut scene = self.clone();
+        for need in kernel(name).map_or(&[][..], |kernel| kernel.needs) {
+            if let Need::Solver(solver) = need {
+                scene.params.sponges.iter_mut().for_each(|sponge| sponge.solver = *solver);
+            }
+        }
         scene.run(cpu, CHAIN);
         let end = CHAIN.iter().rposition(|other| *other == name).expect("the chain has every kernel");
         scene.run(cpu, &CHAIN[..end]);
@@ -137,10 +149,12 @@ impl Scene {
 
     /// Whether the scene meets the needs of a kernel.
     pub(super) fn has_work(&self, kernel: &Kernel) -> bool {
-        use crate::kernel::Need;
+        let sponges = &self.params.sponges;
         kernel.needs.iter().all(|need| match need {
             Need::Fluid => self.options.fluid > 0,
             Need::Sponge => self.options.sponges,
+            Need::Solver(solver) => sponges.iter().any(|sponge| sponge.solver == *solver),
+            Need::Projection => sponges.iter().any(|sponge| sponge.solver != Solver::Vbd),
             Need::Obstacles => self.options.walls || self.options.bodies,
             Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
         })
@@ -206,6 +220,8 @@ impl Scene {
         }
         self.columns.rows =
             RowCounts { nodes: count, tets: lattice.topology.tets.len(), ..self.columns.rows };
+        let rest: Vec<[f32; 4]> = lattice.position.iter().map(|[x, y, z]| [*x, *y, *z, 0.0]).collect();
+        nodes.stars = Stars::new(&lattice.topology, &rest, &nodes.sponge);
         nodes.topology = lattice.topology;
     }
 }
@@ -264,6 +280,10 @@ fn params(options: Options) -> Params {
 fn sponges() -> Vec<SpongeParams> {
     let soft = SpongeParams {
         edge: 0.01,
+        solver: Solver::Sbd,
+        mu: 8.0e3,
+        lambda: 1.3e4,
+        damping: 0.002,
         stretch_modulus: 8.0e3,
         shear_modulus: 4.0e3,
         volume_modulus: 2.0e3,
@@ -278,6 +298,10 @@ fn sponges() -> Vec<SpongeParams> {
     };
     let stiff = SpongeParams {
         edge: 0.008,
+        solver: Solver::Sbd,
+        mu: 2.0e4,
+        lambda: 3.0e4,
+        damping: 0.0,
         stretch_modulus: 3.0e4,
         shear_modulus: 2.0e4,
         volume_modulus: 1.0e4,

@@ -1,0 +1,289 @@
+//! Vertex block descent, node by node and tet by tet.
+
+use glam::{DMat3, DVec3};
+
+use super::{pbd::SHAPE, row, shapes, vector};
+use crate::{
+    body::Wrench,
+    columns::{Columns, Nodes},
+    params::{Params, Solver},
+};
+
+pub(super) fn guess(params: &Params, columns: &mut Columns) {
+    let nodes = &mut columns.nodes;
+    let h = f64::from(params.step);
+    nodes.target = nodes.predicted.clone();
+    for node in 0..columns.rows.nodes {
+        let y = nodes.predicted[node];
+        let share = f64::from(nodes.velocity[node][3]);
+        if y[3] > 0.0 && descends(params, nodes, node) {
+            let lacking = h * h * (1.0 - share) * vector(nodes.acceleration[node]);
+            nodes.predicted[node] = row(vector(y) - lacking, f64::from(y[3]));
+        }
+    }
+}
+
+fn descends(params: &Params, nodes: &Nodes, node: usize) -> bool {
+    params.sponges[nodes.sponge[node] as usize].solver == Solver::Vbd
+}
+
+/// Tets of every node, with its slot in them.
+fn incidence(nodes: &Nodes) -> Vec<Vec<([usize; 4], usize)>> {
+    let mut incidence = vec![Vec::new(); nodes.position.len()];
+    for tet in &nodes.topology.tets {
+        for slot in 0..4 {
+            incidence[tet[slot] as usize].push((tet.map(|node| node as usize), slot));
+        }
+    }
+    incidence
+}
+
+/// Columns of the deformation gradient of a tet.
+fn columns_of(places: &[DVec3], tet: [usize; 4], edge: f64) -> [DVec3; 3] {
+    [0, 1, 2].map(|k| (0..4).map(|slot| places[tet[slot]] * (SHAPE[slot][k] / edge)).sum())
+}
+
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// Elastic and damping force on a node, and minus its derivative.
+fn local(
+    params: &Params,
+    sponge: u32,
+    places: &[DVec3],
+    before: &[DVec3],
+    tets: &[([usize; 4], usize)],
+) -> (DVec3, DMat3) {
+    let sponge = &params.sponges[sponge as usize];
+    let [edge, mu, lambda] = [sponge.edge, sponge.mu, sponge.lambda].map(f64::from);
+    let rate = f64::from(sponge.damping) / f64::from(params.step);
+    let volume = edge.powi(3) / 12.0;
+    let (mut force, mut stiffness) = (DVec3::ZERO, DMat3::ZERO);
+    for (tet, slot) in tets {
+        let n = SHAPE[*slot].map(|shape| shape / edge);
+        let f = columns_of(places, *tet, edge);
+        let cofactor = [f[1].cross(f[2]), f[2].cross(f[0]), f[0].cross(f[1])];
+        let ratio = f[0].dot(cofactor[0]);
+        let sum = |columns: &[DVec3; 3]| -> DVec3 { (0..3).map(|k| columns[k] * n[k]).sum() };
+        let slope = sum(&cofactor);
+        let square: f64 = n.iter().map(|n| n * n).sum();
+        force -= volume * (mu * sum(&f) + lambda * (ratio - 1.0 - mu / lambda) * slope);
+        stiffness += volume * (mu * square * DMat3::IDENTITY + lambda * outer(slope, slope));
+        // The viscous part: twice mu and lambda - mu times the strain since the beginning of the step.
+        let g = columns_of(before, *tet, edge);
+        let strain = |k: usize, l: usize| 0.5 * (g[k].dot(f[l] - g[l]) + g[l].dot(f[k] - g[k]));
+        let trace = strain(0, 0) + strain(1, 1) + strain(2, 2);
+        for (k, n) in n.iter().enumerate() {
+            for (l, g) in g.iter().enumerate() {
+                let bulk = if k == l { (lambda - mu) * trace } else { 0.0 };
+                force -= volume * rate * n * (2.0 * mu * strain(k, l) + bulk) * *g;
+            }
+        }
+        let all = g.iter().map(|g| outer(*g, *g)).fold(DMat3::ZERO, |sum, g| sum + g);
+        stiffness += volume * rate * (mu * square * all + lambda * outer(sum(&g), sum(&g)));
+    }
+    (force, stiffness)
+}
+
+/// Place of least energy without obstacles, and the stiffness with inertia.
+fn least(
+    params: &Params,
+    nodes: &Nodes,
+    node: usize,
+    (places, before): (&[DVec3], &[DVec3]),
+    tets: &[([usize; 4], usize)],
+) -> (DVec3, DMat3) {
+    let (force, stiffness) = local(params, nodes.sponge[node], places, before, tets);
+    let h = f64::from(params.step);
+    let inertia = 1.0 / (f64::from(nodes.predicted[node][3]) * h * h);
+    let stiffness = stiffness + DMat3::IDENTITY * inertia;
+    let pull = force + inertia * (vector(nodes.target[node]) - places[node]);
+    (places[node] + stiffness.inverse() * pull, stiffness)
+}
+
+/// Moves a node out of everything; gives the forces on it by bodies, and by the walls last.
+fn push(
+    params: &Params,
+    columns: &Columns,
+    node: usize,
+    stiffness: DMat3,
+    point: &mut DVec3,
+) -> (Vec<DVec3>, DVec3) {
+    let h = f64::from(params.step);
+    let old = vector(columns.nodes.position[node]);
+    let mut by_bodies = Vec::new();
+    for body in &columns.bodies.states.0 {
+        let mut force = DVec3::ZERO;
+        if body.touches_nodes {
+            let drift = h * shapes::velocity(body, *point);
+            let (distance, normal) = shapes::distance(body, *point - drift);
+            let slide = *point - old - drift;
+            force = react(stiffness, -distance, normal, slide, f64::from(body.friction), point);
+        }
+        by_bodies.push(force);
+    }
+    let mut by_walls = DVec3::ZERO;
+    if let Some((low, high)) = params.walls {
+        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        let friction = f64::from(params.sponges[columns.nodes.sponge[node] as usize].friction);
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            for (normal, wall) in [(axis, low), (-axis, high)] {
+                let depth = (wall - *point).dot(normal);
+                let slide = *point - old;
+                by_walls += react(stiffness, depth, normal, slide, friction, point);
+            }
+        }
+        *point = point.clamp(low, high);
+    }
+    (by_bodies, by_walls)
+}
+
+fn react(
+    stiffness: DMat3,
+    depth: f64,
+    normal: DVec3,
+    slide: DVec3,
+    friction: f64,
+    point: &mut DVec3,
+) -> DVec3 {
+    if depth <= 0.0 {
+        return DVec3::ZERO;
+    }
+    let tangential = slide - slide.dot(normal) * normal;
+    let back = depth * normal - tangential;
+    let stuck = stiffness * back;
+    let across = stuck.dot(normal);
+    let along = stuck - across * normal;
+    if along.length() <= friction * across {
+        *point += back;
+        return stuck;
+    }
+    let compliance = stiffness.inverse();
+    let slanted = normal + friction * along.normalize_or_zero();
+    let least = 0.1 * normal.dot(compliance * normal);
+    let direction = if normal.dot(compliance * slanted) > least { slanted } else { normal };
+    let size = depth / normal.dot(compliance * direction);
+    *point += size * (compliance * direction);
+    size * direction
+}
+
+pub(super) fn vbd(params: &Params, columns: &mut Columns) {
+    let incidence = incidence(&columns.nodes);
+    let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
+    let mut places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
+    // Rows are in the order of the colours, and nodes of a colour do not know each other.
+    for node in 0..columns.rows.nodes {
+        if columns.nodes.predicted[node][3] > 0.0 && descends(params, &columns.nodes, node) {
+            let at = (&places[..], &before[..]);
+            let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
+            push(params, columns, node, stiffness, &mut point);
+            places[node] = point;
+        }
+    }
+    let rows = columns.rows.nodes;
+    for (predicted, place) in columns.nodes.predicted[..rows].iter_mut().zip(places) {
+        *predicted = row(place, f64::from(predicted[3]));
+    }
+}
+
+/// Whether a node is within a hundredth of an edge of an obstacle.
+fn is_near(params: &Params, columns: &Columns, node: usize, point: DVec3) -> bool {
+    let margin = 0.01 * f64::from(params.sponges[columns.nodes.sponge[node] as usize].edge);
+    let walls = params.walls.is_some_and(|(low, high)| {
+        (point - low.as_dvec3()).min_element().min((high.as_dvec3() - point).min_element()) < margin
+    });
+    let bodies = columns.bodies.states.0.iter().filter(|body| body.touches_nodes);
+    walls
+        || bodies.into_iter().any(|body| {
+            let drift = f64::from(params.step) * shapes::velocity(body, point);
+            shapes::distance(body, point - drift).0 < margin
+        })
+}
+
+pub(super) fn reaction(params: &Params, columns: &mut Columns) {
+    let h = f64::from(params.step);
+    let incidence = incidence(&columns.nodes);
+    let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
+    let places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
+    let count = columns.bodies.states.0.len();
+    let mut wrenches = vec![Wrench::default(); count];
+    for chunk in columns.bodies.node_wrenches.0.chunks(count.max(1)) {
+        for (wrench, part) in wrenches.iter_mut().zip(chunk) {
+            wrench.impulse += part.impulse;
+            wrench.angular_impulse += part.angular_impulse;
+        }
+    }
+    let mut reaction = vec![[0.0; 4]; columns.nodes.position.len()];
+    for node in 0..columns.rows.nodes {
+        if !descends(params, &columns.nodes, node) {
+            continue;
+        }
+        let (force, stiffness) =
+            local(params, columns.nodes.sponge[node], &places, &before, &incidence[node]);
+        let resists = -h * h / 3.0 * (stiffness.x_axis.x + stiffness.y_axis.y + stiffness.z_axis.z);
+        let w = f64::from(columns.nodes.predicted[node][3]);
+        if w <= 0.0 {
+            reaction[node] = row(-h * force, resists);
+            continue;
+        }
+        reaction[node] = row(DVec3::ZERO, 1.0 / w);
+        if is_near(params, columns, node, places[node]) {
+            let at = (&places[..], &before[..]);
+            let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
+            let (by_bodies, by_walls) = push(params, columns, node, stiffness, &mut point);
+            for (body, force) in by_bodies.iter().enumerate() {
+                let centre = columns.bodies.states.0[body].state.position.as_dvec3();
+                wrenches[body].add(-h * *force, before[node] - centre);
+            }
+            let all = by_walls + by_bodies.into_iter().sum::<DVec3>();
+            if all != DVec3::ZERO {
+                reaction[node] = row(h * all, resists);
+            }
+        }
+    }
+    columns.nodes.reaction = reaction;
+    columns.bodies.node_wrenches.0 = wrenches;
+}
+
+pub(super) fn momentum(params: &Params, columns: &mut Columns) {
+    let (nodes, h) = (&mut columns.nodes, f64::from(params.step));
+    for (index, sponge) in params.sponges.iter().enumerate() {
+        if sponge.solver != Solver::Vbd {
+            continue;
+        }
+        let own: Vec<usize> =
+            (0..columns.rows.nodes).filter(|node| nodes.sponge[*node] as usize == index).collect();
+        let weight = |node: usize| f64::from(nodes.reaction[node][3]).abs();
+        let mass: f64 = own.iter().map(|node| weight(*node)).sum();
+        let centre =
+            own.iter().map(|node| weight(*node) * vector(nodes.position[*node])).sum::<DVec3>() / mass;
+        let (mut lacking, mut moment, mut inertia) = (DVec3::ZERO, DVec3::ZERO, DMat3::ZERO);
+        for node in own.iter().copied() {
+            let arm = vector(nodes.position[node]) - centre;
+            let w = f64::from(nodes.predicted[node][3]);
+            let gained = vector(nodes.predicted[node]) - vector(nodes.target[node]);
+            let own = if w > 0.0 { gained / (w * h) } else { DVec3::ZERO };
+            let own = vector(nodes.reaction[node]) - own;
+            lacking += own;
+            moment += arm.cross(own);
+            inertia += weight(node) * (DMat3::IDENTITY * arm.length_squared() - outer(arm, arm));
+        }
+        let turn = inertia.inverse() * moment;
+        for node in own {
+            let (x, y, v) = (nodes.position[node], nodes.predicted[node], nodes.velocity[node]);
+            let w = f64::from(y[3]);
+            if w <= 0.0 {
+                continue;
+            }
+            let mut place = vector(y);
+            if nodes.reaction[node][3] > 0.0 {
+                place += h * (lacking / mass + turn.cross(vector(x) - centre));
+            }
+            nodes.predicted[node] = row(place, w);
+            let a = vector(nodes.acceleration[node]);
+            let gained = (place - vector(x)) / h - vector(v);
+            nodes.velocity[node][3] = (gained.dot(a) / (h * a.length_squared())).clamp(0.0, 1.0) as f32;
+        }
+    }
+}

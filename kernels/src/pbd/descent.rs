@@ -1,0 +1,281 @@
+//! The energy of one node while all others stand still: what vertex block descent minimises.
+//!
+//! Energy density of a tet \[SGK18, without the logarithm; MM21\], with F the deformation gradient and J its determinant:
+//!
+//! ```text
+//! psi = mu / 2 (|F|^2 - 3) + lambda / 2 (J - alpha)^2,   alpha = 1 + mu / lambda
+//! ```
+//!
+//! J is linear in the place x of one node and |F|^2 quadratic, so the energy is exactly quadratic in x. With the corners
+//! of the star `p_k` in `c_k` tets each, and per tet the partner u and the consecutive corners r and q of its ring:
+//!
+//! ```text
+//! G = 2 (q - u) x (r - u) / a^2,   J = (u - x) . G / a
+//! -dE/dx = a mu / 12 sum_k c_k (p_k - x) + a^2 lambda / 12 sum_tets (J - alpha) G
+//! H      = a mu / 12 sum_k c_k 1         + a   lambda / 12 sum_tets G G^T
+//! ```
+//!
+//! H plus the inertia m / h^2 is positive definite for any places of the nodes, inverted tets included.
+//!
+//! Damping is that of a Kelvin-Voigt material with the strain rate of the deformation at the beginning of the step, so
+//! that it is linear in x, and acts along that configuration: it keeps linear and angular momentum. With the columns g
+//! of F at that time and n how x enters them:
+//!
+//! ```text
+//! e_kl = (g_k . df_l + g_l . df_k) / 2,   s = tau / h (2 mu e + (lambda - mu) tr e 1)
+//! -dD/dx = -V sum_kl n_k s_kl g_l,   H += V tau / h (mu (|n|^2 sum_k g_k g_k^T + N N^T) + (lambda - mu) N N^T),   N = sum_k n_k g_k
+//! ```
+
+use crate::{
+    lanes::{self, LANES, Simd, f32x8},
+    params::{Params, Solver, SpongeParams},
+    pbd::stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
+    vector::{Vec3x8, cross, dot, minus, plus, times},
+};
+
+/// A symmetric matrix of three rows: xx, yy, zz, xy, xz, yz.
+pub(super) type Symmetric<S> = [f32x8<S>; 6];
+
+/// Adds `b b^T` times a scalar, given as `a = scale b`.
+#[inline(always)]
+fn add_outer<S: Simd>(sum: &mut Symmetric<S>, a: Vec3x8<S>, b: Vec3x8<S>) {
+    sum[0] += a[0] * b[0];
+    sum[1] += a[1] * b[1];
+    sum[2] += a[2] * b[2];
+    sum[3] += a[0] * b[1];
+    sum[4] += a[0] * b[2];
+    sum[5] += a[1] * b[2];
+}
+
+/// Product of a symmetric matrix and a vector.
+#[inline(always)]
+pub(super) fn product<S: Simd>(m: &Symmetric<S>, v: Vec3x8<S>) -> Vec3x8<S> {
+    [
+        m[0] * v[0] + m[3] * v[1] + m[4] * v[2],
+        m[3] * v[0] + m[1] * v[1] + m[5] * v[2],
+        m[4] * v[0] + m[5] * v[1] + m[2] * v[2],
+    ]
+}
+
+/// Inverse of a positive definite matrix.
+#[inline(always)]
+pub(super) fn inverse<S: Simd>(simd: S, m: &Symmetric<S>) -> Symmetric<S> {
+    let [xx, yy, zz, xy, xz, yz] = *m;
+    let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
+    let scale = lanes::splat(simd, 1.0) / (xx * a + xy * b + xz * c);
+    [
+        a * scale,
+        (xx * zz - xz * xz) * scale,
+        (xx * yy - xy * xy) * scale,
+        b * scale,
+        c * scale,
+        (xy * xz - xx * yz) * scale,
+    ]
+}
+
+/// Constants of the sponges of eight nodes.
+#[derive(Clone, Copy)]
+pub(super) struct Material<S: Simd> {
+    /// 1 for nodes of this solver, else 0.
+    pub(super) own: f32x8<S>,
+    pub(super) friction: f32x8<S>,
+    inverse_edge: f32x8<S>,
+    pub(super) edge: f32x8<S>,
+    alpha: f32x8<S>,
+    /// a mu / 12.
+    shear: f32x8<S>,
+    /// a lambda / 12.
+    volume: f32x8<S>,
+    /// tau / h.
+    damping: f32x8<S>,
+    damps: bool,
+}
+
+/// The constants of one sponge, in the order of [`Material`].
+fn constants(sponge: &SpongeParams, step: f32) -> [f32; 8] {
+    let own = if sponge.solver == Solver::Vbd { 1.0 } else { 0.0 };
+    [
+        own,
+        sponge.friction,
+        1.0 / sponge.edge,
+        sponge.edge,
+        1.0 + sponge.mu / sponge.lambda,
+        sponge.edge * sponge.mu / 12.0,
+        sponge.edge * sponge.lambda / 12.0,
+        own * sponge.damping / step,
+    ]
+}
+
+/// The constants of the sponges of eight nodes; most often that is one.
+#[inline(never)]
+pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]) -> [[f32; LANES]; 8] {
+    let mut columns = [[0.0; LANES]; 8];
+    let mut last = None;
+    let mut values = [0.0; 8];
+    for (lane, node) in nodes.iter().enumerate() {
+        let sponge = sponge[*node as usize];
+        if last != Some(sponge) {
+            values = constants(&params.sponges[sponge as usize], params.step);
+            last = Some(sponge);
+        }
+        for (column, value) in columns.iter_mut().zip(values) {
+            column[lane] = value;
+        }
+    }
+    columns
+}
+
+impl<S: Simd> Material<S> {
+    /// From the constants of eight nodes.
+    #[inline(always)]
+    pub(super) fn new(simd: S, columns: &[[f32; LANES]; 8]) -> Self {
+        let vector = |column: usize| lanes::load_array(simd, &columns[column]);
+        Self {
+            own: vector(0),
+            friction: vector(1),
+            inverse_edge: vector(2),
+            edge: vector(3),
+            alpha: vector(4),
+            shear: vector(5),
+            volume: vector(6),
+            damping: vector(7),
+            damps: columns[7] != [0.0; LANES],
+        }
+    }
+}
+
+/// Eight nodes and what surrounds them.
+struct Star<'a, S: Simd> {
+    simd: S,
+    group: &'a StarGroup,
+    shape: &'a StarShape,
+    /// Places of the neighbours, first the corners, then the directions.
+    around: [Vec3x8<S>; NEIGHBORS],
+}
+
+impl<'a, S: Simd> Star<'a, S> {
+    /// Loads the places of the neighbours.
+    #[inline(always)]
+    fn new(simd: S, (group, shape): (&'a StarGroup, &'a StarShape), places: &[[f32; 4]]) -> Self {
+        let zero = lanes::splat(simd, 0.0);
+        let mut around = [[zero; 3]; NEIGHBORS];
+        for (place, rows) in around.iter_mut().zip(&group.neighbors).take(shape.neighbors) {
+            let [x, y, z, _] = lanes::gather_rows(simd, places, rows);
+            *place = [x, y, z];
+        }
+        Self { simd, group, shape, around }
+    }
+
+    /// Elastic force on the node at `x` and its stiffness.
+    #[inline(always)]
+    fn elasticity(&self, material: &Material<S>, x: Vec3x8<S>) -> (Vec3x8<S>, Symmetric<S>) {
+        let simd = self.simd;
+        let zero = lanes::splat(simd, 0.0);
+        let (mut pull, mut count) = ([zero; 3], zero);
+        for corner in 0..CORNERS {
+            let share = lanes::load_array(simd, &self.group.shares[corner]);
+            pull = plus(pull, times(minus(self.around[corner], x), share));
+            count += share;
+        }
+        let (mut pressure, mut outer) = ([zero; 3], [zero; 6]);
+        let twice = material.inverse_edge * material.inverse_edge * lanes::splat(simd, 2.0);
+        for (direction, ring) in self.shape.rings.iter().enumerate() {
+            let partner = self.around[CORNERS + direction];
+            let out = minus(partner, x);
+            let first = minus(self.around[ring[0]], partner);
+            let mut r = first;
+            for k in 0..4 {
+                let q = if k == 3 { first } else { minus(self.around[ring[k + 1]], partner) };
+                let area = times(cross(q, r), twice);
+                let present = lanes::load_array(simd, &self.group.tets[4 * direction + k]);
+                let own = times(area, present);
+                let ratio = dot(out, area) * material.inverse_edge;
+                pressure = plus(pressure, times(own, ratio - material.alpha));
+                add_outer(&mut outer, own, area);
+                r = q;
+            }
+        }
+        let (shear, volume) = (material.shear, material.volume);
+        let force = plus(times(pull, shear), times(pressure, volume * material.edge));
+        let mut stiffness = [zero; 6];
+        for k in 0..6 {
+            stiffness[k] = outer[k] * volume;
+        }
+        for diagonal in &mut stiffness[..3] {
+            *diagonal += count * shear;
+        }
+        (force, stiffness)
+    }
+
+    /// Adds the damping force and its derivative; `before` are the stars at the beginning of the step, where the node was
+    /// at `old`.
+    #[inline(always)]
+    fn damp(
+        &self,
+        material: &Material<S>,
+        before: &Self,
+        (x, old): (Vec3x8<S>, Vec3x8<S>),
+        (force, stiffness): &mut (Vec3x8<S>, Symmetric<S>),
+    ) {
+        let simd = self.simd;
+        // The columns are left without their factor 1 / a, and n without its own.
+        let half = lanes::splat(simd, 0.5);
+        let lame = material.volume - material.shear;
+        let twice = material.shear + material.shear;
+        let inverse_square = material.inverse_edge * material.inverse_edge;
+        for (tet, corners) in self.shape.tets.iter().enumerate() {
+            let (f, g) = (self.columns(corners, x), before.columns(corners, old));
+            let df = [minus(f[0], g[0]), minus(f[1], g[1]), minus(f[2], g[2])];
+            let rate = |k: usize, l: usize| (dot(g[k], df[l]) + dot(g[l], df[k])) * half * inverse_square;
+            let (dd, ff) = (rate(0, 0), rate(2, 2));
+            let trace = (dd + rate(1, 1) + ff) * lame;
+            // n = -(1, 0, 1): only the first and the last row of the stress.
+            let (de, across, ef) = (rate(0, 1) * twice, rate(0, 2) * twice, rate(1, 2) * twice);
+            let own = lanes::load_array(simd, &self.group.tets[tet]) * material.damping;
+            let first = times(g[0], (dd * twice + trace + across) * own);
+            let second = times(g[1], (de + ef) * own);
+            let third = times(g[2], (ff * twice + trace + across) * own);
+            *force = plus(*force, plus(plus(first, second), third));
+            let n = plus(g[0], g[2]);
+            let weight = own * inverse_square;
+            add_outer(stiffness, times(n, weight * material.volume), n);
+            let both = weight * twice;
+            for column in g {
+                add_outer(stiffness, times(column, both), column);
+            }
+        }
+    }
+
+    /// Columns of the deformation gradient of a tet, times the edge.
+    #[inline(always)]
+    fn columns(&self, [partner, q, r]: &[usize; 3], x: Vec3x8<S>) -> [Vec3x8<S>; 3] {
+        let (u, q, r) = (self.around[*partner], self.around[*q], self.around[*r]);
+        [minus(u, x), minus(q, r), minus(plus(q, r), plus(x, u))]
+    }
+}
+
+/// The quadratic energy of eight nodes: force at the present place, and stiffness, both without inertia.
+#[inline(always)]
+pub(super) fn local<S: Simd>(
+    simd: S,
+    group: (&StarGroup, &StarShape),
+    material: &Material<S>,
+    (now, before): (&[[f32; 4]], &[[f32; 4]]),
+    (x, old): (Vec3x8<S>, Vec3x8<S>),
+) -> (Vec3x8<S>, Symmetric<S>) {
+    // Not written out again for every caller.
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let star = Star::new(simd, group, now);
+            let mut local = star.elasticity(material, x);
+            if material.damps {
+                let before = Star::new(simd, group, before);
+                star.damp(material, &before, (x, old), &mut local);
+            }
+            // Further terms that are quadratic in the place of the node, such as the drag of the water in the pores, add
+            // their force and stiffness here.
+            local
+        },
+    )
+}

@@ -1,0 +1,41 @@
+//! Where vertex block descent begins \[CLYX24, section 3.7\].
+//!
+//! ```text
+//! z = y,   y <- z - h^2 (1 - s) a
+//! ```
+//!
+//! The target z is where the node would go without elastic forces. The first guess leaves out the share of the external
+//! acceleration a that the node did not follow in the last step, because something held it: `s = 1` in free fall,
+//! `s = 0` at rest. What is at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
+
+use crate::{
+    columns::{Column::*, Columns, Nodes},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::{Params, Solver},
+};
+
+/// `pbd::guess`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::guess",
+    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
+    reads: &[NodeVelocity, NodeAcceleration, NodeSponge, NodePredicted],
+    writes: &[NodePredicted, NodeTarget],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Nodes { velocity, acceleration, sponge, predicted, target, .. } = &mut columns.nodes;
+    target.resize(predicted.len(), [0.0; 4]);
+    let square = params.step * params.step;
+    cpu.for_chunks((&mut predicted[..], &mut target[..]), |first, (predicted, target)| {
+        for (row, (y, z)) in predicted.iter_mut().zip(target).enumerate() {
+            *z = *y;
+            let node = first + row;
+            if y[3] > 0.0 && params.solver(sponge[node]) == Some(Solver::Vbd) {
+                let lacking = square * (1.0 - velocity[node][3]);
+                (0..3).for_each(|axis| y[axis] -= lacking * acceleration[node][axis]);
+            }
+        }
+    });
+}

@@ -1,0 +1,181 @@
+//! Gives a sponge the momentum that it lacks after few sweeps of vertex block descent.
+//!
+//! Elastic forces neither change the momentum of a sponge nor its angular momentum, but those of an unconverged solution
+//! do. Every sponge receives the rigid motion that makes up for it:
+//!
+//! ```text
+//! dP = sum J - sum m (v' - v*),   v' = (y - x) / h,   v* = (z - x) / h
+//! dL = the same of the moments x x J and x x m (v' - v*)
+//! y += h (u + w x (x - c)),   u = dP / M,   w = I^-1 (dL - c x dP)
+//! ```
+//!
+//! with the impulses J from outside. Moments are taken at the places x of the beginning of the step, at which
+//! `sum x x m v` is the angular momentum of the new velocities whatever the new places are. Nodes that touch something or
+//! are held do not take part; M, I and the centre c count them with the mass `h^2 k` that resists like their stiffness k,
+//! so that a sponge that stands on something is not shaken. A free sponge keeps both momenta to rounding.
+//!
+//! The share of the external acceleration that a node followed is kept for the next `pbd::guess`.
+
+use glam::{DMat3, DVec3};
+
+use crate::{
+    columns::{Column::*, Columns, Nodes},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::{Params, Solver},
+    pbd::stars::Piece,
+};
+
+/// `pbd::momentum`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::momentum",
+    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
+    reads: &[
+        NodePosition,
+        NodeVelocity,
+        NodeStars,
+        NodeSponge,
+        NodeTarget,
+        NodeReaction,
+        NodePredicted,
+        NodeAcceleration,
+    ],
+    writes: &[NodeVelocity, NodePredicted],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Nodes { position, velocity, acceleration, stars, sponge, target, reaction, predicted, .. } =
+        &mut columns.nodes;
+    let rate = 1.0 / f64::from(params.step);
+    let mut sums: Vec<Sums> = vec![Sums::default(); stars.pieces.len()];
+    let rows = Rows { position, predicted, target, reaction };
+    cpu.for_chunks_of(1, &mut sums[..], |first, sums| {
+        for (sum, Piece { sponge, rows: range }) in sums.iter_mut().zip(&stars.pieces[first..]) {
+            if params.solver(*sponge) == Some(Solver::Vbd) {
+                range.clone().for_each(|node| sum.add(&rows, node as usize, rate));
+            }
+        }
+    });
+    let mut totals = vec![Sums::default(); params.sponges.len()];
+    for (sum, piece) in sums.iter().zip(&stars.pieces) {
+        totals[piece.sponge as usize].join(sum);
+    }
+    let motions: Vec<Motion> = totals.iter().map(Sums::motion).collect();
+    let step = params.step;
+    cpu.for_chunks((&mut predicted[..], &mut velocity[..]), |first, (predicted, velocity)| {
+        for (row, (y, v)) in predicted.iter_mut().zip(velocity).enumerate() {
+            let node = first + row;
+            if y[3] <= 0.0 || params.solver(sponge[node]) != Some(Solver::Vbd) {
+                continue;
+            }
+            let x = position[node];
+            if reaction[node][3] > 0.0 {
+                let change = motions[sponge[node] as usize].at(x);
+                (0..3).for_each(|axis| y[axis] += step * change[axis]);
+            }
+            v[3] = followed(x, *y, *v, acceleration[node], step);
+        }
+    });
+}
+
+/// Share of the external acceleration that a node followed.
+fn followed(x: [f32; 4], y: [f32; 4], v: [f32; 4], a: [f32; 4], step: f32) -> f32 {
+    let (mut along, mut square) = (0.0, 0.0);
+    for axis in 0..3 {
+        along += ((y[axis] - x[axis]) / step - v[axis]) * a[axis];
+        square += a[axis] * a[axis];
+    }
+    let share = along / (step * square);
+    // Not a number without acceleration, where the share does not matter.
+    if share >= 1.0 {
+        1.0
+    } else if share > 0.0 {
+        share
+    } else {
+        0.0
+    }
+}
+
+struct Rows<'a> {
+    position: &'a [[f32; 4]],
+    predicted: &'a [[f32; 4]],
+    target: &'a [[f32; 4]],
+    reaction: &'a [[f32; 4]],
+}
+
+/// Sums over nodes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    /// Mass, of free nodes and in all.
+    mass: [f64; 2],
+    /// First moment of mass \[kg m\].
+    first: DVec3,
+    /// Second moment of mass: columns of `sum m x x^T` \[kg m^2\].
+    second: DMat3,
+    momentum: DVec3,
+    angular_momentum: DVec3,
+}
+
+impl Sums {
+    fn add(&mut self, rows: &Rows<'_>, node: usize, rate: f64) {
+        let vector = |row: [f32; 4]| DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
+        let x = vector(rows.position[node]);
+        let weight = f64::from(rows.reaction[node][3]);
+        let mass = weight.abs();
+        self.mass[0] += weight.max(0.0);
+        self.mass[1] += mass;
+        self.first += x * mass;
+        self.second += DMat3::from_cols(x * (x.x * mass), x * (x.y * mass), x * (x.z * mass));
+        let inverse = f64::from(rows.predicted[node][3]);
+        let own = if inverse > 0.0 { rate / inverse } else { 0.0 };
+        let gained = (vector(rows.predicted[node]) - vector(rows.target[node])) * own;
+        let lacking = vector(rows.reaction[node]) - gained;
+        self.momentum += lacking;
+        self.angular_momentum += x.cross(lacking);
+    }
+
+    fn join(&mut self, other: &Self) {
+        self.mass[0] += other.mass[0];
+        self.mass[1] += other.mass[1];
+        self.first += other.first;
+        self.second += other.second;
+        self.momentum += other.momentum;
+        self.angular_momentum += other.angular_momentum;
+    }
+
+    /// The rigid motion that makes up for what is lacking.
+    fn motion(&self) -> Motion {
+        let [free, mass] = self.mass;
+        if free <= 0.0 {
+            return Motion::default();
+        }
+        let centre = self.first / mass;
+        let second = self.second
+            - DMat3::from_cols(self.first * centre.x, self.first * centre.y, self.first * centre.z);
+        let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+        let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - second;
+        let angular = self.angular_momentum - centre.cross(self.momentum);
+        let determinant = inertia.determinant();
+        // A sponge of nodes in one line cannot be turned about it.
+        let turns = determinant > 1.0e-12 * trace.powi(3);
+        let angular_velocity = if turns { inertia.inverse() * angular } else { DVec3::ZERO };
+        Motion { centre, velocity: self.momentum / mass, angular_velocity }
+    }
+}
+
+/// A rigid motion.
+#[derive(Clone, Copy, Debug, Default)]
+struct Motion {
+    centre: DVec3,
+    velocity: DVec3,
+    angular_velocity: DVec3,
+}
+
+impl Motion {
+    /// Velocity at a place.
+    fn at(&self, [x, y, z, _]: [f32; 4]) -> [f32; 3] {
+        let arm = DVec3::new(f64::from(x), f64::from(y), f64::from(z)) - self.centre;
+        (self.velocity + self.angular_velocity.cross(arm)).as_vec3().to_array()
+    }
+}

@@ -1,0 +1,251 @@
+//! Walls and bodies in the way of a node that has an energy of its own.
+//!
+//! A node at x with stiffness H that lies `depth` below a surface with normal n is pushed by a force r to the place where
+//! its energy is least of all that are not below the surface:
+//!
+//! ```text
+//! dx = H^-1 r,   n . dx = depth
+//! ```
+//!
+//! It sticks if the force that takes it to where it stuck, `r = H (depth n - slide)`, lies in the cone of Coulomb friction,
+//! `|r_t| <= mu r_n`; else it slips, and `r = l (n + mu r_t / |r_t|)`.
+
+use glam::{DVec3, Vec3};
+
+use crate::{
+    body::{Body, Placed, Wrench},
+    cpu::Cpu,
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    params::Params,
+    pbd::descent::{Symmetric, product},
+    vector::{Vec3x8, dot, minus, plus, times},
+};
+
+/// Smallest part of the compliance along the normal that friction may leave.
+const LEAST_COMPLIANCE: f32 = 0.1;
+
+/// Eight values of each coordinate.
+type Lanes3 = [[f32; LANES]; 3];
+
+/// What nodes must stay out of.
+///
+/// Its functions are compiled on their own, with arrays between them and their callers: most nodes touch nothing, and code
+/// for all shapes in the middle of the solver takes the compiler minutes.
+#[derive(Debug)]
+pub(super) struct Obstacles<'a> {
+    cpu: &'a Cpu,
+    step: f32,
+    /// Axis, direction of the normal along it, and place of every wall.
+    walls: Vec<(usize, f32, f32)>,
+    bodies: &'a [Body],
+}
+
+/// Eight nodes in their quadratic energies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    /// Where the nodes are.
+    pub(super) point: Lanes3,
+    /// Where they were at the beginning of the step.
+    pub(super) old: Lanes3,
+    /// Second derivative of the energy, with inertia.
+    pub(super) stiffness: [[f32; LANES]; 6],
+    /// Its inverse.
+    pub(super) inverse: [[f32; LANES]; 6],
+    /// Coulomb friction against walls.
+    pub(super) friction: [f32; LANES],
+    /// 1 for nodes that obstacles may move, else 0.
+    pub(super) own: [f32; LANES],
+}
+
+impl<'a> Obstacles<'a> {
+    pub(super) fn new(cpu: &'a Cpu, params: &Params, bodies: &'a [Body]) -> Self {
+        Self { cpu, step: params.step, walls: params.walls.map_or_else(Vec::new, walls), bodies }
+    }
+
+    /// 1 for points closer than `margin` to an obstacle, else 0.
+    #[inline(never)]
+    pub(super) fn near(&self, point: &Lanes3, margin: &[f32; LANES]) -> [f32; LANES] {
+        with_lanes!(self.cpu, simd => self.near_lanes(simd, point, margin))
+    }
+
+    #[inline(always)]
+    fn near_lanes<S: Simd>(&self, simd: S, point: &Lanes3, margin: &[f32; LANES]) -> [f32; LANES] {
+        let (point, margin) = (vector(simd, point), lanes::load_array(simd, margin));
+        let one = lanes::splat(simd, 1.0);
+        let mut near = lanes::splat(simd, 0.0);
+        for (axis, sign, wall) in &self.walls {
+            near = select(((point[*axis] - *wall) * *sign).simd_lt(margin), one, near);
+        }
+        for body in self.bodies.iter().filter(|body| body.touches_nodes) {
+            let placed = Placed::new(simd, body);
+            let drift = times(placed.velocity(point), lanes::splat(simd, self.step));
+            near = select(placed.distance(minus(point, drift)).0.simd_lt(margin), one, near);
+        }
+        near.to_array()
+    }
+
+    /// Moves the nodes out of everything, and gives the forces on them that it takes. Adds what bodies receive for it to
+    /// `wrenches`, with the places at the beginning of the step as the points of attack.
+    #[inline(never)]
+    pub(super) fn push(&self, contact: &mut Contact, wrenches: Option<&mut [Wrench]>) -> Lanes3 {
+        with_lanes!(self.cpu, simd => self.push_lanes(simd, contact, wrenches))
+    }
+
+    #[inline(always)]
+    fn push_lanes<S: Simd>(
+        &self,
+        simd: S,
+        contact: &mut Contact,
+        mut wrenches: Option<&mut [Wrench]>,
+    ) -> Lanes3 {
+        let zero = lanes::splat(simd, 0.0);
+        let own = lanes::load_array(simd, &contact.own);
+        let quadratic = Quadratic::load(simd, contact);
+        let old = vector(simd, &contact.old);
+        let mut point = vector(simd, &contact.point);
+        let mut total = [zero; 3];
+        for index in 0..self.bodies.len() + self.walls.len() {
+            let mut drift = [zero; 3];
+            let (distance, normal, friction);
+            if let Some(body) = self.bodies.get(index) {
+                if !body.touches_nodes {
+                    continue;
+                }
+                let placed = Placed::new(simd, body);
+                drift = times(placed.velocity(point), lanes::splat(simd, self.step));
+                // The body stands where it began the step: so is the node, in the body's frame.
+                (distance, normal) = placed.distance(minus(point, drift));
+                friction = lanes::splat(simd, body.friction);
+            } else {
+                let (axis, sign, wall) = self.walls[index - self.bodies.len()];
+                distance = (point[axis] - wall) * sign;
+                let mut along = [zero; 3];
+                along[axis] = lanes::splat(simd, sign);
+                normal = along;
+                friction = lanes::load_array(simd, &contact.friction);
+            }
+            let depth = lanes::positive(simd, -distance) * own;
+            if !depth.simd_gt(zero).any_true() {
+                continue;
+            }
+            let slide = minus(minus(point, old), drift);
+            let (change, force) = react(simd, &quadratic, depth, normal, slide, friction);
+            point = plus(point, change);
+            total = plus(total, force);
+            if let (Some(wrenches), Some(body)) = (wrenches.as_deref_mut(), self.bodies.get(index)) {
+                give(&array(force), &contact.old, (self.step, body.state.position), &mut wrenches[index]);
+            }
+        }
+        // One obstacle may have pushed into another: walls have the last word.
+        for (axis, sign, wall) in &self.walls {
+            let outside = ((point[*axis] - *wall) * *sign).simd_lt(zero) & own.simd_gt(zero);
+            point[*axis] = select(outside, lanes::splat(simd, *wall), point[*axis]);
+        }
+        contact.point = array(point);
+        array(total)
+    }
+}
+
+#[inline(always)]
+pub(super) fn vector<S: Simd>(simd: S, of: &Lanes3) -> Vec3x8<S> {
+    [lanes::load_array(simd, &of[0]), lanes::load_array(simd, &of[1]), lanes::load_array(simd, &of[2])]
+}
+
+#[inline(always)]
+pub(super) fn array<S: Simd>(of: Vec3x8<S>) -> Lanes3 {
+    [of[0].to_array(), of[1].to_array(), of[2].to_array()]
+}
+
+/// Stiffness of eight nodes with their inertia, and its inverse.
+pub(super) struct Quadratic<S: Simd> {
+    pub(super) stiffness: Symmetric<S>,
+    pub(super) inverse: Symmetric<S>,
+}
+
+impl<S: Simd> Quadratic<S> {
+    #[inline(always)]
+    fn load(simd: S, contact: &Contact) -> Self {
+        let zero = lanes::splat(simd, 0.0);
+        let mut loaded = Self { stiffness: [zero; 6], inverse: [zero; 6] };
+        for k in 0..6 {
+            loaded.stiffness[k] = lanes::load_array(simd, &contact.stiffness[k]);
+            loaded.inverse[k] = lanes::load_array(simd, &contact.inverse[k]);
+        }
+        loaded
+    }
+
+    /// Nodes at `point` in this energy.
+    #[inline(always)]
+    pub(super) fn contact(
+        &self,
+        (point, old): (Vec3x8<S>, Vec3x8<S>),
+        (friction, own): (f32x8<S>, f32x8<S>),
+    ) -> Contact {
+        let mut contact = Contact {
+            point: array(point),
+            old: array(old),
+            stiffness: [[0.0; LANES]; 6],
+            inverse: [[0.0; LANES]; 6],
+            friction: friction.to_array(),
+            own: own.to_array(),
+        };
+        for k in 0..6 {
+            contact.stiffness[k] = self.stiffness[k].to_array();
+            contact.inverse[k] = self.inverse[k].to_array();
+        }
+        contact
+    }
+}
+
+/// Adds the opposite of the impulses of eight forces to a wrench.
+#[inline(never)]
+fn give(force: &Lanes3, old: &Lanes3, (step, centre): (f32, Vec3), wrench: &mut Wrench) {
+    for lane in 0..LANES {
+        let vector =
+            |of: &Lanes3| DVec3::new(f64::from(of[0][lane]), f64::from(of[1][lane]), f64::from(of[2][lane]));
+        let force = vector(force);
+        if force != DVec3::ZERO {
+            wrench.add(force * -f64::from(step), vector(old) - centre.as_dvec3());
+        }
+    }
+}
+
+/// The six walls of a box.
+fn walls((minimum, maximum): (Vec3, Vec3)) -> Vec<(usize, f32, f32)> {
+    (0..3).flat_map(|axis| [(axis, 1.0, minimum[axis]), (axis, -1.0, maximum[axis])]).collect()
+}
+
+/// Change of place and force; both are zero where `depth` is.
+#[inline(always)]
+fn react<S: Simd>(
+    simd: S,
+    quadratic: &Quadratic<S>,
+    depth: f32x8<S>,
+    normal: Vec3x8<S>,
+    slide: Vec3x8<S>,
+    friction: f32x8<S>,
+) -> (Vec3x8<S>, Vec3x8<S>) {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let tangential = minus(slide, times(normal, dot(slide, normal)));
+    let back = minus(times(normal, depth), tangential);
+    let stuck = product(&quadratic.stiffness, back);
+    let across = dot(stuck, normal);
+    let along = minus(stuck, times(normal, across));
+    let length = dot(along, along).sqrt();
+    // Weights instead of choices: the scalar fallback branches at every choice of every lane.
+    let sticks = select(length.simd_le(across * friction), one, zero);
+    let slips = one - sticks;
+    let scale = friction / select(length.simd_gt(zero), length, one);
+    let slanted = plus(normal, times(along, scale));
+    let (by_slanted, by_normal) = (product(&quadratic.inverse, slanted), product(&quadratic.inverse, normal));
+    let (with, without) = (dot(normal, by_slanted), dot(normal, by_normal));
+    let tilted = select(with.simd_gt(without * LEAST_COMPLIANCE), one, zero);
+    let plain = one - tilted;
+    let direction = plus(times(slanted, tilted), times(normal, plain));
+    let compliance = plus(times(by_slanted, tilted), times(by_normal, plain));
+    let size = depth / (with * tilted + without * plain) * slips;
+    let touches = select(depth.simd_gt(zero), one, zero);
+    let change = plus(times(back, sticks), times(compliance, size));
+    let force = plus(times(stuck, sticks), times(direction, size));
+    (times(change, touches), times(force, touches))
+}

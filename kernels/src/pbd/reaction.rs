@@ -1,0 +1,133 @@
+//! What walls, bodies and grips gave to the nodes of vertex block descent.
+//!
+//! Few sweeps leave forces in a sponge that do not balance, but what acts from outside can be told: the force that keeps
+//! a touching node out of an obstacle (`obstacles.rs`), and that with which a grip answers the elastic force on a held
+//! node. Bodies receive the opposite. The fourth value is what the node weighs in `pbd::momentum`.
+
+use crate::{
+    body::{Body, Wrench},
+    columns::{Column::*, Columns, Nodes},
+    cpu::{CHUNK, Cpu, PerChunk},
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    params::{Params, Solver},
+    pbd::{
+        descent::{Material, constants_of, local},
+        obstacles::{Obstacles, array, vector},
+        stars::{StarGroup, Stars},
+        vbd::least,
+    },
+    vector::{choose, dot, negative, times},
+};
+
+/// How close to an obstacle, in edges, a node is looked at.
+const MARGIN: f32 = 1.0e-2;
+
+/// `pbd::reaction`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::reaction",
+    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
+    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates, BodyNodeWrenches],
+    writes: &[NodeReaction, BodyNodeWrenches],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Nodes { position, predicted, target, sponge, stars, reaction, .. } = &mut columns.nodes;
+    let bodies = &columns.bodies.states.0;
+    let wrenches = &mut columns.bodies.node_wrenches.0;
+    reaction.clear();
+    reaction.resize(position.len(), [0.0; 4]);
+    for color in 0..4 {
+        let rows = stars.rows(color);
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
+        // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
+        let chunks = rows.len().div_ceil(CHUNK);
+        let mut own = vec![Wrench::default(); chunks * bodies.len()];
+        let mut by_chunk: Vec<&mut [Wrench]> = match bodies.len() {
+            0 => (0..chunks).map(|_| &mut [][..]).collect(),
+            count => own.chunks_exact_mut(count).collect(),
+        };
+        cpu.for_chunks((&mut reaction[rows], PerChunk(&mut by_chunk)), |first, (reaction, wrenches)| {
+            with_lanes!(cpu, simd => task.chunk(simd, color, first, reaction, wrenches.0[0]));
+        });
+        wrenches.extend_from_slice(&own);
+    }
+}
+
+struct Task<'a> {
+    cpu: &'a Cpu,
+    params: &'a Params,
+    bodies: &'a [Body],
+    position: &'a [[f32; 4]],
+    predicted: &'a [[f32; 4]],
+    target: &'a [[f32; 4]],
+    sponge: &'a [u32],
+    stars: &'a Stars,
+}
+
+impl Task<'_> {
+    #[inline(always)]
+    fn chunk<S: Simd>(
+        &self,
+        simd: S,
+        color: usize,
+        first: usize,
+        reaction: &mut [[f32; 4]],
+        wrenches: &mut [Wrench],
+    ) {
+        let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
+        let groups = self.stars.groups_from(color, first);
+        for (group, reaction) in groups.iter().zip(reaction.chunks_mut(LANES)) {
+            let constants = constants_of(self.params, self.sponge, &group.own);
+            let material = Material::new(simd, &constants);
+            // A short last group repeats its last node, which must not count twice.
+            let mut counts = [0.0; LANES];
+            counts[..reaction.len()].fill(1.0);
+            let counts = lanes::load_array(simd, &counts) * material.own;
+            let found = self.look(simd, group, (&material, counts), &obstacles, wrenches);
+            let mut stored = [[0.0; 4]; LANES];
+            lanes::store_rows(&mut stored, 0, found);
+            reaction.copy_from_slice(&stored[..reaction.len()]);
+        }
+    }
+
+    /// Impulse from outside, and mass.
+    #[inline(always)]
+    fn look<S: Simd>(
+        &self,
+        simd: S,
+        group: &StarGroup,
+        (material, counts): (&Material<S>, f32x8<S>),
+        obstacles: &Obstacles<'_>,
+        wrenches: &mut [Wrench],
+    ) -> [f32x8<S>; 4] {
+        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+        let [x, y, z, w] = lanes::gather_rows(simd, self.predicted, &group.own);
+        let x = [x, y, z];
+        let free = w.simd_gt(zero);
+        let mass = one / select(free, w, one);
+        let own = select(free, counts, zero);
+        let near =
+            lanes::load_array(simd, &obstacles.near(&array(x), &(material.edge * MARGIN).to_array())) * own;
+        let is_held = !free & counts.simd_gt(zero);
+        if !(is_held | near.simd_gt(zero)).any_true() {
+            return [zero, zero, zero, mass * own];
+        }
+        let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
+        let [tx, ty, tz, _] = lanes::gather_rows(simd, self.target, &group.own);
+        let (old, target) = ([ox, oy, oz], [tx, ty, tz]);
+        let places = (self.predicted, self.position);
+        let step = self.params.step;
+        let (elastic, stiffness) = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, w), step);
+        let mut contact = quadratic.contact((point, old), (material.friction, near));
+        let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));
+        let force = choose(free, pushed, times(negative(elastic), counts));
+        let touches = dot(force, force).simd_gt(zero) | is_held;
+        let mean = (stiffness[0] + stiffness[1] + stiffness[2]) * (1.0 / 3.0);
+        let resists = mean * lanes::splat(simd, step * step) * counts;
+        let [x, y, z] = times(force, lanes::splat(simd, step));
+        [x, y, z, select(touches, -resists, mass * own)]
+    }
+}

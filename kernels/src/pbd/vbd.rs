@@ -1,0 +1,121 @@
+//! Vertex block descent: every node goes to where its energy is least while the others stand still \[CLYX24\].
+//!
+//! ```text
+//! E(x) = m / (2 h^2) |x - z|^2 + sum over tets of V psi(F) + damping,   x <- x + (m / h^2 + H)^-1 (m / h^2 (z - x) - dE/dx)
+//! ```
+//!
+//! with the target z and the energy of `descent.rs`. Four vertex colours: the neighbours of a node have another one, so
+//! nodes of a colour can move at the same time. Contact and friction are solved together with the elasticity of the node,
+//! in `obstacles.rs`. What a sweep does never raises the total energy without contact; it is stable at any step.
+//!
+//! Differs from the paper: the Hessian is exact and positive definite as it is, because the energy is quadratic in one
+//! node; contact is exact instead of a penalty; no step is lengthened.
+
+use crate::{
+    body::Body,
+    columns::{Column::*, Columns, Nodes},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    params::{Params, Solver},
+    pbd::{
+        descent::{Material, Symmetric, constants_of, inverse, local, product},
+        obstacles::{Obstacles, Quadratic, vector},
+        stars::{StarGroup, Stars},
+    },
+    vector::{Vec3x8, choose, minus, plus, times},
+};
+
+/// `pbd::vbd`: one sweep over all colours.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::vbd",
+    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
+    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates],
+    writes: &[NodePredicted],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Nodes { position, predicted, target, sponge, stars, .. } = &mut columns.nodes;
+    let bodies = &columns.bodies.states.0;
+    let mut moved = Vec::new();
+    for color in 0..4 {
+        let rows = stars.rows(color);
+        moved.clear();
+        moved.resize(rows.len(), [0.0; 4]);
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
+        cpu.for_chunks(&mut moved[..], |first, moved| {
+            with_lanes!(cpu, simd => task.chunk(simd, color, first, moved));
+        });
+        predicted[rows].copy_from_slice(&moved);
+    }
+}
+
+struct Task<'a> {
+    cpu: &'a Cpu,
+    params: &'a Params,
+    bodies: &'a [Body],
+    position: &'a [[f32; 4]],
+    predicted: &'a [[f32; 4]],
+    target: &'a [[f32; 4]],
+    sponge: &'a [u32],
+    stars: &'a Stars,
+}
+
+impl Task<'_> {
+    #[inline(always)]
+    fn chunk<S: Simd>(&self, simd: S, color: usize, first: usize, moved: &mut [[f32; 4]]) {
+        let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
+        let groups = self.stars.groups_from(color, first);
+        for (group, moved) in groups.iter().zip(moved.chunks_mut(LANES)) {
+            let constants = constants_of(self.params, self.sponge, &group.own);
+            let material = Material::new(simd, &constants);
+            let solved = self.solve(simd, group, &material, &obstacles);
+            let mut stored = [[0.0; 4]; LANES];
+            lanes::store_rows(&mut stored, 0, solved);
+            moved.copy_from_slice(&stored[..moved.len()]);
+        }
+    }
+
+    #[inline(always)]
+    fn solve<S: Simd>(
+        &self,
+        simd: S,
+        group: &StarGroup,
+        material: &Material<S>,
+        obstacles: &Obstacles<'_>,
+    ) -> [f32x8<S>; 4] {
+        let [x, y, z, w] = lanes::gather_rows(simd, self.predicted, &group.own);
+        let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
+        let [tx, ty, tz, _] = lanes::gather_rows(simd, self.target, &group.own);
+        let (x, old, target) = ([x, y, z], [ox, oy, oz], [tx, ty, tz]);
+        let zero = lanes::splat(simd, 0.0);
+        let moves = w.simd_gt(zero) & material.own.simd_gt(zero);
+        let places = (self.predicted, self.position);
+        let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        let (point, quadratic) = least(simd, energy, (x, target, w), self.params.step);
+        let own = select(moves, lanes::splat(simd, 1.0), zero);
+        let mut contact = quadratic.contact((point, old), (material.friction, own));
+        obstacles.push(&mut contact, None);
+        let [x, y, z] = choose(moves, vector(simd, &contact.point), x);
+        [x, y, z, w]
+    }
+}
+
+/// Where an energy is least without obstacles, and its second derivative.
+#[inline(always)]
+pub(super) fn least<S: Simd>(
+    simd: S,
+    (force, mut stiffness): (Vec3x8<S>, Symmetric<S>),
+    (x, target, w): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),
+    step: f32,
+) -> (Vec3x8<S>, Quadratic<S>) {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let inertia = one / (select(w.simd_gt(zero), w, one) * lanes::splat(simd, step * step));
+    for diagonal in &mut stiffness[..3] {
+        *diagonal += inertia;
+    }
+    let inverse = inverse(simd, &stiffness);
+    let pull = plus(force, times(minus(target, x), inertia));
+    (plus(x, product(&inverse, pull)), Quadratic { stiffness, inverse })
+}

@@ -1,0 +1,202 @@
+// The energy of one node while all others stand still, and obstacles in its way; `descent.rs` and `obstacles.rs` have the
+// formulas. Uses the bindings `stars`, `position`, `predicted`, and `bodies`.
+
+// Words of a star: 8 corners, 6 directions, tets, sponge.
+const STAR: u32 = 16u;
+const DIRECTION: u32 = 8u;
+const TETS: u32 = 14u;
+const SPONGE: u32 = 15u;
+
+const RINGS = array<vec4<u32>, 6>(
+    vec4<u32>(6u, 4u, 0u, 2u),
+    vec4<u32>(7u, 3u, 1u, 5u),
+    vec4<u32>(5u, 1u, 0u, 4u),
+    vec4<u32>(7u, 6u, 2u, 3u),
+    vec4<u32>(3u, 2u, 0u, 1u),
+    vec4<u32>(7u, 5u, 4u, 6u),
+);
+
+const LEAST_COMPLIANCE: f32 = 0.1;
+
+struct Local {
+    force: vec3<f32>,
+    stiffness: mat3x3<f32>,
+}
+
+struct Quadratic {
+    point: vec3<f32>,
+    stiffness: mat3x3<f32>,
+    inverse: mat3x3<f32>,
+}
+
+struct Reaction {
+    change: vec3<f32>,
+    force: vec3<f32>,
+}
+
+fn outer(a: vec3<f32>, b: vec3<f32>) -> mat3x3<f32> {
+    return mat3x3<f32>(a * b.x, a * b.y, a * b.z);
+}
+
+fn inverse_of(m: mat3x3<f32>) -> mat3x3<f32> {
+    let a = cross(m[1], m[2]);
+    let b = cross(m[2], m[0]);
+    let c = cross(m[0], m[1]);
+    let scale = 1.0 / dot(m[0], a);
+    return mat3x3<f32>(a * scale, b * scale, c * scale);
+}
+
+fn diagonal(value: f32) -> mat3x3<f32> {
+    return mat3x3<f32>(vec3<f32>(value, 0.0, 0.0), vec3<f32>(0.0, value, 0.0), vec3<f32>(0.0, 0.0, value));
+}
+
+// Force by the viscosity of one tet, given the columns of its deformation now and before, times the edge.
+fn viscosity(f: mat3x3<f32>, g: mat3x3<f32>, sponge: Sponge, rate: f32) -> Local {
+    let shear = sponge.edge * sponge.mu / 12.0;
+    let volume = sponge.edge * sponge.lambda / 12.0;
+    let inverse_square = 1.0 / (sponge.edge * sponge.edge);
+    let d = f - g;
+    let scale = 0.5 * inverse_square;
+    let dd = 2.0 * dot(g[0], d[0]) * scale;
+    let ee = 2.0 * dot(g[1], d[1]) * scale;
+    let ff = 2.0 * dot(g[2], d[2]) * scale;
+    let de = (dot(g[0], d[1]) + dot(g[1], d[0])) * scale * 2.0 * shear;
+    let df = (dot(g[0], d[2]) + dot(g[2], d[0])) * scale * 2.0 * shear;
+    let ef = (dot(g[1], d[2]) + dot(g[2], d[1])) * scale * 2.0 * shear;
+    let trace = (dd + ee + ff) * (volume - shear);
+    let first = g[0] * ((dd * 2.0 * shear + trace + df) * rate);
+    let second = g[1] * ((de + ef) * rate);
+    let third = g[2] * ((ff * 2.0 * shear + trace + df) * rate);
+    let n = g[0] + g[2];
+    var stiffness = outer(n * (rate * inverse_square * volume), n);
+    let both = rate * inverse_square * 2.0 * shear;
+    stiffness += outer(g[0] * both, g[0]) + outer(g[1] * both, g[1]) + outer(g[2] * both, g[2]);
+    return Local(first + second + third, stiffness);
+}
+
+fn columns_of(x: vec3<f32>, u: vec3<f32>, q: vec3<f32>, r: vec3<f32>) -> mat3x3<f32> {
+    return mat3x3<f32>(u - x, q - r, (q + r) - (x + u));
+}
+
+// Elastic and damping force on a node at `x`, and its stiffness.
+fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
+    let base = row * STAR;
+    let tets = stars[base + TETS];
+    let inverse_edge = 1.0 / sponge.edge;
+    let shear = sponge.edge * sponge.mu / 12.0;
+    let volume = sponge.edge * sponge.lambda / 12.0;
+    let alpha = 1.0 + sponge.mu / sponge.lambda;
+    let rate = sponge.damping / step;
+    var rings = RINGS;
+    var pull = vec3<f32>(0.0);
+    var count = 0.0;
+    var pressure = vec3<f32>(0.0);
+    var stiffness = mat3x3<f32>();
+    var damping = Local(vec3<f32>(0.0), mat3x3<f32>());
+    for (var direction = 0u; direction < 6u; direction += 1u) {
+        let ring = rings[direction];
+        let partner = stars[base + DIRECTION + direction];
+        let u = predicted[partner].xyz;
+        for (var k = 0u; k < 4u; k += 1u) {
+            if (((tets >> (4u * direction + k)) & 1u) == 0u) {
+                continue;
+            }
+            let r_row = stars[base + ring[k]];
+            let q_row = stars[base + ring[(k + 1u) % 4u]];
+            let r = predicted[r_row].xyz;
+            let q = predicted[q_row].xyz;
+            pull += (q - x) + (r - x);
+            count += 2.0;
+            let area = cross(q - u, r - u) * (2.0 * inverse_edge * inverse_edge);
+            let ratio = dot(u - x, area) * inverse_edge;
+            pressure += area * (ratio - alpha);
+            stiffness += outer(area, area);
+            if (rate > 0.0) {
+                let f = columns_of(x, u, q, r);
+                let g = columns_of(old, position[partner].xyz, position[q_row].xyz, position[r_row].xyz);
+                let part = viscosity(f, g, sponge, rate);
+                damping.force += part.force;
+                damping.stiffness += part.stiffness;
+            }
+        }
+    }
+    let force = pull * shear + pressure * (volume * sponge.edge) + damping.force;
+    return Local(force, stiffness * volume + diagonal(count * shear) + damping.stiffness);
+}
+
+// Where the energy is least without obstacles.
+fn least(local: Local, x: vec3<f32>, goal: vec3<f32>, w: f32, step: f32) -> Quadratic {
+    let inertia = 1.0 / (w * (step * step));
+    let stiffness = local.stiffness + diagonal(inertia);
+    let inverse = inverse_of(stiffness);
+    return Quadratic(x + inverse * (local.force + (goal - x) * inertia), stiffness, inverse);
+}
+
+fn react(quadratic: Quadratic, depth: f32, normal: vec3<f32>, slide: vec3<f32>, friction: f32) -> Reaction {
+    let back = normal * depth - (slide - normal * dot(slide, normal));
+    let stuck = quadratic.stiffness * back;
+    let across = dot(stuck, normal);
+    let along = stuck - normal * across;
+    let length = sqrt(dot(along, along));
+    if (length <= across * friction) {
+        return Reaction(back, stuck);
+    }
+    var direction = normal + along * (friction / length);
+    let plain = dot(normal, quadratic.inverse * normal);
+    var compliance = dot(normal, quadratic.inverse * direction);
+    if (compliance <= plain * LEAST_COMPLIANCE) {
+        direction = normal;
+        compliance = plain;
+    }
+    let force = direction * (depth / compliance);
+    return Reaction(quadratic.inverse * force, force);
+}
+
+// What one body does to a point.
+fn push_by_body(
+    body: Body,
+    quadratic: Quadratic,
+    point: vec3<f32>,
+    old: vec3<f32>,
+    step: f32,
+) -> Reaction {
+    let drift = body_velocity(body, point) * step;
+    // The body stands where it began the step: so is the node, in the body's frame.
+    let surface = body_surface(body, point - drift);
+    if (surface.distance >= 0.0 || body.info.w == 0u) {
+        return Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
+    }
+    return react(quadratic, -surface.distance, surface.normal, point - old - drift, body.surface.x);
+}
+
+// Where the walls leave a point, as `change` from it, and their force.
+fn push_by_walls(
+    low: vec3<f32>,
+    high: vec3<f32>,
+    quadratic: Quadratic,
+    start: vec3<f32>,
+    old: vec3<f32>,
+    friction: f32,
+) -> Reaction {
+    var point = start;
+    var force = vec3<f32>(0.0);
+    for (var side = 0u; side < 6u; side += 1u) {
+        let axis = side / 2u;
+        var normal = vec3<f32>(0.0);
+        var depth = 0.0;
+        if (side % 2u == 0u) {
+            normal[axis] = 1.0;
+            depth = low[axis] - point[axis];
+        } else {
+            normal[axis] = -1.0;
+            depth = point[axis] - high[axis];
+        }
+        if (depth > 0.0) {
+            let reaction = react(quadratic, depth, normal, point - old, friction);
+            point += reaction.change;
+            force += reaction.force;
+        }
+    }
+    // One obstacle may have pushed into another: walls have the last word.
+    return Reaction(clamp(point, low, high) - start, force);
+}

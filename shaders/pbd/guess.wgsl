@@ -1,0 +1,28 @@
+// Where vertex block descent begins: z = y, y <- z - h^2 (1 - s) a.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(6) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> goal: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.node_rows) {
+        return;
+    }
+    let y = predicted[row];
+    goal[row] = y;
+    if (y.w > 0.0 && sponges.all[node_sponge[row]].solver == VBD) {
+        let lacking = clock.step * clock.step * (1.0 - velocity[row].w);
+        predicted[row] = vec4<f32>(y.xyz - acceleration[row].xyz * lacking, y.w);
+    }
+}

@@ -1,0 +1,45 @@
+// Gives every node its part of the rigid motion that its sponge lacks, and keeps the share of the external acceleration
+// that it followed.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(6) var<storage, read> reaction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> motions: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> velocity: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.node_rows) {
+        return;
+    }
+    let sponge = node_sponge[row];
+    let start = predicted[row];
+    if (start.w <= 0.0 || sponges.all[sponge].solver != VBD) {
+        return;
+    }
+    let x = position[row].xyz;
+    var y = start.xyz;
+    if (reaction[row].w > 0.0) {
+        let turn = cross(motions[sponge * 3u + 2u].xyz, x - motions[sponge * 3u].xyz);
+        y += (motions[sponge * 3u + 1u].xyz + turn) * clock.step;
+    }
+    predicted[row] = vec4<f32>(y, start.w);
+    let v = velocity[row].xyz;
+    let a = acceleration[row].xyz;
+    let square = dot(a, a);
+    var share = 0.0;
+    if (square > 0.0) {
+        share = clamp(dot((y - x) / clock.step - v, a) / (clock.step * square), 0.0, 1.0);
+    }
+    velocity[row] = vec4<f32>(v, share);
+}

@@ -1,0 +1,107 @@
+// The rigid motion that makes up for the momentum that a sponge lacks, one group per sponge; `momentum.rs` has the
+// formulas. Moments are taken about the first node of the sponge.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> sponges: Sponges;
+@group(0) @binding(2) var<storage, read> ranges: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> goal: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> reaction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> motions: array<vec4<f32>>;
+
+struct Sums {
+    // First moment, and mass.
+    first: vec4<f32>,
+    // Second moments xx, yy, zz, and the mass of free nodes.
+    squares: vec4<f32>,
+    // Second moments xy, xz, yz.
+    products: vec3<f32>,
+    momentum: vec3<f32>,
+    angular: vec3<f32>,
+}
+
+var<workgroup> sums: array<Sums, 128>;
+
+fn term(row: u32, origin: vec3<f32>) -> Sums {
+    let x = position[row].xyz - origin;
+    let weight = reaction[row].w;
+    let mass = abs(weight);
+    let y = predicted[row];
+    var lacking = reaction[row].xyz;
+    if (y.w > 0.0) {
+        lacking -= (y.xyz - goal[row].xyz) * (clock.inverse_step / y.w);
+    }
+    return Sums(
+        vec4<f32>(x, 1.0) * mass,
+        vec4<f32>(x * x * mass, max(weight, 0.0)),
+        vec3<f32>(x.x * x.y, x.x * x.z, x.y * x.z) * mass,
+        lacking,
+        cross(x, lacking),
+    );
+}
+
+fn join(a: Sums, b: Sums) -> Sums {
+    return Sums(
+        a.first + b.first,
+        a.squares + b.squares,
+        a.products + b.products,
+        a.momentum + b.momentum,
+        a.angular + b.angular,
+    );
+}
+
+@compute @workgroup_size(128)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u || sponges.all[group.x].solver != VBD) {
+        return;
+    }
+    let none = vec3<f32>(0.0);
+    let origin = position[ranges[group.x * 4u].x].xyz;
+    var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
+    for (var color = 0u; color < 4u; color += 1u) {
+        let range = ranges[group.x * 4u + color];
+        for (var row = range.x + lane; row < range.y; row += 128u) {
+            own = join(own, term(row, origin));
+        }
+    }
+    sums[lane] = own;
+    for (var half = 64u; half > 0u; half = half / 2u) {
+        workgroupBarrier();
+        if (lane < half) {
+            sums[lane] = join(sums[lane], sums[lane + half]);
+        }
+    }
+    if (lane != 0u) {
+        return;
+    }
+    let all = sums[0];
+    var centre = none;
+    var velocity = none;
+    var turn = none;
+    if (all.squares.w > 0.0) {
+        let first = all.first.xyz;
+        centre = first / all.first.w;
+        let squares = all.squares.xyz - first * centre;
+        let products = all.products - vec3<f32>(first.x * centre.y, first.x * centre.z, first.y * centre.z);
+        let trace = squares.x + squares.y + squares.z;
+        let inertia = mat3x3<f32>(
+            vec3<f32>(trace - squares.x, -products.x, -products.y),
+            vec3<f32>(-products.x, trace - squares.y, -products.z),
+            vec3<f32>(-products.y, -products.z, trace - squares.z),
+        );
+        velocity = all.momentum / all.first.w;
+        let scaled = inertia * (1.0 / trace);
+        let a = cross(scaled[1], scaled[2]);
+        let b = cross(scaled[2], scaled[0]);
+        let c = cross(scaled[0], scaled[1]);
+        let determinant = dot(scaled[0], a);
+        let angular = (all.angular - cross(centre, all.momentum)) / trace;
+        if (determinant > 1.0e-12) {
+            turn = vec3<f32>(dot(a, angular), dot(b, angular), dot(c, angular)) / determinant;
+        }
+    }
+    motions[group.x * 3u] = vec4<f32>(centre + origin, 0.0);
+    motions[group.x * 3u + 1u] = vec4<f32>(velocity, 0.0);
+    motions[group.x * 3u + 2u] = vec4<f32>(turn, 0.0);
+}

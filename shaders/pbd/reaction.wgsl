@@ -1,0 +1,104 @@
+// What walls, bodies and grips gave to the nodes of vertex block descent; `reaction.rs` has the rules.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> goal: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> stars: array<u32>;
+@group(0) @binding(7) var<storage, read> bodies: array<Body>;
+@group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> reaction: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+const MARGIN: f32 = 1.0e-2;
+
+fn is_near(point: vec3<f32>, margin: f32) -> bool {
+    if (params.wall_low.w > 0.0) {
+        let low = point - params.wall_low.xyz;
+        let high = params.wall_high.xyz - point;
+        let least = min(low, high);
+        if (min(least.x, min(least.y, least.z)) < margin) {
+            return true;
+        }
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let body = bodies[index];
+        let drift = body_velocity(body, point) * clock.step;
+        if (body.info.w != 0u && body_surface(body, point - drift).distance < margin) {
+            return true;
+        }
+    }
+    return false;
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    var x = vec4<f32>(0.0);
+    var old = vec3<f32>(0.0);
+    var sponge = sponges.all[0];
+    var counts = false;
+    if (row < params.node_rows) {
+        x = predicted[row];
+        old = position[row].xyz;
+        sponge = sponges.all[stars[row * STAR + SPONGE]];
+        counts = sponge.solver == VBD;
+    }
+    let free = x.w > 0.0;
+    let near = counts && free && is_near(x.xyz, sponge.edge * MARGIN);
+    var local = Local(vec3<f32>(0.0), diagonal(1.0));
+    var quadratic = Quadratic(x.xyz, diagonal(1.0), diagonal(1.0));
+    if (near || (counts && !free)) {
+        local = local_energy(row, x.xyz, old, sponge, clock.step);
+    }
+    if (near) {
+        quadratic = least(local, x.xyz, goal[row].xyz, x.w, clock.step);
+    }
+    var point = quadratic.point;
+    var force = vec3<f32>(0.0);
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        var pushed = Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
+        if (near) {
+            pushed = push_by_body(bodies[index], quadratic, point, old, clock.step);
+        }
+        point += pushed.change;
+        force += pushed.force;
+        if (group_touches(lane, any(pushed.force != vec3<f32>(0.0)))) {
+            let impulse = pushed.force * -clock.step;
+            let all = group_sum(lane, Wrench(impulse, cross(old - bodies[index].position.xyz, impulse)));
+            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            if (lane == 0u) {
+                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+            }
+        }
+    }
+    if (near && params.wall_low.w > 0.0) {
+        let low = params.wall_low.xyz;
+        let high = params.wall_high.xyz;
+        force += push_by_walls(low, high, quadratic, point, old, sponge.friction).force;
+    }
+    if (counts && !free) {
+        force = -local.force;
+    }
+    if (row < params.node_rows) {
+        var mass = 0.0;
+        if (counts && free) {
+            mass = 1.0 / x.w;
+        }
+        if (counts && (!free || any(force != vec3<f32>(0.0)))) {
+            let trace = local.stiffness[0].x + local.stiffness[1].y + local.stiffness[2].z;
+            mass = -trace / 3.0 * (clock.step * clock.step);
+        }
+        reaction[row] = vec4<f32>(force * clock.step, mass);
+    }
+}

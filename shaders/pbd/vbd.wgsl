@@ -1,0 +1,51 @@
+// Vertex block descent for the nodes of one vertex colour; `vbd.rs` has the formulas. Neighbours have other colours.
+
+struct Batch {
+    first: u32,
+    count: u32,
+    unused_0: u32,
+    unused_1: u32,
+}
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> batch: Batch;
+@group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> goal: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> stars: array<u32>;
+@group(0) @binding(7) var<storage, read> bodies: array<Body>;
+@group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> predicted: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = row_of(group, groups, lane);
+    if (clock.running == 0u || index >= batch.count) {
+        return;
+    }
+    let row = batch.first + index;
+    let sponge = sponges.all[stars[row * STAR + SPONGE]];
+    let x = predicted[row];
+    if (x.w <= 0.0 || sponge.solver != VBD) {
+        return;
+    }
+    let old = position[row].xyz;
+    let local = local_energy(row, x.xyz, old, sponge, clock.step);
+    let quadratic = least(local, x.xyz, goal[row].xyz, x.w, clock.step);
+    var point = quadratic.point;
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        point += push_by_body(bodies[index], quadratic, point, old, clock.step).change;
+    }
+    if (params.wall_low.w > 0.0) {
+        let low = params.wall_low.xyz;
+        let high = params.wall_high.xyz;
+        point += push_by_walls(low, high, quadratic, point, old, sponge.friction).change;
+        point = clamp(point, low, high);
+    }
+    predicted[row] = vec4<f32>(point, x.w);
+}
