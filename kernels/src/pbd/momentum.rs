@@ -105,7 +105,7 @@ struct Rows<'a> {
 }
 
 /// Sums over nodes.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Sums {
     /// Mass, of free nodes and in all.
     mass: [f64; 2],
@@ -115,6 +115,14 @@ struct Sums {
     second: DMat3,
     momentum: DVec3,
     angular_momentum: DVec3,
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        let none = DVec3::ZERO;
+        // The default of a matrix is the identity.
+        Self { mass: [0.0; 2], first: none, second: DMat3::ZERO, momentum: none, angular_momentum: none }
+    }
 }
 
 impl Sums {
