@@ -134,6 +134,7 @@ const WET: Content = Content {
     bodies: false,
     surface_tension: false,
     iterations: 0,
+    rounds: 0,
 };
 
 fn small(step: &[Phase], observed: &[Column]) -> Plan {
@@ -175,7 +176,8 @@ fn the_step_itself_is_consistent_for_every_content() {
     for bits in 0..256_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
         let solvers = [0, 1, 2].map(|k| (bits >> (5 + k) & 1 == 1).then_some(SOLVERS[k]));
-        let content = Content { fluid, sponge, solvers, walls, bodies, surface_tension, iterations: 1 };
+        let content =
+            Content { fluid, sponge, solvers, walls, bodies, surface_tension, iterations: 1, rounds: 1 };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
         }

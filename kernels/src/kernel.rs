@@ -22,8 +22,14 @@ pub enum Need {
     Projection,
     /// Walls of a container, or bodies.
     Obstacles,
+    /// Rigid bodies.
+    Bodies,
     /// Fluid with surface tension.
     SurfaceTension,
+    /// Pressure by an equation of state.
+    EquationOfState,
+    /// Pressure by a solve that keeps the density.
+    Incompressible,
 }
 
 impl Need {
@@ -38,7 +44,10 @@ impl Need {
             Self::Solver(Solver::XpbdNeoHookean) => "no sponge with solver xpbd_neo_hookean",
             Self::Projection => "no sponge with solver sbd or xpbd_neo_hookean",
             Self::Obstacles => "no walls and no bodies",
+            Self::Bodies => "no bodies",
             Self::SurfaceTension => "surface tension is zero",
+            Self::EquationOfState => "pressure is solved for",
+            Self::Incompressible => "pressure by an equation of state",
         }
     }
 }
@@ -68,7 +77,16 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::forces::KERNEL,
     &sph::surface_tension::KERNEL,
     &sph::repulsion::KERNEL,
+    &sph::boundary_pressure::KERNEL,
     &sph::kick::KERNEL,
+    &sph::predict::KERNEL,
+    &sph::boundary::KERNEL,
+    &sph::factors::KERNEL,
+    &sph::pressure_update::KERNEL,
+    &sph::pressure_acceleration::KERNEL,
+    &sph::pressure_residual::KERNEL,
+    &sph::pressure_kick::KERNEL,
+    &sph::boundary_reaction::KERNEL,
     &sph::advect::KERNEL,
     &pbd::gravity::KERNEL,
     &pbd::predict::KERNEL,

@@ -10,9 +10,10 @@ use crate::{
     grid::cells::Domain,
     kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
-    params::{EquationOfState, FluidParams, Params, Solver, SpongeParams},
+    params::{EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
     pbd::stars::Stars,
     smoothing::Wendland,
+    sph::{boundary::boundary_profile, factors::lattice_diagonal},
     testing::Random,
 };
 
@@ -32,8 +33,20 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::forces",
     "sph::surface_tension",
     "sph::repulsion",
+    "sph::boundary_pressure",
     "couple::suction",
     "sph::kick",
+    "sph::predict",
+    "sph::boundary",
+    "sph::factors",
+    "sph::pressure_update",
+    "sph::pressure_acceleration",
+    "sph::pressure_residual",
+    "sph::pressure_update",
+    "sph::pressure_acceleration",
+    "sph::pressure_residual",
+    "sph::pressure_kick",
+    "sph::boundary_reaction",
     "pbd::gravity",
     "couple::zero_distance",
     "pbd::predict",
@@ -63,6 +76,7 @@ pub(super) struct Options {
     pub(super) walls: bool,
     pub(super) bounded: bool,
     pub(super) equation_of_state: EquationOfState,
+    pub(super) incompressible: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -73,9 +87,15 @@ pub(super) const FULL: Options = Options {
     walls: true,
     bounded: true,
     equation_of_state: EquationOfState::Tait,
+    incompressible: false,
 };
 
 impl Options {
+    /// The same, with the pressure that the kernel is there for.
+    pub(super) fn suiting(self, kernel: &Kernel) -> Self {
+        Self { incompressible: kernel.needs.contains(&Need::Incompressible), ..self }
+    }
+
     /// Sites per site of the coarse block, along each axis.
     fn refinement(self) -> usize {
         (1..).find(|n| BLOCK * n * n * n >= self.fluid).unwrap_or(1)
@@ -156,7 +176,10 @@ impl Scene {
             Need::Solver(solver) => sponges.iter().any(|sponge| sponge.solver == *solver),
             Need::Projection => sponges.iter().any(|sponge| sponge.solver != Solver::Vbd),
             Need::Obstacles => self.options.walls || self.options.bodies,
+            Need::Bodies => self.options.bodies,
             Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
+            Need::EquationOfState => !self.options.incompressible,
+            Need::Incompressible => self.options.incompressible,
         })
     }
 
@@ -266,6 +289,7 @@ fn params(options: Options) -> Params {
             smoothing: Wendland::new(radius),
             equation_of_state: options.equation_of_state,
             sound_speed: 10.0,
+            incompressible: options.incompressible.then(|| incompressible(radius, spacing)),
             viscosity: 0.5,
             surface_tension: 0.07,
             repulsion_range: spacing,
@@ -274,6 +298,20 @@ fn params(options: Options) -> Params {
         },
         sponges: if options.sponges { sponges() } else { Vec::new() },
         coupling: Wendland::new(0.015),
+    }
+}
+
+/// With a tolerance of zero, so that rounding does not decide about one more round.
+fn incompressible(radius: f32, spacing: f32) -> Incompressible {
+    let smoothing = Wendland::new(radius);
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    Incompressible {
+        tolerance: 0.0,
+        rounds: 50,
+        lattice_diagonal: lattice_diagonal(&smoothing, spacing),
+        correction_speed: 1.0,
+        boundary_range,
+        boundary_share,
     }
 }
 
