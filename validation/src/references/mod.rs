@@ -1,0 +1,4 @@
+//! Tables and formulas with their sources.
+
+pub mod floating;
+pub mod martin_moyce;
