@@ -8,7 +8,8 @@ use sorb::{
 
 use crate::{
     case::{Case, Failure, Figure, Setting, Subject},
-    norms::{interpolated, least, root_mean_square},
+    level::heights,
+    norms::{interpolated, least, mean, root_mean_square},
     references::martin_moyce::{BASE, FRONT, HEIGHT},
 };
 
@@ -107,24 +108,19 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
 }
 
 impl Sample {
-    /// Front and height are those of the outermost row of particles across the channel: single drops do not count.
+    /// The front is that of the outermost row of particles across the channel, so that single drops do not count. The
+    /// height is that of the water two spacings from the wall: a film that hangs on the wall is no column.
     fn of(world: &World, spacing: f64) -> Self {
-        let positions = world.particle_positions();
-        let row = ACROSS as usize;
-        let outermost = |mut values: Vec<f64>| {
-            values.sort_by(f64::total_cmp);
-            values.len().checked_sub(row).map_or(0.0, |index| values[index] + 0.5 * spacing)
-        };
-        let all = positions.iter().map(|p| f64::from(p[0])).collect();
-        let at_wall = positions
-            .iter()
-            .filter(|p| f64::from(p[0]) < 2.0 * spacing)
-            .map(|p| f64::from(p[1]))
-            .collect();
+        let mut along: Vec<_> = world.particle_positions().iter().map(|p| f64::from(p[0])).collect();
+        along.sort_by(f64::total_cmp);
+        let front =
+            along.len().checked_sub(ACROSS as usize).map_or(0.0, |index| along[index] + 0.5 * spacing);
+        let middle = 0.5 * f64::from(ACROSS) * spacing;
+        let at_wall = heights(world, &[-0.5, 0.0, 0.5].map(|z| (2.0 * spacing, middle + z * spacing)));
         Self {
             time: world.clock().time,
-            front: outermost(all) / BASE,
-            height: outermost(at_wall) / (2.0 * BASE),
+            front: front / BASE,
+            height: if at_wall.is_empty() { 0.0 } else { mean(at_wall) / (2.0 * BASE) },
         }
     }
 }

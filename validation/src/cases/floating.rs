@@ -30,17 +30,17 @@ const SIDE: f64 = 0.1;
 /// Its height \[m\].
 const HEIGHT: f64 = 0.05;
 /// Side of the tank and depth of the water without the slab \[m\].
-const TANK: (f64, f64) = (0.3, 0.15);
+const TANK: (f64, f64) = (0.24, 0.12);
 /// Particles over the side of the slab.
-const PARTICLES: u32 = 10;
+const PARTICLES: u32 = 12;
 /// Density of the slab over that of water.
 const DENSITIES: [f64; 4] = [0.1, 0.3, 0.5, 0.9];
 /// Gravity \[m/s^2\].
 const GRAVITY: f64 = 9.81;
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
-    let spacing = SIDE / f64::from(setting.count(setting.pick(PARTICLES, PARTICLES / 2 + 1)));
-    let densities = setting.pick(&DENSITIES[..], &DENSITIES[1..2]);
+    let spacing = SIDE / f64::from(setting.count(setting.pick(PARTICLES, PARTICLES * 2 / 3)));
+    let densities = setting.pick(&DENSITIES[..], &DENSITIES[2..3]);
     let mut figures = Vec::new();
     for density in densities {
         figures.extend(float(setting, *density, spacing)?);
@@ -50,7 +50,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 
 fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, Failure> {
     let mut world = setting.world(&scene(setting, density, spacing))?;
-    let seconds = setting.pick(3.0, 1.5);
+    let seconds = setting.pick(2.5, 1.5);
     let (mut heave, mut drafts) = (Vec::new(), Vec::new());
     while world.clock().time < seconds {
         world.advance_frame()?;
@@ -70,8 +70,11 @@ fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, F
     )];
     let settled = mean(heave.iter().rev().take(30).map(|sample| sample.1));
     let crossings = upward_crossings(&heave, settled);
-    // It starts too high, so that the first crossing ends three quarters of a period.
-    let period = crossings.first().map_or(f64::NAN, |first| first / 0.75);
+    // The first fall is not part of a swing: the water beneath settles as well.
+    let period = match crossings[..] {
+        [first, second, ..] => second - first,
+        _ => f64::NAN,
+    };
     figures.push(Figure::relative(
         format!("period of heave at {density}"),
         "s",

@@ -73,6 +73,12 @@ impl Model {
         Self { rest, tets, mass, energy, gravity, held, shapes, volumes }
     }
 
+    /// The same problem with another energy.
+    #[must_use]
+    pub fn with_energy(&self, energy: Energy) -> Self {
+        Self { energy, ..self.clone() }
+    }
+
     /// Forces of the strained tets on all nodes, at given positions \[N\].
     #[must_use]
     pub fn forces(&self, positions: &[DVec3]) -> Vec<DVec3> {
