@@ -21,7 +21,7 @@ pub(super) static CASE: Case = Case {
     title: "a square slab half as high as wide floats, at four densities",
     source: "draft = L_y rho_b / rho; heave 2 pi sqrt((m + m_a) / (rho g A)), m_a by DNV-RP-C205",
     subject: Subject::Water,
-    control: "the slab a third heavier",
+    control: "the slab half as heavy again",
     run,
 };
 
@@ -96,7 +96,7 @@ fn scene(setting: &Setting, density: f64, spacing: f64) -> Scene {
     };
     let half_extents = Vec3::new(0.5 * SIDE as f32, 0.5 * HEIGHT as f32, 0.5 * SIDE as f32);
     let centre = TANK.1 + HEIGHT * (0.5 - density + 0.2);
-    let mass = setting.planted(1.0, 4.0 / 3.0);
+    let mass = setting.planted(1.0, 1.5);
     let body = Body::dynamic(
         "slab",
         ShapeKind::Cuboid { half_extents },

@@ -18,7 +18,7 @@ pub(super) static CASE: Case = Case {
     title: "a column of water stands still under its own weight",
     source: "p = rho g (H - y)",
     subject: Subject::Water,
-    control: "gravity a tenth too strong",
+    control: "gravity half as strong",
     run,
 };
 
@@ -57,7 +57,7 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
         blocks: vec![FluidBlock::new(minimum, Vec3::new(half, depth, half))],
         ..Fluid::default()
     };
-    let gravity = setting.planted(-GRAVITY, -1.1 * GRAVITY) as f32;
+    let gravity = setting.planted(-GRAVITY, -0.5 * GRAVITY) as f32;
     Scene { gravity: Vec3::new(0.0, gravity, 0.0), ..Scene::new("hydrostatic") }
         .in_box(minimum, Vec3::new(half, 1.5 * depth, half))
         .with_fluid(fluid)

@@ -14,7 +14,7 @@ pub(super) static CASE: Case = Case {
     title: "a jet hits a sponge and a ball hits both, nothing acts from outside",
     source: "momentum is kept",
     subject: Subject::Coupling,
-    control: "gravity of 1e-3 m/s^2",
+    control: "gravity of 0.1 m/s^2",
     run,
 };
 
@@ -75,6 +75,6 @@ fn scene(setting: &Setting) -> Scene {
         angular_velocity: Vec3::new(0.0, 5.0, 0.0),
         ..Body::dynamic("ball", ShapeKind::Sphere { radius: 0.015 }, Vec3::new(0.01, -0.05, 0.005), 2500.0)
     };
-    let gravity = Vec3::new(0.0, setting.planted(0.0, -1e-3), 0.0);
+    let gravity = Vec3::new(0.0, setting.planted(0.0, -0.1), 0.0);
     Scene { gravity, ..Scene::new("free") }.with_fluid(fluid).with_sponge(sponge).with_body(ball)
 }

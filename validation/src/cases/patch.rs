@@ -19,7 +19,7 @@ pub(super) static CASE: Case = Case {
     title: "every node of the surface is moved affinely, and the inside follows",
     source: "the affine map itself",
     subject: Subject::Sponge,
-    control: "one node of the surface moved by 1 % of an edge",
+    control: "one node of the surface moved by a tenth of an edge",
     run,
 };
 
@@ -83,7 +83,7 @@ fn scene(setting: &Setting, cells: u32) -> Result<Scene, Failure> {
         let position = Vec3::new(row[0], row[1], row[2]);
         let mut way = gradient() * position.as_dvec3();
         if index == 0 {
-            way.x += setting.planted(0.0, 0.01 * EDGE);
+            way.x += setting.planted(0.0, 0.1 * EDGE);
         }
         let motion = Motion::Linear { velocity: (way / MOVES).as_vec3(), start: 0.0, end: MOVES as f32 };
         let shape = ShapeKind::Sphere { radius: 1e-3 };

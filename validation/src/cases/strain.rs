@@ -42,7 +42,7 @@ pub(super) static TORSION: Case = Case {
     title: "a bar is twisted by a quarter turn over six thicknesses",
     source: "converged elements on the same tets; T = 0.1406 G b^4 theta / L",
     subject: Subject::Sponge,
-    control: "Young's modulus a tenth too high, in the force",
+    control: "Young's modulus a tenth too high",
     run: |setting| run(setting, Kind::Torsion),
 };
 
@@ -68,7 +68,7 @@ fn run(setting: &Setting, kind: Kind) -> Result<Vec<Figure>, Failure> {
         Kind::Torsion => Material { young: FOAM.young * setting.planted(1.0, 1.1), ..FOAM },
         _ => Material { poisson: setting.planted(FOAM.poisson, 0.4), ..FOAM },
     };
-    let length = if kind == Kind::Confined { thickness } else { 4 * thickness };
+    let length = setting.pick(3, 4) * thickness;
     let bar = Bar { cells: UVec3::new(length, thickness, thickness), gravity: 0.0, material };
     let mut world = setting.world(&scene(&bar, setting, kind)?)?;
     let measured = settled(&mut world, MOVES + setting.pick(2.5, 1.5), 0.5)?;

@@ -24,6 +24,12 @@ impl Pores {
         (2.0 * self.permeability * self.entry_pressure * time / (self.porosity * self.viscosity)).max(0.0).sqrt()
     }
 
+    /// When the front has come this far without gravity \[s\], the inverse of [`Self::front`].
+    #[must_use]
+    pub fn time(&self, front: f64) -> f64 {
+        front * front * self.porosity * self.viscosity / (2.0 * self.permeability * self.entry_pressure)
+    }
+
     /// Height of the front above the level in the end \[m\]: `p_e / (rho g)`.
     #[must_use]
     pub fn rise(&self, gravity: f64) -> f64 {
