@@ -1,6 +1,9 @@
 //! What a case is, what it is told, and what it gives.
 
-use sorb::{Options, StepError, World, WorldError, scene::{Scene, SceneError}};
+use sorb::{
+    Options, StepError, World, WorldError,
+    scene::{Scene, SceneError},
+};
 
 use crate::solver::Solvers;
 
@@ -68,7 +71,10 @@ impl Setting {
 
     /// A number of cells or particles along a length, at the setting's resolution, at least 2.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates, and scenes have limits of their own")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the cast saturates, and scenes have limits of their own"
+    )]
     #[expect(clippy::cast_sign_loss, reason = "at least 2")]
     pub fn count(&self, full: u32) -> u32 {
         (f64::from(full) * self.resolution).round().max(2.0) as u32
@@ -124,7 +130,13 @@ pub struct Figure {
 impl Figure {
     /// A value whose error is relative to its reference.
     #[must_use]
-    pub fn relative(name: impl Into<String>, unit: &'static str, reference: f64, measured: f64, bound: f64) -> Self {
+    pub fn relative(
+        name: impl Into<String>,
+        unit: &'static str,
+        reference: f64,
+        measured: f64,
+        bound: f64,
+    ) -> Self {
         let error = ((measured - reference) / reference).abs();
         Self { name: name.into(), unit, reference, measured, error, bound }
     }

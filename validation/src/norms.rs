@@ -103,9 +103,10 @@ mod tests {
     #[test]
     fn the_least_of_a_parabola_and_the_period_of_a_zigzag_are_found() {
         assert!((least((0.0, 2.0), |x| (x - 0.7) * (x - 0.7)) - 0.7).abs() < 2e-3);
-        let zigzag: Vec<_> =
-            (0..40).map(|i| (f64::from(i), if i % 4 < 2 { -1.0 } else { 1.0 })).collect();
+        let zigzag: Vec<_> = (0..40).map(|i| (f64::from(i), if i % 4 < 2 { -1.0 } else { 1.0 })).collect();
         let crossings = upward_crossings(&zigzag, 0.0);
-        assert!(crossings.len() > 5 && crossings.windows(2).all(|pair| (pair[1] - pair[0] - 4.0).abs() < 1e-12));
+        assert!(
+            crossings.len() > 5 && crossings.windows(2).all(|pair| (pair[1] - pair[0] - 4.0).abs() < 1e-12)
+        );
     }
 }

@@ -24,7 +24,9 @@ impl Outcome {
     /// Whether every figure is in bounds.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.figures.as_ref().is_ok_and(|figures| figures.iter().all(|figure| figure.verdict() == Verdict::Ok))
+        self.figures
+            .as_ref()
+            .is_ok_and(|figures| figures.iter().all(|figure| figure.verdict() == Verdict::Ok))
     }
 
     /// Whether every figure is in bounds or a known miss.
@@ -50,5 +52,10 @@ impl Outcome {
 pub fn run(case: &'static Case, setting: &Setting) -> Outcome {
     let start = Instant::now();
     let figures = (case.run)(setting);
-    Outcome { case, solver: setting.solvers.label(), figures, wall: start.elapsed().as_secs_f64() }
+    Outcome {
+        case,
+        solver: setting.solvers.label(case.subject),
+        figures,
+        wall: start.elapsed().as_secs_f64(),
+    }
 }

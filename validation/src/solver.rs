@@ -5,6 +5,8 @@ use std::sync::LazyLock;
 use serde_json::Value;
 use sorb::scene::{Scene, SceneError, schema};
 
+use crate::case::Subject;
+
 /// What a solver moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolverKind {
@@ -27,6 +29,13 @@ pub struct Solvers {
 static CHOICES: LazyLock<[Vec<String>; 2]> = LazyLock::new(|| {
     let schema: Value = serde_json::from_str(&schema()).unwrap_or_default();
     ["Fluid", "Sponge"].map(|table| choices(&schema, &schema["$defs"][table]["properties"]["solver"]))
+});
+
+/// Their defaults.
+static DEFAULTS: LazyLock<[Option<String>; 2]> = LazyLock::new(|| {
+    let schema: Value = serde_json::from_str(&schema()).unwrap_or_default();
+    ["Fluid", "Sponge"]
+        .map(|table| schema["$defs"][table]["properties"]["solver"]["default"].as_str().map(str::to_owned))
 });
 
 /// All texts that a node of a schema allows, through references.
@@ -66,6 +75,16 @@ impl SolverKind {
         if CHOICES[index].is_empty() { vec![only.to_owned()] } else { CHOICES[index].clone() }
     }
 
+    /// The solver of scenes that name none.
+    #[must_use]
+    pub fn default_name(self) -> String {
+        let (index, only) = match self {
+            Self::Water => (0, "wcsph"),
+            Self::Sponge => (1, "sbd"),
+        };
+        DEFAULTS[index].clone().unwrap_or_else(|| only.to_owned())
+    }
+
     fn has_key(self) -> bool {
         !CHOICES[match self {
             Self::Water => 0,
@@ -86,23 +105,34 @@ impl Solvers {
             changes.push(format!("fluid.solver=\"{name}\""));
         }
         if let (Some(name), true) = (&self.sponge, SolverKind::Sponge.has_key()) {
-            changes.extend((0..scene.sponges.len()).map(|index| format!("sponges[{index}].solver=\"{name}\"")));
+            changes
+                .extend((0..scene.sponges.len()).map(|index| format!("sponges[{index}].solver=\"{name}\"")));
         }
-        if changes.is_empty() { Ok(scene.clone()) } else { scene.with_overrides(changes.iter().map(String::as_str)) }
+        if changes.is_empty() {
+            Ok(scene.clone())
+        } else {
+            scene.with_overrides(changes.iter().map(String::as_str))
+        }
     }
 
     /// Whether the sponge is solved by the strain constraints of the paper.
     #[must_use]
     pub fn is_strain_based(&self) -> bool {
-        self.sponge.as_deref().is_none_or(|name| name == "sbd")
+        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name()) == "sbd"
     }
 
-    /// Names of both, for tables.
+    /// Names of those that matter to a case, for tables.
     #[must_use]
-    pub fn label(&self) -> String {
-        let names = [&self.water, &self.sponge];
-        let names: Vec<&str> = names.into_iter().flatten().map(String::as_str).collect();
-        if names.is_empty() { "default".to_owned() } else { names.join("+") }
+    pub fn label(&self, subject: Subject) -> String {
+        let name =
+            |chosen: &Option<String>, kind: SolverKind| chosen.clone().unwrap_or_else(|| kind.default_name());
+        let water = || name(&self.water, SolverKind::Water);
+        let sponge = || name(&self.sponge, SolverKind::Sponge);
+        match subject {
+            Subject::Water => water(),
+            Subject::Sponge => sponge(),
+            Subject::Coupling => format!("{}+{}", water(), sponge()),
+        }
     }
 }
 

@@ -43,8 +43,7 @@ impl Bar {
 
     /// The scene, with a grip that holds the nodes of the left end.
     pub(super) fn scene(&self, name: &str, setting: &Setting) -> Result<Scene, Failure> {
-        let sponge =
-            Sponge { edge: EDGE as f32, cells: self.cells, ..Sponge::new("bar", Vec3::ZERO) };
+        let sponge = Sponge { edge: EDGE as f32, cells: self.cells, ..Sponge::new("bar", Vec3::ZERO) };
         let scene = Scene {
             gravity: Vec3::new(0.0, self.gravity as f32, 0.0),
             time: Time { frame_rate: 200.0, ..Time::default() },
@@ -115,8 +114,7 @@ pub(super) fn against_elements(
     }
     let reference = model.equilibrium(&guess)?;
     let error = displacement_error(&model.rest, &reference, measured);
-    let figure =
-        Figure::error("displacement against converged elements, L2", "1", error, SOLVER_BOUND);
+    let figure = Figure::error("displacement against converged elements, L2", "1", error, SOLVER_BOUND);
     Ok((model, reference, figure))
 }
 

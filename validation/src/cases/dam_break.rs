@@ -54,8 +54,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         density = density.max(world.measures().mean_density_error);
     }
     // The gate of the experiment takes its time to open, and that is not recorded.
-    let fronts: Vec<_> =
-        samples.iter().map(|s| (s.time * (2.0 * GRAVITY / BASE).sqrt(), s.front)).collect();
+    let fronts: Vec<_> = samples.iter().map(|s| (s.time * (2.0 * GRAVITY / BASE).sqrt(), s.front)).collect();
     let shift = least((0.0, GATE), |shift| front_error(&fronts, shift));
     let heights: Vec<_> = samples
         .iter()

@@ -96,10 +96,7 @@ impl Duct {
             ..Sponge::new("plug", DVec3::new(-half - edge, 0.0, -half - edge).as_vec3())
         };
         let block = |(from, to): &(f64, f64)| {
-            FluidBlock::new(
-                DVec3::new(-half, *from, -half).as_vec3(),
-                DVec3::new(half, *to, half).as_vec3(),
-            )
+            FluidBlock::new(DVec3::new(-half, *from, -half).as_vec3(), DVec3::new(half, *to, half).as_vec3())
         };
         let fluid = Fluid {
             spacing: self.spacing as f32,
@@ -112,10 +109,7 @@ impl Duct {
             time: Time { frame_rate: 100.0, ..Time::default() },
             ..Scene::new("duct")
         }
-        .in_box(
-            DVec3::new(-outer, low, -outer).as_vec3(),
-            DVec3::new(outer, high, outer).as_vec3(),
-        )
+        .in_box(DVec3::new(-outer, low, -outer).as_vec3(), DVec3::new(outer, high, outer).as_vec3())
         .with_fluid(fluid)
         .with_sponge(sponge);
         let bottom = water.iter().map(|block| block.0).fold(0.0, f64::min);
@@ -131,11 +125,8 @@ impl Duct {
         let (middle, tall) = (0.5 * (low + high), 0.5 * (high - low));
         let plate = |name: &str, x: f64, z: f64| {
             let along = half + 2.0 * thick;
-            let half_extents = if x == 0.0 {
-                DVec3::new(along, tall, thick)
-            } else {
-                DVec3::new(thick, tall, along)
-            };
+            let half_extents =
+                if x == 0.0 { DVec3::new(along, tall, thick) } else { DVec3::new(thick, tall, along) };
             let shape = ShapeKind::Cuboid { half_extents: half_extents.as_vec3() };
             let place = DVec3::new(x * (half + thick), middle, z * (half + thick)).as_vec3();
             Body { grip: true, ..Body::fixed(name, shape, place) }

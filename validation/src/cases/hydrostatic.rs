@@ -66,10 +66,11 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
 /// Root mean square over the particles of the error of the pressure, over that at the floor.
 fn pressure_error(world: &World) -> f64 {
     let density = f64::from(world.params().fluid.rest_density);
-    let errors = world.particle_positions().iter().zip(&world.columns().fluid.density).map(|(row, rho)| {
-        let pressure = f64::from(row[3]) * f64::from(*rho) * f64::from(*rho);
-        pressure - density * GRAVITY * (DEPTH - f64::from(row[1]))
-    });
+    let errors = world
+        .particle_positions()
+        .iter()
+        .zip(world.particle_pressures())
+        .map(|(row, pressure)| f64::from(pressure) - density * GRAVITY * (DEPTH - f64::from(row[1])));
     root_mean_square(errors) / (density * GRAVITY * DEPTH)
 }
 

@@ -50,7 +50,8 @@ fn washburn(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     for permeability in setting.pick(&[2e-9, 5e-10][..], &[2e-9][..]) {
         let pores = pores(*permeability, 500.0);
         let given = Pores { entry_pressure: setting.planted(1.0, 1.0 / 3.0) * pores.entry_pressure, ..pores };
-        let driven = Pores { entry_pressure: pores.entry_pressure + pores.density * PUSH * RESERVOIR, ..pores };
+        let driven =
+            Pores { entry_pressure: pores.entry_pressure + pores.density * PUSH * RESERVOIR, ..pores };
         let ends = (-RESERVOIR, duct.top() + duct.edge);
         let scene = duct.scene(setting, &given, -PUSH, ends, &[(-RESERVOIR, 0.0)])?;
         let mut world = setting.world(&scene)?;

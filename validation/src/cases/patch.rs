@@ -28,7 +28,11 @@ const MOVES: f64 = 0.2;
 
 /// Displacement over position.
 fn gradient() -> DMat3 {
-    DMat3::from_cols(DVec3::new(0.03, 0.01, 0.0), DVec3::new(0.02, -0.02, 0.01), DVec3::new(0.0, 0.015, 0.025))
+    DMat3::from_cols(
+        DVec3::new(0.03, 0.01, 0.0),
+        DVec3::new(0.02, -0.02, 0.01),
+        DVec3::new(0.0, 0.015, 0.025),
+    )
 }
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
@@ -79,11 +83,15 @@ fn scene(setting: &Setting, cells: u32) -> Result<Scene, Failure> {
     let lattice = World::new(&bare)?.lattice().clone();
     let mut scene = bare;
     let surface = lattice.node_surface.iter().zip(&lattice.position).filter(|(surface, _)| **surface);
+    // The fault is at a node that the inside hangs on: the one nearest to the centre.
+    let distance = |row: &[f32; 4]| row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+    let nearest = surface.clone().map(|(_, row)| distance(row)).fold(f32::INFINITY, f32::min);
+    let mut fault = Some(setting.planted(0.0, 0.1 * EDGE));
     for (index, (_, row)) in surface.enumerate() {
         let position = Vec3::new(row[0], row[1], row[2]);
         let mut way = gradient() * position.as_dvec3();
-        if index == 0 {
-            way.x += setting.planted(0.0, 0.1 * EDGE);
+        if distance(row) <= nearest {
+            way.x += fault.take().unwrap_or(0.0);
         }
         let motion = Motion::Linear { velocity: (way / MOVES).as_vec3(), start: 0.0, end: MOVES as f32 };
         let shape = ShapeKind::Sphere { radius: 1e-3 };

@@ -54,12 +54,7 @@ fn squeeze(setting: &Setting, permeability: f64) -> Result<Vec<Figure>, Failure>
             water(&start),
             0.05,
         ),
-        Figure::error(
-            format!("water over pore volume at K {permeability:.0e}, excess"),
-            "1",
-            full,
-            0.05,
-        ),
+        Figure::error(format!("water over pore volume at K {permeability:.0e}, excess"), "1", full, 0.05),
         Figure::relative(
             format!("volume after release at K {permeability:.0e}"),
             "m^3",

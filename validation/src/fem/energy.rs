@@ -204,7 +204,8 @@ mod tests {
             DVec3::new(-0.2, 0.5, 0.7),
         );
         let stress = |energy: &Energy, size: f64| {
-            (energy.gradient(&(DMat3::IDENTITY + strain * size)) - energy.gradient(&DMat3::IDENTITY)) * (1.0 / size)
+            (energy.gradient(&(DMat3::IDENTITY + strain * size)) - energy.gradient(&DMat3::IDENTITY))
+                * (1.0 / size)
         };
         let difference = stress(&paper, 1e-6) - stress(&other, 1e-6);
         let size = |matrix: DMat3| matrix.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -107,8 +107,7 @@ impl Model {
         let strain: f64 = (0..self.tets.len())
             .map(|tet| self.volumes[tet] * self.energy.density(&self.deformation(tet, positions)))
             .sum();
-        let height: f64 =
-            positions.iter().zip(&self.mass).map(|(x, mass)| mass * self.gravity.dot(*x)).sum();
+        let height: f64 = positions.iter().zip(&self.mass).map(|(x, mass)| mass * self.gravity.dot(*x)).sum();
         strain - height
     }
 }
@@ -116,9 +115,8 @@ impl Model {
 /// Root mean square distance of nodes from where they should be, over that of their way there from rest.
 #[must_use]
 pub fn displacement_error(rest: &[DVec3], reference: &[DVec3], measured: &[DVec3]) -> f64 {
-    let square = |a: &[DVec3], b: &[DVec3]| -> f64 {
-        a.iter().zip(b).map(|(a, b)| (*a - *b).length_squared()).sum()
-    };
+    let square =
+        |a: &[DVec3], b: &[DVec3]| -> f64 { a.iter().zip(b).map(|(a, b)| (*a - *b).length_squared()).sum() };
     (square(reference, measured) / square(reference, rest)).sqrt()
 }
 

@@ -21,7 +21,8 @@ pub fn cantilever_sag(material: &Material, length: f64, side: f64, weight: f64) 
 pub fn cantilever_frequency(material: &Material, length: f64, side: f64, mass: f64) -> f64 {
     let line = mass / length;
     let bending = material.young * side.powi(4) / 12.0;
-    let slender = 1.875_104_f64.powi(2) / (2.0 * std::f64::consts::PI * length.powi(2)) * (bending / line).sqrt();
+    let slender =
+        1.875_104_f64.powi(2) / (2.0 * std::f64::consts::PI * length.powi(2)) * (bending / line).sqrt();
     let stiff = Material { poisson: material.poisson, ..*material };
     let sag = cantilever_sag(&stiff, length, side, 1.0);
     let without_shear = length.powi(3) / (8.0 * bending);

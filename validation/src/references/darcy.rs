@@ -21,7 +21,9 @@ impl Pores {
     /// Way of the front after a time without gravity \[m\]: `sqrt(2 K p_e t / (phi mu))`.
     #[must_use]
     pub fn front(&self, time: f64) -> f64 {
-        (2.0 * self.permeability * self.entry_pressure * time / (self.porosity * self.viscosity)).max(0.0).sqrt()
+        (2.0 * self.permeability * self.entry_pressure * time / (self.porosity * self.viscosity))
+            .max(0.0)
+            .sqrt()
     }
 
     /// When the front has come this far without gravity \[s\], the inverse of [`Self::front`].
