@@ -8,8 +8,8 @@ use crate::solver::{Material, Solvers};
 /// Energy per volume at rest as a function of the deformation gradient F with columns `f_k`, `J = det F`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Energy {
-    /// The constraints of strain based dynamics, `M_s / 2 sum (|f_k| - 1)^2 + M_t / 2 sum (f_k . f_l)^2
-    /// + M_v / 2 (J - 1)^2`. The frame is that of the lattice, up to the order and sign of the axes.
+    /// The constraints of strain based dynamics: half of `M_s` times `sum (|f_k| - 1)^2`, `M_t` times
+    /// `sum (f_k . f_l)^2` and `M_v` times `(J - 1)^2`. The frame is that of the lattice, up to the order and sign of the axes.
     Strain {
         /// `M_s` \[Pa\].
         stretch: f64,
@@ -169,6 +169,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::needless_range_loop, reason = "the columns are indices of several things")]
     fn gradient_and_hessian_are_the_differences_of_the_density() {
         let (f, step) = (deformation(), 1e-5);
         for energy in ENERGIES {
