@@ -9,6 +9,7 @@ use sorb::{
     Measures, Offload, Options, World, WorldError,
     glam::Vec3,
     gpu::Gpu,
+    kernel::KERNELS,
     scene::Scene,
     schedule::{Place, Verdict},
 };
@@ -169,6 +170,78 @@ fn every_kernel_can_be_the_first_on_the_gpu() {
     }
 }
 
+/// The scene with the ball on the sponge and surface tension, so that every kernel has work.
+fn everything() -> Scene {
+    let mut scene = busy::scene("ball_drop", 0.5);
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.surface_tension = 0.072;
+    }
+    scene
+}
+
+/// Kernels of a scene that can be placed on their own: those that go through the cells go with the sort.
+fn placed_alone(world: &World) -> Vec<Vec<&'static str>> {
+    let beside = ["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"];
+    let runs = world.plan().lines().iter().filter(|line| line.verdict == Verdict::Runs);
+    let names = runs.map(|line| line.name).filter(|name| *name != "rigid::step" && !beside.contains(name));
+    let mut all: Vec<Vec<_>> = names.map(|name| vec![name]).collect();
+    all.push(beside.to_vec());
+    all
+}
+
+#[test]
+fn every_kernel_can_be_alone_on_either_side() {
+    let scene = everything();
+    let mut cpu = world(&scene, Offload::Cpu);
+    common::steps(&mut cpu, 3);
+    for names in placed_alone(&cpu) {
+        for (alone, others) in [(Place::Gpu, Place::Cpu), (Place::Cpu, Place::Gpu)] {
+            let mut list: Vec<_> = KERNELS.iter().map(|kernel| (kernel.name, others)).collect();
+            list.extend(names.iter().map(|name| (*name, alone)));
+            let mut mixed = world(&scene, Offload::Each(list));
+            assert!(names.iter().all(|name| mixed.plan().place(name) == alone), "{names:?}");
+            common::steps(&mut mixed, 3);
+            let (found, what) = difference(&cpu.measures(), &mixed.measures());
+            assert!(found < 1e-4, "{names:?} on {alone}: {what} differs by {found:.1e}");
+        }
+    }
+}
+
+#[test]
+fn kernels_can_take_turns() {
+    let scene = everything();
+    let mut cpu = world(&scene, Offload::Cpu);
+    let list = KERNELS.iter().enumerate().map(|(index, kernel)| {
+        let sort = ["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"].contains(&kernel.name);
+        (kernel.name, if sort || index % 2 == 0 { Place::Gpu } else { Place::Cpu })
+    });
+    let mut mixed = world(&scene, Offload::Each(list.collect()));
+    for _ in 0..2 {
+        common::frame(&mut cpu);
+        common::frame(&mut mixed);
+    }
+    let (found, what) = difference(&cpu.measures(), &mixed.measures());
+    assert!(found < 1e-3, "{what} differs by {found:.1e}");
+    // The control: a frame more is another state.
+    common::frame(&mut mixed);
+    assert!(difference(&cpu.measures(), &mixed.measures()).0 > 1e-3);
+}
+
+#[test]
+fn kernels_at_places_where_they_cannot_be_are_refused() {
+    let scene = busy::scene("water", 0.5);
+    let error = |list: Vec<(&'static str, Place)>| {
+        let options = Options { offload: Offload::Each(list), gpu: Some(gpu()), ..Options::default() };
+        World::with_options(&scene, &options).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let sort = ("grid::sort_fluid", Place::Gpu);
+    let refused = error(vec![sort]);
+    assert!(refused.as_ref().is_err_and(|text| text.contains("grid::fluid_neighbors=cpu")), "{refused:?}");
+    assert_eq!(error(vec![sort, ("grid::fluid_neighbors", Place::Gpu)]), Ok(()));
+    let unknown = error(vec![("sph::nothing", Place::Gpu)]);
+    assert!(unknown.as_ref().is_err_and(|text| text.contains("sph::nothing")), "{unknown:?}");
+}
+
 #[test]
 fn plans_say_where_and_why_and_what_travels() {
     let scene = busy::scene("ball_drop", 0.5);
@@ -179,6 +252,12 @@ fn plans_say_where_and_why_and_what_travels() {
     let mixed = world(&scene, Offload::From("sph::forces")).plan().to_string();
     for part in ["cpu   sph::density", "gpu   sph::forces", "send ", "fetch "] {
         assert!(mixed.contains(part), "{part} is not in {mixed}");
+    }
+    let list = vec![("pbd::strain", Place::Gpu), ("pbd::contact", Place::Cpu)];
+    let each = world(&scene, Offload::Each(list)).plan().to_string();
+    for part in ["gpu   1 x pbd::strain", "cpu   1 x pbd::contact", "send  nodes.predicted: ", "fetch nodes.predicted: "]
+    {
+        assert!(each.contains(part), "{part} is not in {each}");
     }
     let few = world(&scene, Offload::Auto).plan().to_string();
     assert!(few.contains("backend cpu, of auto") && few.contains("worth a GPU"), "{few}");

@@ -8,6 +8,7 @@ const NOT_FINITE_PARTICLE: u32 = 1u;
 const NOT_FINITE_NODE: u32 = 2u;
 const TOO_SMALL: u32 = 3u;
 const LIST_FULL: u32 = 4u;
+const UNFINISHED: u32 = 5u;
 
 const FRAME: u32 = 1u;
 const COURANT: u32 = 2u;
@@ -66,6 +67,9 @@ fn begin_step() {
 @compute @workgroup_size(1)
 fn begin() {
     clock.status = 0u;
+    clock.rounds = 0u;
+    clock.is_converged = 0u;
+    clock.most_rounds = vec4<u32>(0u);
     for (var k = 0u; k < 8u; k += 1u) {
         extremes[k] = 0u;
     }
@@ -85,6 +89,15 @@ fn check() {
     if ((clock.longest_0 | clock.longest_1 | clock.longest_2) != 0u) {
         clock.status = LIST_FULL;
         clock.running = 0u;
+    }
+}
+
+// Before more rounds of a repetition that the device stopped at.
+@compute @workgroup_size(1)
+fn resume() {
+    if (clock.status == UNFINISHED) {
+        clock.status = 0u;
+        clock.running = 1u;
     }
 }
 

@@ -81,6 +81,16 @@ struct Clock {
     bounds_0: vec4<u32>,
     bounds_1: vec4<u32>,
     bounds_2: vec4<u32>,
+    // Rounds of the present repetition so far, see `rounds.wgsl`.
+    rounds: u32,
+    // 1: it has converged; what is left of its rounds leaves at once.
+    is_converged: u32,
+    // The repetition, counted from 1, that needs more rounds than were handed in.
+    unfinished: u32,
+    // Of all steps since the time was set.
+    all_rounds: u32,
+    // Most rounds of a step in this batch, of each repetition.
+    most_rounds: vec4<u32>,
 }
 
 // The row of a thread; groups beyond the limit of one dimension continue in the second.

@@ -29,6 +29,7 @@ macro_rules! shaders {
 /// All passes, by family, with the common files that each is built from.
 pub static SHADERS: &[Shader] = shaders! {
     clock::clock: ;
+    clock::rounds: ;
     couple::begin_drag: ;
     couple::control_velocity: smoothing drag control_group;
     couple::controls: grid;

@@ -4,15 +4,24 @@ use std::sync::{Arc, OnceLock};
 
 use sorb_kernels::{
     columns::{Column, Columns, Life},
+    couple::weights::weigh,
     cpu::Cpu,
     gpu::{Answer, Gpu, GpuError, Profile, Program, Resident, Start, StepLimits, is_internal},
     params::Params,
 };
 
-use crate::schedule::{Plan, Shares};
+use crate::schedule::{Place, Plan, Shares};
 
 /// Scratch columns that measures and pictures look at.
 const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
+/// Scratch columns that the clock of the host looks at.
+const EXTREMES: [Column; 2] = [Column::FluidExtremes, Column::NodeExtremes];
+
+/// Scratch columns that the host looks at after a step that it shares with a device.
+pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
+    let observed = observed.iter().filter(|column| !is_internal(**column));
+    LOOKED_AT.iter().chain(&EXTREMES).chain(observed).copied().collect()
+}
 
 /// What runs the kernels of a world on a device.
 #[derive(Debug)]
@@ -34,7 +43,8 @@ pub(crate) struct Device {
 #[derive(Debug)]
 struct On {
     resident: Resident,
-    program: Program,
+    /// One for every share that the device has, in order.
+    programs: Vec<Program>,
     profile: Option<Profile>,
 }
 
@@ -46,8 +56,8 @@ impl Device {
         observed: &[Column],
         wants_times: bool,
     ) -> Self {
-        let shares = plan.shares();
-        let written: Vec<Column> = shares.gpu.iter().flat_map(|kernel| kernel.writes).copied().collect();
+        let shares = plan.shares(&looked_at(observed));
+        let written: Vec<Column> = shares.on_gpu().flat_map(|kernel| kernel.writes).copied().collect();
         let wanted = |column: &Column| {
             let is_state = column.life() == Life::State;
             (is_state || LOOKED_AT.contains(column) || observed.contains(column))
@@ -93,7 +103,7 @@ impl Device {
 
     /// Whether all kernels of the step run here, so that the device can take many steps on its own.
     pub(crate) fn has_all(&self) -> bool {
-        self.shares.cpu.is_empty()
+        self.shares.are_all_on_gpu()
     }
 
     /// The present state: read back when it is first looked at. If that fails the device is lost, which the next step
@@ -128,9 +138,10 @@ impl Device {
         let lives = |column: &Column| column.life() != Life::Scratch && !is_internal(*column);
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;
-        let program = resident.program(&self.shares.gpu)?;
+        let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
+        let programs = shares.map(|share| resident.program(&share.kernels)).collect::<Result<_, _>>()?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
-        self.resident = Some(On { resident, program, profile });
+        self.resident = Some(On { resident, programs, profile });
         if self.has_all() {
             forget_lists(host);
         }
@@ -154,15 +165,15 @@ impl Device {
     /// Takes steps that the device chooses.
     pub(crate) fn advance(&mut self, host: &mut Columns, steps: u32) -> Result<Answer, GpuError> {
         self.leave(host);
-        let Some(On { resident, program, profile }) = &mut self.resident else {
-            return Err(GpuError::Refused { reason: "no state was uploaded".to_owned() });
-        };
+        let refused = || GpuError::Refused { reason: "no state was uploaded".to_owned() };
+        let On { resident, programs, profile } = self.resident.as_mut().ok_or_else(refused)?;
+        let program = programs.first_mut().ok_or_else(refused)?;
         resident.upload_bodies(&host.bodies.states.0);
         let steps = if profile.is_some() { steps.min(Profile::steps(program.passes())) } else { steps };
         resident.advance(program, steps, profile.as_mut())
     }
 
-    /// One step of given length, of which the CPU does its share first. Everything travels both ways.
+    /// One step of given length that is shared with the CPU. What the other side made travels.
     pub(crate) fn step_with(
         &mut self,
         cpu: &Cpu,
@@ -170,13 +181,25 @@ impl Device {
         params: &Params,
     ) -> Result<(), GpuError> {
         self.ready(host, params)?;
-        for kernel in &self.shares.cpu {
-            cpu.enter(|| (kernel.cpu)(cpu, params, host));
+        let Some(On { resident, programs, .. }) = &mut self.resident else { return Ok(()) };
+        let mut programs = programs.iter_mut();
+        for share in &self.shares.segments {
+            match share.place {
+                Place::Cpu => {
+                    fetch(resident, host, params, &share.needs)?;
+                    for kernel in &share.kernels {
+                        cpu.enter(|| (kernel.cpu)(cpu, params, host));
+                    }
+                }
+                Place::Gpu => {
+                    resident.upload(host, &share.needs, share.is_sorted)?;
+                    if let Some(program) = programs.next() {
+                        resident.run_kernels(program, params.step)?;
+                    }
+                }
+            }
         }
-        let Some(On { resident, program, .. }) = &mut self.resident else { return Ok(()) };
-        resident.upload(host, &self.shares.sent, self.shares.sort_is_done)?;
-        resident.run_kernels(program, params.step)?;
-        resident.download(host, &self.shares.fetched)
+        fetch(resident, host, params, &self.shares.fetched)
     }
 
     /// Milliseconds of every call of a kernel since the last time this was asked.
@@ -184,6 +207,18 @@ impl Device {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
     }
+}
+
+/// Reads columns back, and computes those that a device does not keep.
+fn fetch(
+    resident: &Resident,
+    host: &mut Columns,
+    params: &Params,
+    columns: &[Column],
+) -> Result<(), GpuError> {
+    resident.download(host, columns)?;
+    columns.iter().for_each(|column| weigh(params, host, *column));
+    Ok(())
 }
 
 /// Cells and lists of the CPU, which nobody keeps up to date while the device takes the steps: most of the memory.

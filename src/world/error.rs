@@ -42,6 +42,10 @@ pub enum WorldError {
     #[cfg(not(feature = "gpu"))]
     #[error("backend `{0}`: built without the feature `gpu`")]
     NeedsGpu(crate::schedule::Offload),
+    /// Kernels are asked for at places where they cannot be.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Place(#[from] crate::schedule::PlaceError),
     /// A GPU was asked for, and there is none that can be used.
     #[cfg(feature = "gpu")]
     #[error(transparent)]

@@ -142,10 +142,10 @@ impl World {
         let steps = Steps::new(scene, &params);
         #[cfg(not(feature = "gpu"))]
         if options.offload.wants_gpu() {
-            return Err(WorldError::NeedsGpu(options.offload));
+            return Err(WorldError::NeedsGpu(options.offload.clone()));
         }
         #[cfg(feature = "gpu")]
-        let (plan, device) = crate::gpu::placed(plan, columns.rows, &steps, options)?;
+        let (plan, device) = crate::gpu::placed(plan, columns.rows, &params, &steps, options)?;
         let stores = Stores {
             host: columns,
             #[cfg(feature = "gpu")]

@@ -1,10 +1,11 @@
 //! What is said to the device before steps, and what it says after them: the clock of `layout.wgsl`.
 
-use super::{pack::Capacities, transfer::vector};
+use super::{pack::Capacities, program::REPETITIONS, transfer::vector};
 use crate::body::Wrench;
 
 /// Bytes of the clock, and of the wrenches of a body.
-pub(super) const CLOCK_BYTES: u64 = 128;
+pub(super) const CLOCK_WORDS: usize = 40;
+pub(super) const CLOCK_BYTES: u64 = CLOCK_WORDS as u64 * 4;
 pub(super) const WRENCH_BYTES: u64 = 64;
 
 /// What happened to the last step of a batch.
@@ -47,6 +48,12 @@ pub struct Answer {
     pub bounds: [u32; 12],
     /// What the last step gave to every body, by fluid and by sponges.
     pub wrenches: Vec<(Wrench, Wrench)>,
+    /// Rounds of repetitions that end when they have converged, of all steps since the time was set.
+    pub rounds: u32,
+    /// Most rounds that each of them took in these steps, in their order.
+    pub(super) most_rounds: [u32; REPETITIONS],
+    /// The repetition, counted from 1, of which more rounds are needed than were handed in, and how many it had.
+    pub(super) unfinished: Option<(usize, u32)>,
     /// Lengths of lists that did not fit.
     pub(super) longest: Option<Capacities>,
 }
@@ -69,6 +76,7 @@ const NOT_FINITE_PARTICLE: u32 = 1;
 const NOT_FINITE_NODE: u32 = 2;
 const TOO_SMALL: u32 = 3;
 const LIST_FULL: u32 = 4;
+const UNFINISHED: u32 = 5;
 
 impl Answer {
     pub(super) fn new(clock: &[u32], wrenches: &[f32]) -> Self {
@@ -97,6 +105,9 @@ impl Answer {
                 .chunks_exact(16)
                 .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
                 .collect(),
+            rounds: clock[35],
+            most_rounds: std::array::from_fn(|index| clock[36 + index]),
+            unfinished: (status == UNFINISHED).then(|| (clock[34] as usize, clock[32])),
             longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15]]),
         }
     }

@@ -20,8 +20,11 @@ mod error;
 mod pack;
 mod pipeline;
 mod profile;
+mod program;
 mod read;
 mod resident;
+#[cfg(test)]
+mod rounds;
 mod run;
 mod transfer;
 mod twins;
@@ -31,9 +34,9 @@ pub use device::{AdapterReport, Gpu, adapters, required_features, required_limit
 pub use error::GpuError;
 pub use pack::StepLimits;
 pub use profile::Profile;
+pub use program::{Program, Stage};
 pub use resident::Resident;
-pub use run::Program;
-pub use transfer::is_internal;
+pub use transfer::{column_bytes, is_internal};
 pub use wgpu;
 
 /// Whether a kernel has a twin.
@@ -59,7 +62,14 @@ mod tests {
 
     #[test]
     fn every_shader_is_used_and_binds_at_most_eight_storage_buffers() {
-        let helpers = [twins::BEGIN, twins::BODY_WRENCHES, twins::FINISH];
+        let helpers = [
+            twins::BEGIN,
+            twins::BODY_WRENCHES,
+            twins::END_ROUND,
+            twins::END_ROUNDS,
+            twins::FINISH,
+            twins::RESUME,
+        ];
         let passes: Vec<_> =
             twins::TWINS.iter().flat_map(|(_, passes)| passes.iter()).chain(&helpers).collect();
         for shader in sorb_shaders::SHADERS {
@@ -82,6 +92,16 @@ mod tests {
         }
         for pass in passes {
             assert!(sorb_shaders::shader(pass.shader).is_some(), "{}", pass.shader);
+        }
+    }
+
+    #[test]
+    fn every_pass_leaves_when_nothing_is_to_be_done() {
+        for (name, passes) in twins::TWINS {
+            for pass in *passes {
+                let source = sorb_shaders::shader(pass.shader).map_or("", |shader| shader.source);
+                assert!(source.contains("clock.running == 0u"), "{name}: {}", pass.shader);
+            }
         }
     }
 }

@@ -66,7 +66,7 @@ impl Gpu {
         Ok(Arc::clone(all.entry(key).or_insert(made)))
     }
 
-    fn compile(&self, shader: &'static Shader, entry: &'static str) -> Pipeline {
+    pub(super) fn compile(&self, shader: &'static Shader, entry: &'static str) -> Pipeline {
         let bindings = bindings(shader.source);
         let entries: Vec<_> = bindings
             .iter()

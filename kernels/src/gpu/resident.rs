@@ -36,6 +36,8 @@ pub struct Resident {
     pub(super) sorted: bool,
     /// Steps since the time was set.
     pub(super) steps: u32,
+    /// How often buffers were replaced, so that programs know when to bind anew.
+    pub(super) replaced: u32,
     /// Where the host reads what the device says after a batch.
     pub(super) answer: Buffer,
 }
@@ -83,6 +85,7 @@ impl Resident {
             colors,
             sorted: false,
             steps: 0,
+            replaced: 0,
             answer,
         };
         for (name, size, usage) in resident.layout(columns) {
@@ -142,6 +145,7 @@ impl Resident {
             ("control_grid", 48, uniform),
             ("batch", BATCH_STRIDE * COLORS as u64, uniform),
             ("extremes", 32, plain),
+            ("convergence", 16, plain),
             ("fluid_position", fluid * 16, plain),
             ("fluid_velocity", fluid * 16, plain),
             ("fluid_id", fluid * 4, plain),
@@ -263,13 +267,14 @@ impl Resident {
             let size = rows[which] as u64 * (u64::from(capacity) + 1) * 4;
             self.allocate(names[which], size, BufferUsages::STORAGE)?;
         }
+        self.replaced += 1;
         self.fill_params();
         Ok(())
     }
 }
 
 /// Entries that lists of a fluid and a lattice at rest need, and half as many again.
-fn capacities(params: &Params, rows: RowCounts) -> Capacities {
+pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
     let ball = |radius: f32| f64::from(radius).powi(3) * 4.0 / 3.0 * std::f64::consts::PI;
     let spacing = f64::from(params.fluid.spacing).powi(3);
     // Two nodes per cell of the lattice.

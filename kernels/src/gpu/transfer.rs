@@ -1,10 +1,15 @@
 //! Columns to the device and back.
 
-use super::{error::GpuError, resident::Resident};
+use super::{
+    error::GpuError,
+    pack::BODY_BYTES,
+    resident::{Resident, capacities},
+};
 use crate::{
     body::Wrench,
-    columns::{Column, Columns, FAR_ROW, padded},
+    columns::{Column, Columns, FAR_ROW, RowCounts, padded},
     grid::neighbors::Neighbors,
+    params::Params,
     reduce::{Extreme, Extremes, Wrenches},
 };
 
@@ -191,22 +196,21 @@ impl Resident {
             Column::BodyFluidWrenches => {
                 self.upload_wrenches("fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
             }
-            Column::FluidExtremes | Column::NodeExtremes => {
-                let (fluid, nodes) = (columns.fluid.extremes.total(), columns.nodes.extremes.total());
-                let row = |failed: u32| failed.checked_sub(1).map_or(0, |row| u32::MAX - row);
-                let words = [
-                    fluid.speed_squared.to_bits(),
-                    fluid.acceleration_squared.to_bits(),
-                    nodes.speed_squared.to_bits(),
-                    row(fluid.not_finite),
-                    row(nodes.not_finite),
-                    0,
-                    0,
-                    0,
-                ];
-                self.write("extremes", bytemuck::cast_slice(&words));
-            }
+            Column::FluidExtremes | Column::NodeExtremes => self.upload_extremes(columns, column),
             _ => {}
+        }
+    }
+
+    /// The words of one side only: those of the other may be newer on the device.
+    fn upload_extremes(&self, columns: &Columns, column: Column) {
+        let is_fluid = column == Column::FluidExtremes;
+        let found = if is_fluid { columns.fluid.extremes.total() } else { columns.nodes.extremes.total() };
+        let row = found.not_finite.checked_sub(1).map_or(0, |row| u32::MAX - row);
+        let (speed, acceleration) = (found.speed_squared.to_bits(), found.acceleration_squared.to_bits());
+        let words: &[(u64, u32)] =
+            if is_fluid { &[(0, speed), (1, acceleration), (3, row)] } else { &[(2, speed), (4, row)] };
+        for (place, word) in words {
+            self.gpu.queue.write_buffer(self.buffer("extremes"), place * 4, &word.to_ne_bytes());
         }
     }
 
@@ -310,6 +314,27 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
             acceleration_squared: 0.0,
             not_finite: row(words[4]),
         });
+    }
+}
+
+/// Bytes of a column on a device, in a scene of these parameters: lists as long as those of a fluid and a lattice at
+/// rest, 0 for columns that a device does not hold.
+#[must_use]
+pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
+    let count = rows.of(column.store()) as u64;
+    let groups = |rows: usize| rows.div_ceil(256) as u64 * count * 32;
+    if let Some((_, data)) = plain(&mut Columns::default(), column, false) {
+        return count * data.row_bytes() as u64;
+    }
+    if let Some((_, which)) = list_of(column) {
+        return count * (u64::from(capacities(params, rows)[which]) + 1) * 4;
+    }
+    match column {
+        Column::FluidExtremes | Column::NodeExtremes => 20,
+        Column::BodyStates => count * BODY_BYTES,
+        Column::BodyFluidWrenches => groups(rows.fluid),
+        Column::BodyNodeWrenches => groups(rows.nodes),
+        _ => 0,
     }
 }
 

@@ -136,6 +136,14 @@ const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::O
 pub(super) const BEGIN: Pass = Pass { shader: "clock::clock", entry: "begin", rows: Rows::One, names: &[] };
 /// After the last phase of a step.
 pub(super) const FINISH: Pass = Pass { shader: "clock::clock", entry: "finish", rows: Rows::One, names: &[] };
+/// After a round of a repetition that ends when it has converged.
+pub(super) const END_ROUND: Pass =
+    Pass { shader: "clock::rounds", entry: "end_round", rows: Rows::One, names: &[] };
+/// After the last of its rounds.
+pub(super) const END_ROUNDS: Pass =
+    Pass { shader: "clock::rounds", entry: "end_rounds", rows: Rows::One, names: &[] };
+/// Before more rounds, where those that were handed in did not suffice.
+pub(super) const RESUME: Pass = Pass { shader: "clock::clock", entry: "resume", rows: Rows::One, names: &[] };
 /// Before bodies can move.
 pub(super) const BODY_WRENCHES: Pass = pass("sph::body_wrenches", Rows::Bodies, &[]);
 
