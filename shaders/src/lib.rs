@@ -45,11 +45,14 @@ pub static SHADERS: &[Shader] = shaders! {
     couple::zero_distance: smoothing sponges control_group;
     grid::count: grid;
     grid::fluid_neighbors: grid smoothing;
-    grid::page_sums: grid;
-    grid::scan_pages: grid;
-    grid::scan_sums: grid;
+    grid::scan_pages: grid scan;
+    grid::scan_sums: grid scan;
     grid::scatter: grid;
     grid::sort_fluid: grid;
+    measure::fluid: sums partial_sums;
+    measure::nodes: sums partial_sums;
+    measure::tets: sponges sums partial_sums;
+    measure::total: sums;
     pbd::contact: body surface sponges wrench;
     pbd::gravity: ;
     pbd::predict: body;
@@ -64,6 +67,18 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::repulsion: body surface wrench;
     sph::surface_tension: smoothing;
 };
+
+/// The same passes with subgroup operations, for adapters that have them.
+pub static SUBGROUP_SHADERS: &[Shader] = shaders! {
+    grid::scan_pages: grid scan_subgroup;
+    grid::scan_sums: grid scan_subgroup;
+};
+
+/// The pass of that name with subgroup operations, if it has use for them.
+#[must_use]
+pub fn subgroup_shader(name: &str) -> Option<&'static Shader> {
+    SUBGROUP_SHADERS.iter().find(|shader| shader.name == name)
+}
 
 /// The pass of that name.
 #[must_use]

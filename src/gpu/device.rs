@@ -6,11 +6,17 @@ use sorb_kernels::{
     columns::{Column, Columns, Life},
     couple::weights::weigh,
     cpu::Cpu,
-    gpu::{Answer, Gpu, GpuError, Profile, Program, Resident, Start, StepLimits, is_internal},
+    gpu::{
+        Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, StepLimits, is_internal, make_room,
+    },
     params::Params,
 };
 
-use crate::schedule::{Place, Plan, Shares};
+use crate::{
+    clock::Clock,
+    rigid::RigidEngine,
+    schedule::{Place, Plan, Shares},
+};
 
 /// Scratch columns that measures and pictures look at.
 const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
@@ -37,6 +43,17 @@ pub(crate) struct Device {
     is_ahead: bool,
     /// The present state, once the host has looked at it.
     mirror: OnceLock<Columns>,
+    /// What belongs to the state that the host has, if the device is ahead of it.
+    kept: Option<Kept>,
+}
+
+/// What belongs to a state beside its columns.
+#[derive(Clone, Debug)]
+pub(crate) struct Kept {
+    pub(crate) clock: Clock,
+    pub(crate) engine: Box<dyn RigidEngine>,
+    /// Length of the step before \[s\].
+    pub(crate) step: f32,
 }
 
 /// Columns on the device, with the kernels bound to them.
@@ -74,11 +91,14 @@ impl Device {
             resident: None,
             is_ahead: false,
             mirror: OnceLock::new(),
+            kept: None,
         }
     }
 
-    /// The same without the columns.
+    /// The same without what is on the device, for a copy of the host's columns. If those are of an earlier state, because
+    /// the device was lost, the copy knows.
     pub(crate) fn another(&self) -> Self {
+        let is_ahead = !self.is_looked_at();
         Self {
             gpu: Arc::clone(&self.gpu),
             limits: self.limits,
@@ -86,8 +106,9 @@ impl Device {
             looked_at: self.looked_at.clone(),
             wants_times: self.wants_times,
             resident: None,
-            is_ahead: false,
+            is_ahead,
             mirror: OnceLock::new(),
+            kept: self.kept.clone().filter(|_| is_ahead),
         }
     }
 
@@ -120,6 +141,31 @@ impl Device {
         }
     }
 
+    /// Asks for what the host looks at; none if there is nothing on the device.
+    pub(crate) fn ask(&self) -> Result<Option<Pending>, GpuError> {
+        self.resident.as_ref().map(|on| on.resident.ask(&self.looked_at)).transpose()
+    }
+
+    /// Whether the host has the present state, so that the next step leaves it behind.
+    pub(crate) fn is_looked_at(&self) -> bool {
+        !self.is_ahead || self.mirror.get().is_some()
+    }
+
+    /// Notes what belongs to the state that the next step leaves behind.
+    pub(crate) fn keep(&mut self, kept: Kept) {
+        self.kept = Some(kept);
+    }
+
+    /// Gives up what is on the device: the newest state that the host has becomes the present one. Some if that is an
+    /// earlier one.
+    pub(crate) fn give_up(&mut self, host: &mut Columns) -> Option<Kept> {
+        let is_earlier = !self.is_looked_at();
+        self.leave(host);
+        self.is_ahead = false;
+        self.resident = None;
+        self.kept.take().filter(|_| is_earlier)
+    }
+
     /// What the host has read back becomes its state: the newest that it has if the device is lost.
     fn leave(&mut self, host: &mut Columns) {
         if let Some(mut mirror) = self.mirror.take() {
@@ -144,6 +190,8 @@ impl Device {
         self.resident = Some(On { resident, programs, profile });
         if self.has_all() {
             forget_lists(host);
+        } else {
+            Column::ALL.iter().for_each(|column| make_room(host, *column));
         }
         Ok(())
     }
@@ -181,6 +229,12 @@ impl Device {
         params: &Params,
     ) -> Result<(), GpuError> {
         self.ready(host, params)?;
+        let before = host.clone();
+        // A step that cannot be finished changes nothing.
+        self.try_step_with(cpu, host, params).inspect_err(|_| *host = before)
+    }
+
+    fn try_step_with(&mut self, cpu: &Cpu, host: &mut Columns, params: &Params) -> Result<(), GpuError> {
         let Some(On { resident, programs, .. }) = &mut self.resident else { return Ok(()) };
         let mut programs = programs.iter_mut();
         for share in &self.shares.segments {

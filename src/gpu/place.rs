@@ -38,7 +38,7 @@ pub(crate) fn placed(
     options: &Options,
 ) -> Result<(Plan, Option<Device>), WorldError> {
     if options.offload == Offload::Cpu {
-        return Ok((plan, None));
+        return Ok((plan.unplaced(), None));
     }
     let (placement, gpu) = Request { plan: &plan, rows, params, options }.place()?;
     let plan = plan.placed(placement);
@@ -66,7 +66,9 @@ impl Request<'_> {
         }
         let few = self.rows.fluid + self.rows.nodes;
         if few < ROWS_FOR_GPU {
-            return Ok(self.on_cpu(format!("{few} particles and nodes, of {ROWS_FOR_GPU} that are worth a GPU")));
+            return Ok(
+                self.on_cpu(format!("{few} particles and nodes, of {ROWS_FOR_GPU} that are worth a GPU"))
+            );
         }
         Ok(match self.device() {
             Ok(gpu) if gpu.report().is_software() => {

@@ -176,7 +176,9 @@ impl Placement {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaceError {
     /// A kernel that needs the cells of another is elsewhere.
-    #[error("backend `{kernel}={place}`: it goes through the cells of {sort}, which do not travel; both run at one place")]
+    #[error(
+        "backend `{kernel}={place}`: it goes through the cells of {sort}, which do not travel; both run at one place"
+    )]
     BesideSort {
         /// The kernel.
         kernel: &'static str,

@@ -113,6 +113,13 @@ impl Plan {
         self
     }
 
+    /// The same plan, all of it on the CPU.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn unplaced(mut self) -> Self {
+        self.placement = None;
+        self
+    }
+
     fn collect(
         &mut self,
         phases: &[Phase],

@@ -56,8 +56,10 @@ struct Placed {
 }
 
 /// Weights of the coupling do not travel: each side computes them from lists and points.
-const WEIGHTS: [(Column, Column); 2] =
-    [(Column::FluidControlWeights, Column::FluidControls), (Column::ControlFluidWeights, Column::ControlFluid)];
+const WEIGHTS: [(Column, Column); 2] = [
+    (Column::FluidControlWeights, Column::FluidControls),
+    (Column::ControlFluidWeights, Column::ControlFluid),
+];
 
 /// What weights are functions of, beside lists.
 const POINTS: [Column; 2] = [Column::FluidPosition, Column::ControlPosition];
@@ -73,10 +75,7 @@ impl Fresh {
     /// As a state is uploaded.
     fn at_upload() -> Self {
         let lives = |column: &Column| column.life() != Life::Scratch;
-        Self {
-            host: Column::ALL.to_vec(),
-            device: Column::ALL.iter().copied().filter(lives).collect(),
-        }
+        Self { host: Column::ALL.to_vec(), device: Column::ALL.iter().copied().filter(lives).collect() }
     }
 
     fn at(&mut self, place: Place) -> (&mut Vec<Column>, &mut Vec<Column>) {
@@ -101,7 +100,8 @@ impl Fresh {
         if place == Place::Cpu {
             sources.push(*lists);
         }
-        let mut sent: Vec<Column> = sources.into_iter().flat_map(|source| self.bring(source, place)).collect();
+        let mut sent: Vec<Column> =
+            sources.into_iter().flat_map(|source| self.bring(source, place)).collect();
         if place == Place::Cpu {
             sent.push(column);
         }
@@ -140,7 +140,9 @@ impl Plan {
         for group in self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group()) {
             let times = group[0].repeat.map_or(1, |(_, times)| times);
             for _ in 0..times {
-                for (index, line) in group.iter().enumerate().filter(|(_, line)| line.verdict == Verdict::Runs) {
+                for (index, line) in
+                    group.iter().enumerate().filter(|(_, line)| line.verdict == Verdict::Runs)
+                {
                     let place = if on_gpu.contains(&line.name) { Place::Gpu } else { Place::Cpu };
                     all.push(Placed { work: line.work, line: first + index, place });
                 }

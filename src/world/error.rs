@@ -96,7 +96,8 @@ pub enum StepError {
     /// The engine of the bodies failed.
     #[error("rigid bodies: {0}")]
     Rigid(String),
-    /// The GPU failed. A clone of the world that was made before can go on: it uploads its state anew.
+    /// The GPU failed. [`crate::World::move_to`] goes on elsewhere from the state that was looked at last; a clone that
+    /// was made before goes on as well: it uploads its state anew.
     #[cfg(feature = "gpu")]
     #[error(transparent)]
     Gpu(#[from] crate::gpu::GpuError),

@@ -90,11 +90,13 @@ pub struct World {
     pub(crate) stores: Stores,
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
-    plan: Plan,
+    pub(crate) plan: Plan,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
-    failed: Option<StepError>,
+    pub(crate) failed: Option<StepError>,
+    #[cfg(feature = "gpu")]
+    pub(crate) options: Options,
 }
 
 impl World {
@@ -163,6 +165,8 @@ impl World {
             plan,
             clock: Clock::default(),
             failed: None,
+            #[cfg(feature = "gpu")]
+            options: options.clone(),
         };
         let Columns { rows, fluid, nodes, .. } = &world.stores.host;
         world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);

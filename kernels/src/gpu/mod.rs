@@ -26,6 +26,8 @@ mod resident;
 #[cfg(test)]
 mod rounds;
 mod run;
+mod subgroups;
+mod sums;
 mod transfer;
 mod twins;
 
@@ -35,8 +37,10 @@ pub use error::GpuError;
 pub use pack::StepLimits;
 pub use profile::Profile;
 pub use program::{Program, Stage};
+pub use read::Pending;
 pub use resident::Resident;
-pub use transfer::{column_bytes, is_internal};
+pub use sums::{FluidSums, NodeSums, Sums, TetSums};
+pub use transfer::{column_bytes, is_internal, make_room};
 pub use wgpu;
 
 /// Whether a kernel has a twin.
@@ -69,10 +73,14 @@ mod tests {
             twins::END_ROUNDS,
             twins::FINISH,
             twins::RESUME,
+            twins::SUMS[0],
+            twins::SUMS[1],
+            twins::SUMS[2],
+            twins::TOTAL,
         ];
         let passes: Vec<_> =
             twins::TWINS.iter().flat_map(|(_, passes)| passes.iter()).chain(&helpers).collect();
-        for shader in sorb_shaders::SHADERS {
+        for shader in sorb_shaders::SHADERS.iter().chain(sorb_shaders::SUBGROUP_SHADERS) {
             assert!(passes.iter().any(|pass| pass.shader == shader.name), "{}", shader.name);
             let bindings = pipeline::bindings(shader.source);
             let storage = bindings.iter().filter(|binding| binding.is_storage()).count();

@@ -59,7 +59,9 @@ impl Gpu {
         if let Some(found) = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
             return Ok(Arc::clone(found));
         }
-        let text = sorb_shaders::shader(shader)
+        let subgroups = sorb_shaders::subgroup_shader(shader).filter(|_| self.has_subgroups);
+        let text = subgroups
+            .or_else(|| sorb_shaders::shader(shader))
             .ok_or_else(|| GpuError::Refused { reason: format!("there is no shader {shader}") })?;
         let made = Arc::new(self.guarded(None, || self.compile(text, entry))?);
         let mut all = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);

@@ -9,7 +9,7 @@ use super::{
     pack::BATCH_STRIDE,
     pipeline::Pipeline,
     resident::Resident,
-    twins::{BEGIN, BODY_WRENCHES, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows, twin},
+    twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows, twin},
 };
 use crate::{kernel::Kernel, pbd::lattice::COLORS};
 
@@ -17,6 +17,8 @@ use crate::{kernel::Kernel, pbd::lattice::COLORS};
 pub(super) const REPETITIONS: usize = 4;
 /// Rounds that are encoded before it is known how many are needed.
 const FIRST_ROUNDS: u32 = 4;
+/// Pages of cells up to which each adds up those before it, as `scan_pages.wgsl` has it too.
+const FEW_PAGES: u64 = 256;
 
 /// One stage of a step.
 #[derive(Clone, Debug)]
@@ -162,13 +164,17 @@ impl Resident {
         let mut step = Vec::new();
         let mut before = "";
         let mut repetitions = 0;
+        let searches = |stage: &Stage| stage.kernels().iter().any(|kernel| kernel.name == "couple::controls");
+        let searches_again = stages.iter().any(searches);
         for stage in &stages {
             let mut dispatches = Vec::new();
             for kernel in stage.kernels() {
                 let passes = twin(kernel.name).ok_or(GpuError::NoTwin { kernel: kernel.name })?;
                 // The search has every pair at hand and sums up the density.
                 let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
-                for pass in passes.iter().filter(|_| !is_done) {
+                let is_checked_later = searches_again && kernel.name == "grid::fluid_neighbors";
+                let is_needed = |pass: &&Pass| !is_done && !(is_checked_later && **pass == CHECK);
+                for pass in passes.iter().filter(is_needed) {
                     self.bind(kernel.name, pass, None, &mut dispatches)?;
                 }
                 before = kernel.name;
@@ -206,18 +212,23 @@ impl Resident {
             return Err(GpuError::Refused { reason });
         }
         let maximum = maximum.max(1);
-        let words = [maximum, index as u32, 0, 0];
-        let repetition = self.gpu.guarded(Some(("repetition", 16)), || {
+        let repetition = self.uniform("repetition", [maximum, index as u32, 0, 0])?;
+        let mut end = Vec::new();
+        let own = Some(("repetition", &repetition));
+        self.bind("clock", &END_ROUND, own, &mut round)?;
+        self.bind("clock", &END_ROUNDS, own, &mut end)?;
+        Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
+    }
+
+    /// A buffer of four words that never change.
+    pub(super) fn uniform(&self, name: &'static str, words: [u32; 4]) -> Result<Buffer, GpuError> {
+        self.gpu.guarded(Some((name, 16)), || {
             self.gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("repetition"),
+                label: Some(name),
                 contents: bytemuck::cast_slice(&words),
                 usage: BufferUsages::UNIFORM,
             })
-        })?;
-        let mut end = Vec::new();
-        self.bind("clock", &END_ROUND, Some(&repetition), &mut round)?;
-        self.bind("clock", &END_ROUNDS, Some(&repetition), &mut end)?;
-        Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
+        })
     }
 
     /// Binds a program anew if its buffers were replaced.
@@ -228,11 +239,11 @@ impl Resident {
         Ok(())
     }
 
-    fn bind(
+    pub(super) fn bind(
         &self,
         kernel: &'static str,
         pass: &Pass,
-        repetition: Option<&Buffer>,
+        own: Option<(&str, &Buffer)>,
         into: &mut Vec<Dispatch>,
     ) -> Result<(), GpuError> {
         let pipeline = self.gpu.pipeline(pass.shader, pass.entry)?;
@@ -240,8 +251,7 @@ impl Resident {
         for color in 0..times {
             let groups = self.groups(pass.rows, color);
             if groups[0] > 0 {
-                let bind =
-                    self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color, repetition))?;
+                let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color, own))?;
                 into.push(Dispatch { kernel, pipeline: Arc::clone(&pipeline), bind, groups });
             }
         }
@@ -253,14 +263,14 @@ impl Resident {
         pass: &Pass,
         pipeline: &Pipeline,
         color: usize,
-        repetition: Option<&Buffer>,
+        own: Option<(&str, &Buffer)>,
     ) -> BindGroup {
         let entries: Vec<_> = pipeline
             .bindings
             .iter()
             .map(|binding| {
                 let name = pass.buffer(binding.name);
-                let own = repetition.filter(|_| name == "repetition");
+                let own = own.filter(|(own, _)| *own == name).map(|(_, buffer)| buffer);
                 let mut part = own.unwrap_or_else(|| self.buffer(name)).as_entire_buffer_binding();
                 if name == "batch" {
                     part.offset = color as u64 * BATCH_STRIDE;
@@ -285,8 +295,11 @@ impl Resident {
             Rows::Nodes => threads(self.rows.nodes),
             Rows::Controls => self.rows.nodes.div_ceil(8) as u64,
             Rows::FluidOrNodes => threads(self.rows.fluid.max(self.rows.nodes)),
+            Rows::FluidScan => u64::from(self.grids[0].pages() > FEW_PAGES),
+            Rows::ControlScan => u64::from(self.grids[1].pages() > FEW_PAGES),
             Rows::FluidPages => self.grids[0].pages(),
             Rows::ControlPages => self.grids[1].pages(),
+            Rows::Tets => threads(self.rows.tets),
             Rows::Bodies => self.rows.bodies as u64,
             Rows::Colors => threads(self.colors[color][1] as usize),
         };

@@ -9,6 +9,7 @@ use super::{
     device::Gpu,
     error::GpuError,
     pack::{self, BATCH_STRIDE, BODY_BYTES, Capacities, Grid, SPONGES, StepLimits},
+    sums::{SUM_BYTES, sum_groups},
 };
 use crate::{
     body::Body,
@@ -36,6 +37,8 @@ pub struct Resident {
     pub(super) sorted: bool,
     /// Steps since the time was set.
     pub(super) steps: u32,
+    /// Whether the clock has chosen the next step.
+    pub(super) has_begun: bool,
     /// How often buffers were replaced, so that programs know when to bind anew.
     pub(super) replaced: u32,
     /// Where the host reads what the device says after a batch.
@@ -85,6 +88,7 @@ impl Resident {
             colors,
             sorted: false,
             steps: 0,
+            has_begun: false,
             replaced: 0,
             answer,
         };
@@ -195,6 +199,9 @@ impl Resident {
             ("fluid_wrenches", groups(fluid), plain),
             ("node_wrenches", groups(nodes), plain),
             ("body_wrenches", bodies * WRENCH_BYTES, plain),
+            ("node_mass", nodes * 4, plain),
+            ("partial_sums", sum_groups(self.rows) * SUM_BYTES, plain),
+            ("totals", 3 * SUM_BYTES, plain),
         ]
     }
 

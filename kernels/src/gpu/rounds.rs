@@ -65,9 +65,8 @@ fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
     let mut resident =
         Resident::new(&gpu, &scene.columns, &scene.params, limits).unwrap_or_else(|error| fail(error));
     let mut program = resident.program(&[]).unwrap_or_else(|error| fail(error));
-    let mut rounds = resident
-        .rounds(maximum, 1, dispatch(&resident, "halve"))
-        .unwrap_or_else(|error| fail(error));
+    let mut rounds =
+        resident.rounds(maximum, 1, dispatch(&resident, "halve")).unwrap_or_else(|error| fail(error));
     rounds.planned = planned;
     program.step = vec![
         Part::Once(dispatch(&resident, "before")),

@@ -3,7 +3,7 @@
 use wgpu::{CommandBuffer, CommandEncoder};
 
 use super::{
-    answer::{Answer, CLOCK_BYTES, CLOCK_WORDS, Start, WRENCH_BYTES},
+    answer::{Answer, CLOCK_BYTES, CLOCK_WORDS, Outcome, Start, WRENCH_BYTES},
     error::GpuError,
     profile::Profile,
     program::{Dispatch, Program},
@@ -26,6 +26,7 @@ impl Resident {
     /// Sets the time that the next steps are to fill.
     pub fn set_time(&mut self, start: &Start) {
         self.steps = 0;
+        self.has_begun = false;
         let mut words = [0_u32; CLOCK_WORDS];
         words[4] = start.left.to_bits();
         words[5] = start.fluid_speed.to_bits();
@@ -117,10 +118,13 @@ impl Resident {
             program.expect(answer.most_rounds);
             if let Some(longest) = answer.longest {
                 self.lengthen(longest)?;
+                self.has_begun = false;
                 from = From::Begin;
             } else if let Some((index, done)) = answer.unfinished {
                 from = From::Rounds(index, program.more(index, done));
             } else {
+                // The last step has begun the next one.
+                self.has_begun = answer.outcome == Outcome::Done;
                 return Ok(answer);
             }
         }
@@ -128,17 +132,21 @@ impl Resident {
 
     /// Submits one step, and encodes the next while the device works: with bodies, every step waits for the host.
     fn submit_step(&mut self, program: &mut Program) -> Result<(), GpuError> {
-        let buffer = match program.prepared.take() {
+        let buffer = match program.prepared.take().filter(|_| self.has_begun) {
             Some(buffer) => buffer,
             None => self.encode_step(program)?,
         };
         self.hand_in(buffer)?;
+        self.has_begun = true;
         program.prepared = Some(self.encode_step(program)?);
         Ok(())
     }
 
     fn encode_step(&self, program: &Program) -> Result<CommandBuffer, GpuError> {
-        let mut parts = vec![&program.begin[..]];
+        let mut parts = Vec::new();
+        if !self.has_begun {
+            parts.push(&program.begin[..]);
+        }
         parts.extend(program.parts(0, 0));
         parts.push(&program.finish);
         self.gpu.guarded(None, || self.encode(&parts, true, None))

@@ -8,6 +8,7 @@ use super::{
 use crate::{
     body::Wrench,
     columns::{Column, Columns, FAR_ROW, RowCounts, padded},
+    cpu::CHUNK,
     grid::neighbors::Neighbors,
     params::Params,
     reduce::{Extreme, Extremes, Wrenches},
@@ -265,13 +266,18 @@ impl Resident {
         }
     }
 
+    /// A column that is a plain array, with its buffer and its bytes.
+    pub(super) fn plain_buffer(&self, column: Column) -> Option<(Column, &'static str, usize)> {
+        let mut none = Columns::default();
+        let (name, data) = plain(&mut none, column, self.sorted)?;
+        Some((column, name, columns_rows(self, column) * data.row_bytes()))
+    }
+
     fn take(&self, columns: &mut Columns, column: Column, words: &[u32]) {
-        if let Some((_, data)) = plain(columns, column, self.sorted) {
-            let rows = columns_rows(self, column);
-            // The one column that the CPU does not pad.
-            let to = if column == Column::ControlNode { rows } else { padded(rows) };
-            data.take(words, rows, to);
-        } else if let Some((_, which)) = list_of(column) {
+        if take_plain(columns, column, words) {
+            return;
+        }
+        if let Some((_, which)) = list_of(column) {
             let (lists, rows, targets) = lists(columns, which);
             let place = self.list_layout(which, rows);
             let length = |row: usize| words[place(0, row)] as usize;
@@ -286,13 +292,39 @@ impl Resident {
             let wrenches = words
                 .chunks_exact(8)
                 .map(|words| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) });
-            let wrenches = Wrenches(wrenches.collect());
-            match column {
-                Column::BodyFluidWrenches => columns.bodies.fluid_wrenches = wrenches,
-                _ => columns.bodies.node_wrenches = wrenches,
-            }
+            let mut wrenches: Vec<Wrench> = wrenches.collect();
+            let is_fluid = column == Column::BodyFluidWrenches;
+            let rows = if is_fluid { columns.rows.fluid } else { columns.rows.nodes };
+            // Chunks of the CPU, which may go on with them, are smaller than groups.
+            wrenches.resize(padded(rows).div_ceil(CHUNK) * columns.rows.bodies, Wrench::default());
+            let all = &mut columns.bodies;
+            *if is_fluid { &mut all.fluid_wrenches } else { &mut all.node_wrenches } = Wrenches(wrenches);
         }
     }
+}
+
+/// Makes room for a column that is a plain array, so that a kernel of the CPU finds it where those before it ran
+/// elsewhere.
+pub fn make_room(columns: &mut Columns, column: Column) {
+    let rows = padded(columns.rows.of(column.store()));
+    match plain(columns, column, false) {
+        Some((_, Plain::Rows(data, padding))) if data.len() < rows => data.resize(rows, padding),
+        Some((_, Plain::Values(data))) if data.len() < rows => data.resize(rows, 0.0),
+        Some((_, Plain::Words(data, padding))) if data.len() < rows && column != Column::ControlNode => {
+            data.resize(rows, padding);
+        }
+        _ => {}
+    }
+}
+
+/// Takes over a column that is a plain array, if it is one.
+pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) -> bool {
+    let rows = columns.rows.of(column.store());
+    let Some((_, data)) = plain(columns, column, false) else { return false };
+    // The one column that the CPU does not pad.
+    let to = if column == Column::ControlNode { rows } else { padded(rows) };
+    data.take(words, rows, to);
+    true
 }
 
 pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
@@ -301,7 +333,13 @@ pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
 
 fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
     let row = |word: u32| if word == 0 { 0 } else { u32::MAX - word + 1 };
-    let all = |extreme: Extreme| Extremes(vec![extreme]);
+    // All of it in the first chunk, none in the others, which the CPU may go on with.
+    let chunks = columns.rows.of(column.store()).div_ceil(CHUNK).max(1);
+    let all = |extreme: Extreme| {
+        let mut all = vec![Extreme::default(); chunks];
+        all[0] = extreme;
+        Extremes(all)
+    };
     if column == Column::FluidExtremes {
         columns.fluid.extremes = all(Extreme {
             speed_squared: f32::from_bits(words[0]),

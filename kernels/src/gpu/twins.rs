@@ -17,6 +17,12 @@ pub(super) enum Rows {
     FluidPages,
     /// A group per page of the cells over the controls.
     ControlPages,
+    /// One group if the cells over the particles have many pages.
+    FluidScan,
+    /// One group if the cells over the controls have many pages.
+    ControlScan,
+    /// A thread per tet.
+    Tets,
     /// A group per body.
     Bodies,
     /// A thread per tet of a colour, and a pass per colour.
@@ -24,7 +30,7 @@ pub(super) enum Rows {
 }
 
 /// One pass of a twin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pass {
     /// Name of the shader, `family::file`.
     pub(super) shader: &'static str,
@@ -130,7 +136,8 @@ const NODES: Names = &[
     ("wrenches", "node_wrenches"),
 ];
 
-const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::One, names: &[] };
+/// Whether lists fit; the last of a step is enough, since nothing before it writes what survives.
+pub(super) const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::One, names: &[] };
 
 /// Before the first step of a batch.
 pub(super) const BEGIN: Pass = Pass { shader: "clock::clock", entry: "begin", rows: Rows::One, names: &[] };
@@ -147,14 +154,30 @@ pub(super) const RESUME: Pass = Pass { shader: "clock::clock", entry: "resume", 
 /// Before bodies can move.
 pub(super) const BODY_WRENCHES: Pass = pass("sph::body_wrenches", Rows::Bodies, &[]);
 
+/// Sums over particles, nodes and tets, and where each is among the totals.
+pub(super) const SUMS: [Pass; 3] = [
+    pass("measure::fluid", Rows::Fluid, MEASURED_FLUID),
+    pass("measure::nodes", Rows::Nodes, NODES),
+    pass("measure::tets", Rows::Tets, NODES),
+];
+/// The sums of all groups of one of [`SUMS`].
+pub(super) const TOTAL: Pass = pass("measure::total", Rows::One, &[]);
+
+/// Particles after a step.
+const MEASURED_FLUID: Names = &[
+    ("position", "fluid_position"),
+    ("velocity", "fluid_velocity"),
+    ("density", "fluid_density"),
+    ("interior", "fluid_interior"),
+];
+
 /// The passes of every twin.
 pub(super) static TWINS: &[(&str, &[Pass])] = &[
     (
         "grid::sort_fluid",
         &[
             pass("grid::count", Rows::Fluid, SORT),
-            pass("grid::page_sums", Rows::FluidPages, SORT),
-            pass("grid::scan_sums", Rows::One, SORT),
+            pass("grid::scan_sums", Rows::FluidScan, SORT),
             pass("grid::scan_pages", Rows::FluidPages, SORT),
             pass("grid::scatter", Rows::Fluid, SORT),
             pass("grid::sort_fluid", Rows::Fluid, SORT),
@@ -177,8 +200,7 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
         "couple::controls",
         &[
             pass("grid::count", Rows::Nodes, CONTROLS),
-            pass("grid::page_sums", Rows::ControlPages, CONTROLS),
-            pass("grid::scan_sums", Rows::One, CONTROLS),
+            pass("grid::scan_sums", Rows::ControlScan, CONTROLS),
             pass("grid::scan_pages", Rows::ControlPages, CONTROLS),
             pass("grid::scatter", Rows::Nodes, CONTROLS),
             pass("couple::controls", Rows::Nodes, CONTROLS),

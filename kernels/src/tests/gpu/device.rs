@@ -84,6 +84,20 @@ fn groups_beyond_the_limit_of_a_dimension_continue_in_the_next() {
 }
 
 #[test]
+fn prefix_sums_are_the_same_with_and_without_subgroups() {
+    let adapter = adapters().into_iter().next().expect("there is an adapter");
+    let device = || Gpu::on_adapter(&adapter).unwrap_or_else(|error| panic!("{error}"));
+    let (with, without) = (Arc::new(device()), Arc::new(device().without_subgroups()));
+    let has = adapter.features().contains(wgpu::Features::SUBGROUP);
+    assert_eq!((with.has_subgroups(), without.has_subgroups()), (has, false));
+    // Few pages of cells, and, without a box and with many particles, more than 256 of them.
+    for options in [FULL, Options { fluid: 65_537, bounded: false, walls: false, ..FULL }] {
+        let scene = Scene::new(options);
+        assert!(words(&stepped(&with, &scene, 2).0) == words(&stepped(&without, &scene, 2).0), "{options:?}");
+    }
+}
+
+#[test]
 fn what_does_not_fit_is_an_error_that_says_how_much_it_needs() {
     let adapter = adapters().into_iter().next().expect("there is an adapter");
     let limits = wgpu::Limits { max_storage_buffer_binding_size: 1 << 16, ..required_limits(&adapter) };

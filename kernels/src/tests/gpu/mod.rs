@@ -1,6 +1,7 @@
 //! Kernels on the GPU against those on the CPU. A machine without an adapter fails here: lavapipe is one.
 
 mod device;
+mod faults;
 mod parity;
 
 use std::sync::{Arc, OnceLock};
