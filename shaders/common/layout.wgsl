@@ -93,9 +93,13 @@ struct Clock {
     most_rounds: vec4<u32>,
 }
 
+// Threads of a group, for passes whose threads have nothing to do with each other: with few rows, small groups keep more
+// of the device busy.
+override GROUP: u32 = 256u;
+
 // The row of a thread; groups beyond the limit of one dimension continue in the second.
 fn row_of(group: vec3<u32>, groups: vec3<u32>, lane: u32) -> u32 {
-    return (group.y * groups.x + group.x) * 256u + lane;
+    return (group.y * groups.x + group.x) * GROUP + lane;
 }
 
 fn group_of(group: vec3<u32>, groups: vec3<u32>) -> u32 {

@@ -89,7 +89,7 @@ pub struct Gpu {
     pub(super) has_subgroups: bool,
     /// What the device reported outside any call.
     lost: Arc<Mutex<Option<String>>>,
-    pub(super) pipelines: Mutex<BTreeMap<(&'static str, &'static str), Arc<Pipeline>>>,
+    pub(super) pipelines: Mutex<BTreeMap<(&'static str, &'static str, u32), Arc<Pipeline>>>,
 }
 
 impl fmt::Debug for Gpu {

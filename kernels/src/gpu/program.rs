@@ -7,16 +7,21 @@ use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 use super::{
     error::GpuError,
     pack::BATCH_STRIDE,
-    pipeline::Pipeline,
+    pipeline::{Pipeline, has_any_group},
     resident::Resident,
     twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows, twin},
 };
-use crate::{kernel::Kernel, pbd::lattice::COLORS};
+use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS};
 
 /// Most repetitions of a step that end when they have converged: the clock counts the rounds of each.
 pub(super) const REPETITIONS: usize = 4;
 /// Rounds that are encoded before it is known how many are needed.
 const FIRST_ROUNDS: u32 = 4;
+/// Threads of a group.
+const GROUP: u32 = 256;
+/// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP`].
+const SMALL_GROUP: u32 = 64;
+const FEW_ROWS: u64 = 65_536;
 /// Pages of cells up to which each adds up those before it, as `scan_pages.wgsl` has it too.
 const FEW_PAGES: u64 = 256;
 
@@ -246,13 +251,21 @@ impl Resident {
         own: Option<(&str, &Buffer)>,
         into: &mut Vec<Dispatch>,
     ) -> Result<(), GpuError> {
-        let pipeline = self.gpu.pipeline(pass.shader, pass.entry)?;
+        let any_group = sorb_shaders::shader(pass.shader).is_some_and(|text| has_any_group(text.source));
         let times = if pass.rows == Rows::Colors { COLORS } else { 1 };
         for color in 0..times {
-            let groups = self.groups(pass.rows, color);
+            let (group, count) = match self.threads(pass.rows, color) {
+                Threads::Groups(count) => (GROUP, count),
+                Threads::Single(rows) => {
+                    let group = if any_group && rows < FEW_ROWS { SMALL_GROUP } else { GROUP };
+                    (group, rows.div_ceil(u64::from(group)))
+                }
+            };
+            let groups = self.lines(count);
             if groups[0] > 0 {
+                let pipeline = self.gpu.pipeline(pass.shader, pass.entry, group)?;
                 let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color, own))?;
-                into.push(Dispatch { kernel, pipeline: Arc::clone(&pipeline), bind, groups });
+                into.push(Dispatch { kernel, pipeline, bind, groups });
             }
         }
         Ok(())
@@ -286,23 +299,29 @@ impl Resident {
         })
     }
 
-    /// Groups of a pass in two dimensions, none larger than the device allows.
-    fn groups(&self, rows: Rows, color: usize) -> [u32; 2] {
-        let threads = |rows: usize| rows.div_ceil(256) as u64;
-        let count = match rows {
-            Rows::One => 1,
-            Rows::Fluid => threads(self.rows.fluid),
-            Rows::Nodes => threads(self.rows.nodes),
-            Rows::Controls => self.rows.nodes.div_ceil(8) as u64,
-            Rows::FluidOrNodes => threads(self.rows.fluid.max(self.rows.nodes)),
-            Rows::FluidScan => u64::from(self.grids[0].pages() > FEW_PAGES),
-            Rows::ControlScan => u64::from(self.grids[1].pages() > FEW_PAGES),
-            Rows::FluidPages => self.grids[0].pages(),
-            Rows::ControlPages => self.grids[1].pages(),
-            Rows::Tets => threads(self.rows.tets),
-            Rows::Bodies => self.rows.bodies as u64,
+    /// Threads of a pass, or groups if they come in groups.
+    fn threads(&self, rows: Rows, color: usize) -> Threads {
+        let RowCounts { fluid, nodes, tets, bodies } = self.rows;
+        let threads = |rows: usize| Threads::Single(rows as u64);
+        let groups = Threads::Groups;
+        match rows {
+            Rows::One => groups(1),
+            Rows::Fluid => threads(fluid),
+            Rows::Nodes => threads(nodes),
+            Rows::Tets => threads(tets),
+            Rows::FluidOrNodes => threads(fluid.max(nodes)),
             Rows::Colors => threads(self.colors[color][1] as usize),
-        };
+            Rows::Controls => groups(nodes.div_ceil(8) as u64),
+            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > FEW_PAGES)),
+            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > FEW_PAGES)),
+            Rows::FluidPages => groups(self.grids[0].pages()),
+            Rows::ControlPages => groups(self.grids[1].pages()),
+            Rows::Bodies => groups(bodies as u64),
+        }
+    }
+
+    /// Groups in two dimensions, none larger than the device allows.
+    fn lines(&self, count: u64) -> [u32; 2] {
         let most = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
         if count <= most {
             return [count as u32, 1];
@@ -310,4 +329,12 @@ impl Resident {
         let lines = count.div_ceil(most);
         [count.div_ceil(lines) as u32, lines as u32]
     }
+}
+
+/// How many threads a pass has.
+enum Threads {
+    /// One by one: groups are as large as is best.
+    Single(u64),
+    /// In groups.
+    Groups(u64),
 }

@@ -27,7 +27,7 @@ impl Gpu {
     pub(super) fn subgroups_are_runs(&self) -> bool {
         let try_out = || {
             let buffer = self.guarded(None, || {
-                let pipeline = self.compile(&PROBE, "main");
+                let pipeline = self.compile(&PROBE, "main", 256);
                 let found = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                     label: Some("probe"),
                     contents: &[0xff; 1024],
