@@ -15,6 +15,8 @@ pub enum Bound {
     Frame,
     /// Sound and flow cross a support radius \[M92\].
     Courant,
+    /// Pressure moves a particle against its neighbours.
+    Pressure,
     /// Acceleration over a support radius.
     Acceleration,
     /// Diffusion of velocity over a support radius.
@@ -37,6 +39,7 @@ impl Bound {
             Self::Maximum => "maximum_step",
             Self::Frame => "frame",
             Self::Courant => "courant",
+            Self::Pressure => "pressure",
             Self::Acceleration => "acceleration",
             Self::Viscosity => "viscosity",
             Self::SurfaceTension => "surface_tension",
@@ -50,7 +53,7 @@ impl Bound {
 impl Bound {
     /// All bounds, by the numbers that shaders know them by.
     #[cfg(feature = "gpu")]
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 10] = [
         Self::Maximum,
         Self::Frame,
         Self::Courant,
@@ -60,6 +63,7 @@ impl Bound {
         Self::Suction,
         Self::Elasticity,
         Self::SpongeSpeed,
+        Self::Pressure,
     ];
 
     /// The bound of a number; the first for numbers that no shader gives.
@@ -82,9 +86,15 @@ pub struct Clock {
     pub(crate) fluid_speed: f32,
     /// Largest acceleration of a particle in the last step \[m/s^2\].
     pub(crate) fluid_acceleration: f32,
+    /// Root of the mean square of the pressure over rest density in the last step, where it is solved for \[m^2/s^2\].
+    pub(crate) fluid_pressure: f32,
     /// Largest speed of a node after the last step \[m/s\].
     pub(crate) node_speed: f32,
 }
+
+/// Step over the time in which pressure moves a particle by a spacing. At twice that the lattice of a pool at rest buckles
+/// (docs/pressure-solve.md).
+const PRESSURE_COURANT: f32 = 0.4;
 
 /// Bounds that do not change from step to step.
 #[derive(Clone, Debug)]
@@ -129,7 +139,11 @@ impl Steps {
         let fluid = &params.fluid;
         let h = fluid.smoothing.support_radius;
         if fluid.particle_mass > 0.0 {
-            bounds.push((self.time.courant * h / (fluid.sound_speed + clock.fluid_speed), Bound::Courant));
+            let sound_speed = if fluid.incompressible.is_some() { 0.0 } else { fluid.sound_speed };
+            bounds.push((self.time.courant * h / (sound_speed + clock.fluid_speed), Bound::Courant));
+            // In a column at rest the largest pressure is the square root of three times the root of the mean square.
+            let pressure = 3.0_f32.sqrt() * clock.fluid_pressure;
+            bounds.push((PRESSURE_COURANT * fluid.spacing / pressure.sqrt(), Bound::Pressure));
             bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
         }
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));

@@ -36,7 +36,8 @@ pub struct Measures {
     pub elastic_energy: f64,
     /// Largest speed of particles and nodes \[m/s\].
     pub maximum_speed: f64,
-    /// Mean of `max(rho / rho_0 - 1, 0)` over the particles \[1\].
+    /// Mean of `max(rho / rho_0 - 1, 0)` over the particles \[1\]; with the share of walls and bodies where the solver of
+    /// the fluid has one.
     pub mean_density_error: f64,
     /// Largest `rho / rho_0 - 1`, not below zero \[1\].
     pub maximum_density_error: f64,
@@ -84,8 +85,16 @@ impl Measures {
         self.water_mass = mass * count as f64;
         let inside = fluid.interior.iter().take(count).filter(|interior| **interior > INSIDE).count();
         self.absorbed_mass = mass * inside as f64;
-        for density in fluid.density.iter().take(count) {
-            let error = (f64::from(*density) / rest_density - 1.0).max(0.0);
+        let summed;
+        let (density, share) = if world.params().fluid.incompressible.is_some() {
+            summed = world.summed_density();
+            (&summed.fluid.density, Some(&summed.fluid.boundary))
+        } else {
+            (&fluid.density, None)
+        };
+        for (row, density) in density.iter().take(count).enumerate() {
+            let share = share.map_or(0.0, |share| f64::from(share[row][3]));
+            let error = (f64::from(*density) / rest_density + share - 1.0).max(0.0);
             self.mean_density_error += error / count as f64;
             self.maximum_density_error = self.maximum_density_error.max(error);
         }

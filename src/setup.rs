@@ -7,9 +7,10 @@ use sorb_kernels::{
     couple::interior::node_interior,
     cpu::Cpu,
     grid::cells::Domain,
-    params::{EquationOfState, FluidParams, Params, SpongeParams},
+    params::{EquationOfState, FluidParams, Incompressible, Params, SpongeParams},
     pbd::lattice::{TetChunk, Topology},
     smoothing::Wendland,
+    sph::{boundary::boundary_profile, factors::lattice_diagonal},
 };
 
 use crate::{
@@ -79,6 +80,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             smoothing: Wendland::new(1.0),
             equation_of_state: EquationOfState::Linear,
             sound_speed: 1.0,
+            incompressible: None,
             viscosity: 0.0,
             surface_tension: 0.0,
             repulsion_range: 0.0,
@@ -107,12 +109,29 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             scene::EquationOfState::Linear => EquationOfState::Linear,
         },
         sound_speed,
+        incompressible: incompressible(fluid, &Wendland::new(support), sound_speed),
         viscosity: fluid.viscosity + fluid.rest_density * numerical,
         surface_tension: fluid.surface_tension,
         repulsion_range: range,
         repulsion_stiffness: frequency * frequency,
         repulsion_damping: 2.0 * fluid.repulsion_damping * frequency,
     }
+}
+
+fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) -> Option<Incompressible> {
+    if fluid.solver == scene::FluidSolver::Wcsph {
+        return None;
+    }
+    let (boundary_range, boundary_share) = boundary_profile(smoothing, fluid.spacing);
+    Some(Incompressible {
+        tolerance: fluid.density_tolerance,
+        rounds: fluid.rounds,
+        lattice_diagonal: lattice_diagonal(smoothing, fluid.spacing),
+        // The speed of sound is ten times what the fastest water is expected to reach.
+        correction_speed: 0.1 * sound_speed,
+        boundary_range,
+        boundary_share,
+    })
 }
 
 fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {

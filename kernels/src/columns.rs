@@ -16,6 +16,7 @@ use crate::{
     },
     pbd::lattice::Topology,
     reduce::{Extremes, Wrenches},
+    sph::pressure_solve::PressureSolve,
 };
 
 /// Coordinate of padding rows \[m\]: beyond every support radius, with a square that is still finite.
@@ -177,6 +178,23 @@ columns! {
         FluidDragRate = drag_rate: Vec<f32>, "1/s", Scratch;
         /// Impulse that the particle loses to the sponge, over its interior value; w: unused.
         FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
+        /// Position at the end of the step as far as it is known; w: change of the pressure over rest density
+        /// \[m^2/s^2\].
+        FluidPredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
+        /// Gradient of the share of walls and bodies in the kernel's volume \[1/m\]; w: the share \[1\].
+        FluidBoundary = boundary: Vec<[f32; 4]>, "1/m", Scratch;
+        /// Acceleration of a particle by its own pressure, over that pressure over rest density; w: compression
+        /// rho / rho_0 - 1 before the solve.
+        FluidFactors = factors: Vec<[f32; 4]>, "1/m", Scratch;
+        /// For every entry of the neighbour lists, volume times kernel gradient, over the distance vector.
+        FluidPairs = pairs: ListValues, "1/m^2", Scratch;
+        /// Pressure over rest density \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and compression
+        /// that is left \[1\].
+        FluidPressureRows = pressure_rows: Vec<[f32; 4]>, "m^2/s^2", Scratch;
+        /// Acceleration by the change of the pressure; w: its scalar product with the predicted position \[m^2/s^2\].
+        FluidCorrection = correction: Vec<[f32; 4]>, "m/s^2", Scratch;
+        /// Where the pressure solve stands.
+        FluidPressureSolve = pressure_solve: PressureSolve, "1", Scratch;
         /// Extremes over chunks of particles, for the time step.
         FluidExtremes = extremes: Extremes, "m/s", Scratch;
     }

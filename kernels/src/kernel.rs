@@ -18,8 +18,14 @@ pub enum Need {
     Sponge,
     /// Walls of a container, or bodies.
     Obstacles,
+    /// Rigid bodies.
+    Bodies,
     /// Fluid with surface tension.
     SurfaceTension,
+    /// Pressure by an equation of state.
+    EquationOfState,
+    /// Pressure by a solve that keeps the density.
+    Incompressible,
 }
 
 impl Need {
@@ -30,7 +36,10 @@ impl Need {
             Self::Fluid => "no fluid",
             Self::Sponge => "no sponge",
             Self::Obstacles => "no walls and no bodies",
+            Self::Bodies => "no bodies",
             Self::SurfaceTension => "surface tension is zero",
+            Self::EquationOfState => "pressure is solved for",
+            Self::Incompressible => "pressure by an equation of state",
         }
     }
 }
@@ -60,7 +69,16 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::forces::KERNEL,
     &sph::surface_tension::KERNEL,
     &sph::repulsion::KERNEL,
+    &sph::boundary_pressure::KERNEL,
     &sph::kick::KERNEL,
+    &sph::predict::KERNEL,
+    &sph::boundary::KERNEL,
+    &sph::factors::KERNEL,
+    &sph::pressure_update::KERNEL,
+    &sph::pressure_acceleration::KERNEL,
+    &sph::pressure_residual::KERNEL,
+    &sph::pressure_kick::KERNEL,
+    &sph::boundary_reaction::KERNEL,
     &sph::advect::KERNEL,
     &pbd::gravity::KERNEL,
     &pbd::predict::KERNEL,

@@ -32,6 +32,23 @@ pub enum EquationOfState {
     Tait,
 }
 
+/// A solve for the pressure that keeps the density at rest density.
+#[derive(Clone, Debug)]
+pub struct Incompressible {
+    /// Mean error of the density, of either sign, at which the solve stops \[1\].
+    pub tolerance: f32,
+    /// Most rounds of a step.
+    pub rounds: u32,
+    /// Diagonal of a lattice at rest, over the square of the step \[1/m^2\].
+    pub lattice_diagonal: f32,
+    /// Speed at which an error of the density may be put right \[m/s\].
+    pub correction_speed: f32,
+    /// Distance at which walls and bodies begin to count \[m\].
+    pub boundary_range: f32,
+    /// Their share at the surface \[1\].
+    pub boundary_share: f32,
+}
+
 /// The fluid.
 #[derive(Clone, Debug)]
 pub struct FluidParams {
@@ -47,6 +64,8 @@ pub struct FluidParams {
     pub equation_of_state: EquationOfState,
     /// Speed of sound c \[m/s\].
     pub sound_speed: f32,
+    /// The solve for the pressure; none where it follows from an equation of state.
+    pub incompressible: Option<Incompressible>,
     /// Dynamic viscosity, numerical viscosity included \[Pa s\].
     pub viscosity: f32,
     /// Surface tension \[N/m\].
@@ -86,4 +105,12 @@ pub struct SpongeParams {
     pub saturation_gain: f32,
     /// Stiffness of the zero-distance constraint over that of the exact reaction \[1\].
     pub reaction: f32,
+}
+
+impl Params {
+    /// Where coordinates are taken from where their size would cost digits: the middle of the container, or the origin.
+    #[must_use]
+    pub(crate) fn origin(&self) -> Vec3 {
+        self.walls.map_or(Vec3::ZERO, |(low, high)| 0.5 * (low + high))
+    }
 }

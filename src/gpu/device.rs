@@ -7,7 +7,8 @@ use sorb_kernels::{
     couple::weights::weigh,
     cpu::Cpu,
     gpu::{
-        Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, StepLimits, is_internal, make_room,
+        Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Stage, Start, StepLimits, is_internal,
+        make_room,
     },
     params::Params,
 };
@@ -185,7 +186,8 @@ impl Device {
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
-        let programs = shares.map(|share| resident.program(&share.kernels)).collect::<Result<_, _>>()?;
+        let programs =
+            shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
         self.resident = Some(On { resident, programs, profile });
         if self.has_all() {
@@ -241,9 +243,7 @@ impl Device {
             match share.place {
                 Place::Cpu => {
                     fetch(resident, host, params, &share.needs)?;
-                    for kernel in &share.kernels {
-                        cpu.enter(|| (kernel.cpu)(cpu, params, host));
-                    }
+                    share.stages.iter().for_each(|stage| run(stage, cpu, params, host));
                 }
                 Place::Gpu => {
                     resident.upload(host, &share.needs, share.is_sorted)?;
@@ -260,6 +260,22 @@ impl Device {
     pub(crate) fn times(&mut self) -> Vec<(&'static str, f32)> {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
+    }
+}
+
+/// Runs a stage on the CPU.
+fn run(stage: &Stage, cpu: &Cpu, params: &Params, host: &mut Columns) {
+    let rounds = match stage {
+        Stage::Run(_) => 1,
+        Stage::Rounds { maximum, .. } => *maximum,
+    };
+    for _ in 0..rounds {
+        for kernel in stage.kernels() {
+            cpu.enter(|| (kernel.cpu)(cpu, params, host));
+        }
+        if host.fluid.pressure_solve.is_converged() {
+            break;
+        }
     }
 }
 

@@ -112,7 +112,7 @@ impl Request<'_> {
         for share in shares.segments.iter().filter(|share| !share.needs.is_empty()) {
             let line = share.line;
             let mut transfer = self.columns(&share.needs, share.place == Place::Gpu);
-            transfer.before = share.kernels.first().map(|kernel| kernel.name);
+            transfer.before = share.kernels().next().map(|kernel| kernel.name);
             transfer.line = Some(line);
             let same = |other: &&mut Transfer| {
                 (other.line, other.to_device, &other.what) == (Some(line), transfer.to_device, &transfer.what)

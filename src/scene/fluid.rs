@@ -19,7 +19,15 @@ pub struct Fluid {
     ///
     /// Below 1.8 a particle has too few neighbours; cost grows with the cube.
     pub support: f32,
-    /// Pressure as a function of density; default `tait`.
+    /// How pressure is found; default `wcsph`.
+    pub solver: FluidSolver,
+    /// Mean error of the density, of either sign, at which the `dfsph` solve stops. Range 1e-6 to 0.1; default 0.001.
+    ///
+    /// The compression that is reached is about half of it.
+    pub density_tolerance: f32,
+    /// Most rounds of the `dfsph` solve in a step. Range 1 to 1000; default 50.
+    pub rounds: u32,
+    /// Pressure as a function of density; default `tait`. For `wcsph`.
     pub equation_of_state: EquationOfState,
     /// Speed of sound of the model. Range 0.1 to 2000 m/s; default derived, see [`Scene::default_sound_speed`].
     ///
@@ -47,6 +55,9 @@ impl Default for Fluid {
             spacing: 0.005,
             rest_density: 1000.0,
             support: 2.0,
+            solver: FluidSolver::Wcsph,
+            density_tolerance: 1e-3,
+            rounds: 50,
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,
             viscosity: 0.001,
@@ -64,6 +75,18 @@ impl Fluid {
     pub fn support_radius(&self) -> f32 {
         self.support * self.spacing
     }
+}
+
+/// How pressure is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum FluidSolver {
+    /// From the density, by an equation of state: weakly compressible, many short steps (the paper).
+    #[default]
+    Wcsph,
+    /// By a solve that keeps the density at rest density: few long steps \[BK17\].
+    Dfsph,
 }
 
 /// Pressure as a function of density.

@@ -111,6 +111,8 @@ pub(super) const FLUID: &[Row<Fluid>] = fields! { Fluid, "fluid.";
     spacing: 1e-4 to 1.0, "m";
     rest_density: 1.0 to 2e4, "kg/m^3";
     support: 1.8 to 3.0, "1";
+    density_tolerance: 1e-6 to 0.1, "1";
+    rounds: 1.0 to 1000.0, "1";
     sound_speed: 0.1 to 2000.0, "m/s";
     viscosity: 0.0 to 1000.0, "Pa s";
     artificial_viscosity: 0.0 to 1.0, "1";

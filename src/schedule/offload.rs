@@ -187,6 +187,18 @@ pub enum PlaceError {
         /// What it must be with.
         sort: &'static str,
     },
+    /// Kernels that are repeated until they have converged are at two places.
+    #[error(
+        "backend `{kernel}={place}`: it is repeated with {with} until they have converged; both run at one place"
+    )]
+    Apart {
+        /// The kernel.
+        kernel: &'static str,
+        /// Where it is asked for.
+        place: Place,
+        /// What it must be with.
+        with: &'static str,
+    },
     /// No kernel has this name.
     #[error("backend: there is no kernel `{0}`")]
     Unknown(&'static str),

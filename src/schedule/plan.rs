@@ -27,6 +27,8 @@ pub struct Content {
     pub surface_tension: bool,
     /// Most solver iterations that a sponge asks for.
     pub iterations: u32,
+    /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
+    pub rounds: u32,
 }
 
 /// What becomes of a phase.
@@ -47,6 +49,8 @@ pub struct PlanLine {
     pub verdict: Verdict,
     /// Repetitions, by the group that it is repeated in.
     pub repeat: Option<(usize, u32)>,
+    /// Whether the repetitions end when the pressure solve has converged.
+    pub until_converged: bool,
     pub(super) work: Work,
 }
 
@@ -133,19 +137,36 @@ impl Plan {
                     let missing = kernel.needs.iter().find(|need| !is_met(**need, content));
                     let verdict = missing.map_or(Verdict::Runs, |need| Verdict::Skipped(need.missing()));
                     let work = Work::Kernel(kernel);
-                    self.lines.push(PlanLine { name: kernel.name, verdict, repeat, work });
+                    self.lines.push(PlanLine {
+                        name: kernel.name,
+                        verdict,
+                        repeat,
+                        until_converged: false,
+                        work,
+                    });
                 }
                 Phase::Repeat { times, phases } => {
                     *groups += 1;
-                    let times = match times {
+                    let number = match times {
                         Times::SolverIterations => content.iterations,
                         Times::Fixed(times) => *times,
+                        Times::UntilConverged => content.rounds,
                     };
-                    self.collect(phases, content, Some((*groups, times)), groups);
+                    let first = self.lines.len();
+                    self.collect(phases, content, Some((*groups, number)), groups);
+                    let until_converged = *times == Times::UntilConverged;
+                    self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
                 }
                 Phase::Host(host) => {
                     let verdict = if content.bodies { Verdict::Runs } else { Verdict::Skipped(RIGID_NEEDS) };
-                    self.lines.push(PlanLine { name: host.name, verdict, repeat, work: Work::Host(host) });
+                    let work = Work::Host(host);
+                    self.lines.push(PlanLine {
+                        name: host.name,
+                        verdict,
+                        repeat,
+                        until_converged: false,
+                        work,
+                    });
                 }
             }
         }
@@ -233,6 +254,7 @@ impl fmt::Display for Plan {
                 writeln!(formatter, "{transfer}")?;
             }
             let repeat = match line.repeat {
+                Some((_, times)) if line.until_converged => format!("up to {times} x "),
                 Some((_, times)) => format!("{times} x "),
                 None => String::new(),
             };

@@ -50,12 +50,21 @@ impl PhaseTime {
     }
 }
 
+/// Consecutive kernels that are run together.
+#[derive(Clone, Debug)]
+struct Group {
+    first: usize,
+    last: usize,
+    times: u32,
+    /// Whether the repetitions end when the pressure solve has converged.
+    until_converged: bool,
+}
+
 /// A plan, flattened to what is left of it.
 #[derive(Clone, Debug)]
 pub struct Runner {
     kernels: Vec<(Work, usize)>,
-    /// (first, last, times) of consecutive kernels.
-    groups: Vec<(usize, usize, u32)>,
+    groups: Vec<Group>,
     times: Vec<PhaseTime>,
     step: PhaseTime,
 }
@@ -74,8 +83,13 @@ impl Runner {
             });
             let at = runner.kernels.len();
             match (runner.groups.last_mut(), line.repeat) {
-                (Some(last), Some((index, _))) if group == Some(index) => last.1 = at + 1,
-                (_, repeat) => runner.groups.push((at, at + 1, repeat.map_or(1, |(_, times)| times))),
+                (Some(group_of), Some((index, _))) if group == Some(index) => group_of.last = at + 1,
+                (_, repeat) => runner.groups.push(Group {
+                    first: at,
+                    last: at + 1,
+                    times: repeat.map_or(1, |(_, times)| times),
+                    until_converged: line.until_converged,
+                }),
             }
             group = line.repeat.map(|(index, _)| index);
             runner.kernels.push((line.work, time));
@@ -94,15 +108,18 @@ impl Runner {
         let Self { kernels, groups, times, step } = self;
         let start_of_step = Instant::now();
         let work = || {
-            for (first, last, repeat) in &*groups {
-                for _ in 0..*repeat {
-                    for (work, time) in &kernels[*first..*last] {
+            for group in &*groups {
+                for _ in 0..group.times {
+                    for (work, time) in &kernels[group.first..group.last] {
                         let start = Instant::now();
                         match work {
                             Work::Kernel(kernel) => (kernel.cpu)(cpu, params, columns),
                             Work::Host(_) => host(columns),
                         }
                         times[*time].record(start);
+                    }
+                    if group.until_converged && columns.fluid.pressure_solve.is_converged() {
+                        break;
                     }
                 }
             }

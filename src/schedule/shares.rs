@@ -2,22 +2,21 @@
 
 use sorb_kernels::{
     columns::{Column, Life},
+    gpu::Stage,
     kernel::Kernel,
 };
 
-#[cfg(feature = "gpu")]
-use super::offload::{BESIDE_SORT, Offload, PlaceError, last};
 use super::{
-    offload::Place,
-    plan::{Plan, Verdict, Work},
+    offload::{BESIDE_SORT, Offload, Place, PlaceError, last},
+    plan::{Plan, PlanLine, Verdict, Work},
 };
 
 /// Kernels that run one after the other at one place.
 #[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub(crate) place: Place,
-    pub(crate) kernels: Vec<&'static Kernel>,
-    /// The line of the plan of the first, and in which round it is repeated.
+    pub(crate) stages: Vec<Stage>,
+    /// The line of the plan of the first.
     pub(crate) line: usize,
     /// Columns that these kernels need and that only the other side has.
     pub(crate) needs: Vec<Column>,
@@ -43,7 +42,23 @@ impl Shares {
     /// Kernels of the device, in order, repetitions written out.
     pub(crate) fn on_gpu(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
         let segments = self.segments.iter().filter(|segment| segment.place == Place::Gpu);
-        segments.flat_map(|segment| segment.kernels.iter().copied())
+        segments.flat_map(Segment::kernels)
+    }
+}
+
+impl Segment {
+    /// Its kernels, in order.
+    pub(crate) fn kernels(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
+        self.stages.iter().flat_map(Stage::kernels).copied()
+    }
+
+    /// Adds a kernel, to the last stage if that repeats the same group.
+    fn push(&mut self, kernel: &'static Kernel, rounds: Option<u32>, is_same: bool) {
+        match (self.stages.last_mut(), rounds) {
+            (Some(Stage::Rounds { kernels, .. }), Some(_)) if is_same => kernels.push(kernel),
+            (_, Some(maximum)) => self.stages.push(Stage::Rounds { maximum, kernels: vec![kernel] }),
+            (_, None) => self.stages.push(Stage::Run(kernel)),
+        }
     }
 }
 
@@ -53,6 +68,8 @@ struct Placed {
     work: Work,
     line: usize,
     place: Place,
+    /// The group that is repeated until it has converged, and its most rounds.
+    until: Option<(usize, u32)>,
 }
 
 /// Weights of the coupling do not travel: each side computes them from lists and points.
@@ -138,13 +155,14 @@ impl Plan {
         let mut all = Vec::new();
         let mut first = 0;
         for group in self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group()) {
-            let times = group[0].repeat.map_or(1, |(_, times)| times);
+            let until = group[0].repeat.filter(|_| group[0].until_converged);
+            let times = group[0].repeat.filter(|_| until.is_none()).map_or(1, |(_, times)| times);
             for _ in 0..times {
                 for (index, line) in
                     group.iter().enumerate().filter(|(_, line)| line.verdict == Verdict::Runs)
                 {
                     let place = if on_gpu.contains(&line.name) { Place::Gpu } else { Place::Cpu };
-                    all.push(Placed { work: line.work, line: first + index, place });
+                    all.push(Placed { work: line.work, line: first + index, place, until });
                 }
             }
             first += group.len();
@@ -153,7 +171,6 @@ impl Plan {
     }
 
     /// Whether a phase runs.
-    #[cfg(feature = "gpu")]
     pub(crate) fn runs(&self, name: &str) -> bool {
         self.lines().iter().any(|line| line.name == name && line.verdict == Verdict::Runs)
     }
@@ -162,7 +179,6 @@ impl Plan {
     ///
     /// # Errors
     /// Kernels are asked for at places where they cannot be.
-    #[cfg(feature = "gpu")]
     pub(crate) fn kernels_on_gpu(&self, offload: &Offload) -> Result<Vec<&'static str>, PlaceError> {
         const SORT: &str = "grid::sort_fluid";
         let kernels: Vec<&'static Kernel> = self
@@ -179,7 +195,7 @@ impl Plan {
             Offload::Cpu => Ok(Vec::new()),
             Offload::Gpu | Offload::Auto => Ok(names.collect()),
             Offload::From(first) => {
-                let first = if *first == BESIDE_SORT[0] { SORT } else { first };
+                let first = if *first == BESIDE_SORT[0] { SORT } else { self.first_of_rounds(first) };
                 let all: Vec<_> = names.skip_while(|name| *name != first).collect();
                 let is_sorted_there = all.contains(&SORT);
                 let stays = |name: &&str| is_sorted_there || !BESIDE_SORT.contains(name);
@@ -200,9 +216,30 @@ impl Plan {
                         return Err(PlaceError::BesideSort { kernel: name, place, sort: SORT });
                     }
                 }
+                for group in self.rounds() {
+                    let mut places = group.iter().map(|line| (line.name, place(line.name)));
+                    let Some((with, there)) = places.next() else { continue };
+                    if let Some((kernel, Some(place))) = places.find(|(_, here)| *here != there) {
+                        return Err(PlaceError::Apart { kernel, place, with });
+                    }
+                }
                 Ok(names.filter(|name| place(name) == Some(Place::Gpu)).collect())
             }
         }
+    }
+
+    /// Groups that are repeated until they have converged, of lines that run.
+    fn rounds(&self) -> impl Iterator<Item = Vec<&PlanLine>> {
+        let groups = self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group());
+        groups
+            .filter(|group| group[0].until_converged)
+            .map(|group| group.iter().filter(|line| line.verdict == Verdict::Runs).collect())
+    }
+
+    /// The first kernel of the group that this one is repeated in until it has converged; else the kernel.
+    fn first_of_rounds(&self, name: &'static str) -> &'static str {
+        let group = self.rounds().find(|group| group.iter().any(|line| line.name == name));
+        group.map_or(name, |group| group[0].name)
     }
 
     /// The shares of CPU and device, as the plan is placed; `looked_at` are columns that the host wants after a step.
@@ -225,7 +262,7 @@ impl Plan {
 fn shares_of(work: &[Placed], fresh: &mut Fresh, looked_at: &[Column]) -> Shares {
     let mut shares = Shares::default();
     let mut is_sorted = false;
-    let mut last_line = None;
+    let mut last: Option<&Placed> = None;
     for placed in work {
         let Work::Kernel(kernel) = placed.work else { continue };
         let (reads, writes) = moved(placed.work);
@@ -233,7 +270,7 @@ fn shares_of(work: &[Placed], fresh: &mut Fresh, looked_at: &[Column]) -> Shares
         if begins {
             let segment = Segment {
                 place: placed.place,
-                kernels: Vec::new(),
+                stages: Vec::new(),
                 line: placed.line,
                 needs: Vec::new(),
                 is_sorted,
@@ -244,7 +281,8 @@ fn shares_of(work: &[Placed], fresh: &mut Fresh, looked_at: &[Column]) -> Shares
             for column in reads {
                 segment.needs.extend(fresh.bring(column, placed.place));
             }
-            segment.kernels.push(kernel);
+            let is_same = last.is_some_and(|last| last.until == placed.until);
+            segment.push(kernel, placed.until.map(|(_, maximum)| maximum), is_same);
         }
         writes.into_iter().for_each(|column| fresh.write(column, placed.place));
         match kernel.name {
@@ -252,14 +290,14 @@ fn shares_of(work: &[Placed], fresh: &mut Fresh, looked_at: &[Column]) -> Shares
             "sph::advect" => is_sorted = false,
             _ => {}
         }
-        last_line = Some(placed.line);
+        last = Some(placed);
     }
     // The host keeps the state, looks at it, and has phases of its own.
     let state = |column: &Column| column.life() == Life::State || looked_at.contains(column);
     let mut wanted: Vec<Column> = Column::ALL.iter().copied().filter(state).collect();
     let host = work.iter().filter(|placed| matches!(placed.work, Work::Host(_)));
     host.clone().for_each(|placed| wanted.extend(moved(placed.work).0));
-    if last_line.is_some() {
+    if last.is_some() {
         shares.fetched = wanted.into_iter().flat_map(|column| fresh.bring(column, Place::Cpu)).collect();
     }
     for column in host.flat_map(|placed| moved(placed.work).1) {

@@ -30,6 +30,8 @@ pub enum Times {
     SolverIterations,
     /// A fixed number.
     Fixed(u32),
+    /// Until the pressure solve has converged, at most `fluid.rounds` times.
+    UntilConverged,
 }
 
 /// A phase that is not a kernel.
@@ -78,7 +80,21 @@ pub static STEP: &[Phase] = &[
     Run(&sph::surface_tension::KERNEL),
     Run(&couple::suction::KERNEL),
     Run(&sph::repulsion::KERNEL),
+    Run(&sph::boundary_pressure::KERNEL),
     Run(&sph::kick::KERNEL),
+    Run(&sph::predict::KERNEL),
+    Run(&sph::boundary::KERNEL),
+    Run(&sph::factors::KERNEL),
+    Repeat {
+        times: Times::UntilConverged,
+        phases: &[
+            Run(&sph::pressure_update::KERNEL),
+            Run(&sph::pressure_acceleration::KERNEL),
+            Run(&sph::pressure_residual::KERNEL),
+        ],
+    },
+    Run(&sph::pressure_kick::KERNEL),
+    Run(&sph::boundary_reaction::KERNEL),
     Run(&couple::control_velocity::KERNEL),
     Repeat {
         times: Times::Fixed(FILTER_SWEEPS),
@@ -99,6 +115,9 @@ pub(super) fn is_met(need: Need, content: super::Content) -> bool {
         Need::Fluid => content.fluid,
         Need::Sponge => content.sponge,
         Need::Obstacles => content.walls || content.bodies,
+        Need::Bodies => content.bodies,
         Need::SurfaceTension => content.surface_tension,
+        Need::EquationOfState => content.rounds == 0,
+        Need::Incompressible => content.rounds > 0,
     }
 }

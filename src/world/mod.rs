@@ -138,6 +138,7 @@ impl World {
             walls: params.walls.is_some(),
             bodies: columns.rows.bodies > 0,
             surface_tension: params.fluid.surface_tension > 0.0,
+            rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };
         let plan = Plan::new(STEP, content, &options.observed)?;
@@ -194,6 +195,22 @@ impl World {
                 cpu.enter(|| (kernel.cpu)(cpu, params, columns));
             }
         }
+    }
+
+    /// Columns with the density, and the share of walls and bodies, at the present positions: a solve for the pressure needs
+    /// neither of them there.
+    pub(crate) fn summed_density(&self) -> Columns {
+        let mut columns = self.stores.view().clone();
+        let params = Params { step: 0.0, ..self.params.clone() };
+        let phases = [
+            &grid::sort_fluid::KERNEL,
+            &grid::fluid_neighbors::KERNEL,
+            &sph::density::KERNEL,
+            &sph::predict::KERNEL,
+            &sph::boundary::KERNEL,
+        ];
+        self.cpu.enter(|| phases.iter().for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
+        columns
     }
 
     /// Takes one step, as long as stability allows.
@@ -315,6 +332,7 @@ impl World {
         self.clock.fluid_speed = fluid.speed_squared.sqrt();
         self.clock.fluid_acceleration = fluid.acceleration_squared.sqrt();
         self.clock.node_speed = nodes.speed_squared.sqrt();
+        self.clock.fluid_pressure = columns.fluid.pressure_solve.pressure();
         Ok(())
     }
 }

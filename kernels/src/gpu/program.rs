@@ -40,7 +40,9 @@ pub enum Stage {
 }
 
 impl Stage {
-    pub(super) fn kernels(&self) -> &[&'static Kernel] {
+    /// Its kernels, in order.
+    #[must_use]
+    pub fn kernels(&self) -> &[&'static Kernel] {
         match self {
             Self::Run(kernel) => std::slice::from_ref(kernel),
             Self::Rounds { kernels, .. } => kernels,

@@ -141,6 +141,22 @@ impl ListValues {
         PerChunk(&mut self.0)
     }
 
+    /// A value for every entry of `lists`, from its query and its target; 0 for padding.
+    #[cfg(any(test, feature = "oracles"))]
+    pub(crate) fn fill(&mut self, lists: &Neighbors, value: impl Fn(usize, usize) -> f32) {
+        self.match_lists(lists);
+        for (chunk, (values, lists)) in self.0.iter_mut().zip(&lists.chunks).enumerate() {
+            for group in 0..GROUPS {
+                for at in lists.range(group * LANES) {
+                    for lane in 0..LANES {
+                        let query = chunk * CHUNK + group * LANES + lane;
+                        values[at][lane] = value(query, lists.entries[at][lane] as usize);
+                    }
+                }
+            }
+        }
+    }
+
     /// The values of the chunk that begins at query `first`.
     #[inline(always)]
     pub(crate) fn chunk(&self, first: usize) -> &[[f32; LANES]] {

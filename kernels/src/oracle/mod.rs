@@ -11,6 +11,7 @@ use crate::{columns::Columns, params::Params};
 
 mod couple;
 mod grid;
+mod incompressible;
 mod pbd;
 mod shapes;
 mod sph;
@@ -29,7 +30,16 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::forces" => sph::forces,
         "sph::surface_tension" => sph::surface_tension,
         "sph::repulsion" => sph::repulsion,
+        "sph::boundary_pressure" => incompressible::boundary_pressure,
         "sph::kick" => sph::kick,
+        "sph::predict" => incompressible::predict,
+        "sph::boundary" => incompressible::boundary,
+        "sph::factors" => incompressible::factors,
+        "sph::pressure_update" => incompressible::pressure_update,
+        "sph::pressure_acceleration" => incompressible::pressure_acceleration,
+        "sph::pressure_residual" => incompressible::pressure_residual,
+        "sph::pressure_kick" => incompressible::pressure_kick,
+        "sph::boundary_reaction" => incompressible::boundary_reaction,
         "sph::advect" => sph::advect,
         "pbd::gravity" => pbd::gravity,
         "pbd::predict" => pbd::predict,

@@ -29,8 +29,7 @@ const STOP: f32 = 0.05;
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let Fluid { position, velocity, extremes, .. } = &mut columns.fluid;
-    let margin = params.fluid.spacing * STOP;
-    let box_inside = params.walls.map(|(low, high)| ((low + margin).to_array(), (high - margin).to_array()));
+    let box_inside = inside(params);
     let rows = (&mut position[..count], &mut velocity[..count], PerChunk(&mut extremes.0));
     cpu.for_chunks(rows, |first, (position, velocity, extreme)| {
         let extreme = &mut extreme.0[0];
@@ -49,6 +48,12 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         }
         extreme.speed_squared = largest;
     });
+}
+
+/// Corners of the box that particles are kept in.
+pub(super) fn inside(params: &Params) -> Option<([f32; 3], [f32; 3])> {
+    let margin = params.fluid.spacing * STOP;
+    params.walls.map(|(low, high)| ((low + margin).to_array(), (high - margin).to_array()))
 }
 
 fn clamp(x: &mut [f32; 4], v: &mut [f32; 4], low: [f32; 3], high: [f32; 3]) {

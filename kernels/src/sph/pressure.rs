@@ -20,7 +20,7 @@ use crate::{
 /// `sph::pressure`.
 pub static KERNEL: Kernel = Kernel {
     name: "sph::pressure",
-    needs: &[Need::Fluid],
+    needs: &[Need::Fluid, Need::EquationOfState],
     reads: &[FluidPosition, FluidVelocity, FluidDensity],
     writes: &[FluidPosition, FluidVelocity],
     cpu,

@@ -21,7 +21,7 @@ use crate::{
 /// `sph::repulsion`.
 pub static KERNEL: Kernel = Kernel {
     name: "sph::repulsion",
-    needs: &[Need::Fluid, Need::Obstacles],
+    needs: &[Need::Fluid, Need::Obstacles, Need::EquationOfState],
     reads: &[FluidPosition, FluidVelocity, FluidAcceleration, BodyStates],
     writes: &[FluidAcceleration, BodyFluidWrenches],
     cpu,

@@ -60,7 +60,7 @@ fn kernels_read_and_write_what_they_declare() {
     let mut failures = Vec::new();
     for options in scenes() {
         for kernel in KERNELS {
-            let before = Scene::new(options).before(kernel.name, &best());
+            let before = Scene::new(options.suiting(kernel)).before(kernel.name, &best());
             if let Err(error) = audit(kernel.cpu, kernel.reads, kernel.writes, &before) {
                 failures.push(format!("{} {error} in {options:?}", kernel.name));
             }
@@ -73,7 +73,7 @@ fn kernels_read_and_write_what_they_declare() {
 fn every_declared_column_is_needed() {
     let mut superfluous = Vec::new();
     for kernel in KERNELS {
-        let before = Scene::new(FULL).before(kernel.name, &best());
+        let before = Scene::new(FULL.suiting(kernel)).before(kernel.name, &best());
         for column in kernel.reads {
             if audit(kernel.cpu, &without(kernel.reads, *column), kernel.writes, &before).is_ok() {
                 superfluous.push(format!("{} does not read {}", kernel.name, column.name()));
@@ -91,7 +91,7 @@ fn every_declared_column_is_needed() {
 #[test]
 fn lies_are_found() {
     let kernel = kernel("sph::density").expect("there is one");
-    let before = Scene::new(FULL).before(kernel.name, &best());
+    let before = Scene::new(FULL.suiting(kernel)).before(kernel.name, &best());
     let audit = |reads: &[Column], writes: &[Column]| audit(kernel.cpu, reads, writes, &before);
     assert_eq!(audit(kernel.reads, kernel.writes), Ok(()));
     let lie = audit(&without(kernel.reads, Column::FluidPosition), kernel.writes);

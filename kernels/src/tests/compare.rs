@@ -120,6 +120,15 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::FluidPosition => rows(&fluid.position, &by_id),
         Column::FluidVelocity => rows(&fluid.velocity, &by_id),
         Column::FluidAcceleration => rows(&fluid.acceleration, &by_id),
+        Column::FluidPredicted => rows(&fluid.predicted, &by_id),
+        Column::FluidBoundary => rows(&fluid.boundary, &by_id),
+        Column::FluidFactors => rows(&fluid.factors, &by_id),
+        Column::FluidCorrection => rows(&fluid.correction, &by_id),
+        Column::FluidPressureRows => planes(&fluid.pressure_rows, &by_id),
+        Column::FluidPairs => list_values(&fluid.pairs, &fluid.neighbors, &by_id, ids, columns.rows.fluid),
+        Column::FluidPressureSolve => {
+            Content::Numbers(fluid.pressure_solve.numbers().map(|number| vec![number]).to_vec())
+        }
         Column::FluidDrag => rows(&fluid.drag, &by_id),
         Column::FluidId => Content::Sets(vec![by_id.iter().map(|row| ids[*row]).collect()]),
         Column::FluidDensity => values(&fluid.density, &by_id),
@@ -165,6 +174,12 @@ fn rows(data: &[[f32; 4]], order: &[usize]) -> Content {
     let vectors = order.iter().flat_map(|row| data[*row][..3].iter().copied().map(f64::from));
     let w = order.iter().map(|row| f64::from(data[*row][3]));
     Content::Numbers(vec![vectors.collect(), w.collect()])
+}
+
+/// Rows of four numbers that have nothing to do with each other.
+fn planes(data: &[[f32; 4]], order: &[usize]) -> Content {
+    let plane = |k: usize| order.iter().map(|row| f64::from(data[*row][k])).collect();
+    Content::Numbers((0..4).map(plane).collect())
 }
 
 fn values(data: &[f32], order: &[usize]) -> Content {

@@ -36,7 +36,7 @@ fn assert_same_bits(options: Options) {
     let machines = machines();
     assert!(machines.len() > 1, "nothing to compare: the machine has one level and no threads");
     for kernel in KERNELS {
-        let before = Scene::new(options).before(kernel.name, &best());
+        let before = Scene::new(options.suiting(kernel)).before(kernel.name, &best());
         let mut first: Option<Scene> = None;
         for machine in &machines {
             let mut after = before.clone();

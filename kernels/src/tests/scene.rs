@@ -8,10 +8,11 @@ use crate::{
     columns::{Columns, FAR_ROW, RowCounts, padded},
     cpu::Cpu,
     grid::cells::Domain,
-    kernel::{KERNELS, Kernel, kernel},
+    kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
-    params::{EquationOfState, FluidParams, Params, SpongeParams},
+    params::{EquationOfState, FluidParams, Incompressible, Params, SpongeParams},
     smoothing::Wendland,
+    sph::{boundary::boundary_profile, factors::lattice_diagonal},
     testing::Random,
 };
 
@@ -31,8 +32,20 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::forces",
     "sph::surface_tension",
     "sph::repulsion",
+    "sph::boundary_pressure",
     "couple::suction",
     "sph::kick",
+    "sph::predict",
+    "sph::boundary",
+    "sph::factors",
+    "sph::pressure_update",
+    "sph::pressure_acceleration",
+    "sph::pressure_residual",
+    "sph::pressure_update",
+    "sph::pressure_acceleration",
+    "sph::pressure_residual",
+    "sph::pressure_kick",
+    "sph::boundary_reaction",
     "pbd::gravity",
     "couple::zero_distance",
     "pbd::predict",
@@ -57,6 +70,7 @@ pub(crate) struct Options {
     pub(crate) walls: bool,
     pub(crate) bounded: bool,
     pub(crate) equation_of_state: EquationOfState,
+    pub(crate) incompressible: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -67,9 +81,15 @@ pub(crate) const FULL: Options = Options {
     walls: true,
     bounded: true,
     equation_of_state: EquationOfState::Tait,
+    incompressible: false,
 };
 
 impl Options {
+    /// The same, with the pressure that the kernel is there for.
+    pub(super) fn suiting(self, kernel: &Kernel) -> Self {
+        Self { incompressible: kernel.needs.contains(&Need::Incompressible), ..self }
+    }
+
     /// Sites per site of the coarse block, along each axis.
     fn refinement(self) -> usize {
         (1..).find(|n| BLOCK * n * n * n >= self.fluid).unwrap_or(1)
@@ -137,12 +157,14 @@ impl Scene {
 
     /// Whether the scene meets the needs of a kernel.
     pub(super) fn has_work(&self, kernel: &Kernel) -> bool {
-        use crate::kernel::Need;
         kernel.needs.iter().all(|need| match need {
             Need::Fluid => self.options.fluid > 0,
             Need::Sponge => self.options.sponges,
             Need::Obstacles => self.options.walls || self.options.bodies,
+            Need::Bodies => self.options.bodies,
             Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
+            Need::EquationOfState => !self.options.incompressible,
+            Need::Incompressible => self.options.incompressible,
         })
     }
 
@@ -250,6 +272,7 @@ fn params(options: Options) -> Params {
             smoothing: Wendland::new(radius),
             equation_of_state: options.equation_of_state,
             sound_speed: 10.0,
+            incompressible: options.incompressible.then(|| incompressible(radius, spacing)),
             viscosity: 0.5,
             surface_tension: 0.07,
             repulsion_range: spacing,
@@ -258,6 +281,20 @@ fn params(options: Options) -> Params {
         },
         sponges: if options.sponges { sponges() } else { Vec::new() },
         coupling: Wendland::new(0.015),
+    }
+}
+
+/// With a tolerance of zero, so that rounding does not decide about one more round.
+fn incompressible(radius: f32, spacing: f32) -> Incompressible {
+    let smoothing = Wendland::new(radius);
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    Incompressible {
+        tolerance: 0.0,
+        rounds: 50,
+        lattice_diagonal: lattice_diagonal(&smoothing, spacing),
+        correction_speed: 1.0,
+        boundary_range,
+        boundary_share,
     }
 }
 

@@ -8,12 +8,13 @@ use super::{
 };
 use crate::{
     columns::{Column, Columns, Life},
-    gpu::{Gpu, GpuError, Outcome, Resident, Start, adapters, required_limits, wgpu},
+    gpu::{Gpu, GpuError, Outcome, Resident, Start, adapters, has_twin, required_limits, wgpu},
     kernel::{Kernel, kernel},
 };
 
 fn chain() -> Vec<&'static Kernel> {
-    CHAIN.iter().map(|name| kernel(name).expect("the chain names kernels")).collect()
+    let with_twin = CHAIN.iter().filter(|name| has_twin(name));
+    with_twin.map(|name| kernel(name).expect("the chain names kernels")).collect()
 }
 
 fn state() -> Vec<Column> {

@@ -1,0 +1,233 @@
+//! The solve for the pressure, pair by pair.
+
+use glam::{DQuat, DVec3};
+
+use super::{closeness, row, shapes, smoothing, vector, vectors};
+use crate::{
+    body::{Body, Wrench},
+    columns::{Columns, Fluid},
+    params::Params,
+};
+
+/// c_ij of all pairs that are neighbours at the beginning of the step.
+fn pairs(params: &Params, fluid: &Fluid, count: usize) -> Vec<Vec<(usize, f64)>> {
+    let radius = params.fluid.smoothing.support_radius;
+    let volume = f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density);
+    let (x, end) = (vectors(&fluid.position, count), vectors(&fluid.predicted, count));
+    let factor = |i: usize, j: usize| {
+        let u = closeness(radius, end[i].distance(end[j]));
+        (j, volume * 210.0 / super::pi_power(radius, 5) * u.powi(3))
+    };
+    let near = |i: usize, j: usize| x[i].distance(x[j]) < f64::from(radius);
+    (0..count).map(|i| (0..count).filter(|j| near(i, *j)).map(|j| factor(i, j)).collect()).collect()
+}
+
+fn box_inside(params: &Params) -> Option<(DVec3, DVec3)> {
+    let margin = DVec3::splat(f64::from(params.fluid.spacing) * 0.05);
+    params.walls.map(|(low, high)| (low.as_dvec3() + margin, high.as_dvec3() - margin))
+}
+
+pub(super) fn predict(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    fluid.predicted.resize(fluid.position.len(), [0.0; 4]);
+    for i in 0..columns.rows.fluid {
+        let end = vector(fluid.position[i]) + f64::from(params.step) * vector(fluid.velocity[i]);
+        let end = box_inside(params).map_or(end, |(low, high)| end.clamp(low, high));
+        fluid.predicted[i] = row(end, 0.0);
+    }
+}
+
+/// Share of a surface at a distance, and its slope into the surface.
+fn profile(params: &Params, distance: f64) -> (f64, f64) {
+    let Some(solve) = &params.fluid.incompressible else { return (0.0, 0.0) };
+    let (range, share) = (f64::from(solve.boundary_range), f64::from(solve.boundary_share));
+    let depth = (1.0 - distance / range).clamp(0.0, 2.0);
+    (share * depth.powi(6), 6.0 * share / range * depth.powi(5))
+}
+
+fn walls(params: &Params, x: DVec3) -> (DVec3, f64) {
+    let (mut slope, mut share) = (DVec3::ZERO, 0.0);
+    let Some((low, high)) = params.walls else { return (slope, share) };
+    for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+        let below = profile(params, (x - low.as_dvec3()).dot(axis));
+        let above = profile(params, (high.as_dvec3() - x).dot(axis));
+        slope += axis * (above.1 - below.1);
+        share += below.0 + above.0;
+    }
+    (slope, share)
+}
+
+fn solid(params: &Params, body: &Body, x: DVec3) -> (DVec3, f64) {
+    let (distance, normal) = shapes::distance(body, x);
+    let (share, slope) = profile(params, distance);
+    (normal * -slope, share)
+}
+
+fn at_end(params: &Params, columns: &Columns) -> Vec<Body> {
+    let step = f64::from(params.step);
+    let moved = |body: &Body| {
+        let mut body = body.clone();
+        let state = &mut body.state;
+        state.position = (state.position.as_dvec3() + step * state.linear_velocity.as_dvec3()).as_vec3();
+        let half = 0.5 * step * state.angular_velocity.as_dvec3();
+        let turn = DQuat::from_xyzw(half.x, half.y, half.z, 1.0).normalize();
+        state.rotation = (turn * state.rotation.as_dquat()).normalize().as_quat();
+        body
+    };
+    columns.bodies.states.0.iter().map(moved).collect()
+}
+
+pub(super) fn boundary(params: &Params, columns: &mut Columns) {
+    let bodies = at_end(params, columns);
+    let fluid = &mut columns.fluid;
+    fluid.boundary.resize(fluid.position.len(), [0.0; 4]);
+    for i in 0..columns.rows.fluid {
+        let x = vector(fluid.predicted[i]);
+        let (mut slope, mut share) = walls(params, x);
+        for body in &bodies {
+            let own = solid(params, body, x);
+            (slope, share) = (slope + own.0, share + own.1);
+        }
+        fluid.boundary[i] = row(slope, share);
+    }
+}
+
+pub(super) fn boundary_pressure(params: &Params, columns: &mut Columns) {
+    let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
+    let mut wrenches = vec![Wrench::default(); bodies.len()];
+    let momentum = f64::from(params.fluid.particle_mass) * f64::from(params.step);
+    for i in 0..columns.rows.fluid {
+        let x = vector(fluid.position[i]);
+        let pressure = f64::from(fluid.position[i][3]) * f64::from(params.fluid.rest_density);
+        let mut slope = walls(params, x).0;
+        for (body, wrench) in bodies.iter().zip(&mut wrenches) {
+            let own = solid(params, body, x).0;
+            slope += own;
+            wrench.add(own * (pressure * momentum), x - body.state.position.as_dvec3());
+        }
+        fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - pressure * slope, 0.0);
+    }
+    columns.bodies.fluid_wrenches.0 = wrenches;
+}
+
+pub(super) fn boundary_reaction(params: &Params, columns: &mut Columns) {
+    let bodies = at_end(params, columns);
+    let momentum = f64::from(params.fluid.particle_mass) * f64::from(params.step);
+    let fluid = &columns.fluid;
+    let mut wrenches: Vec<Wrench> =
+        (0..bodies.len()).map(|body| columns.bodies.fluid_wrenches.total(body, bodies.len())).collect();
+    for i in 0..columns.rows.fluid {
+        let x = vector(fluid.predicted[i]);
+        let impulse = f64::from(fluid.predicted[i][3]) * momentum;
+        for (body, wrench) in bodies.iter().zip(&mut wrenches) {
+            wrench.add(solid(params, body, x).0 * impulse, x - body.state.position.as_dvec3());
+        }
+    }
+    columns.bodies.fluid_wrenches.0 = wrenches;
+}
+
+pub(super) fn factors(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let near = pairs(params, fluid, count);
+    let (x, end) = (vectors(&fluid.position, count), vectors(&fluid.predicted, count));
+    let (step, spacing) = (f64::from(params.step), f64::from(params.fluid.spacing));
+    let density = f64::from(params.fluid.rest_density);
+    let volume = f64::from(params.fluid.particle_mass) / density;
+    fluid.factors.resize(fluid.position.len(), [0.0; 4]);
+    fluid.pressure_rows.resize(fluid.position.len(), [0.0; 4]);
+    let mut squares = 0.0;
+    for i in 0..count {
+        let mut own = -vector(fluid.boundary[i]);
+        let (mut others, mut share) = (0.0, f64::from(fluid.boundary[i][3]));
+        for (j, c) in &near[i] {
+            let offset = end[i] - end[*j];
+            own += *c * offset;
+            others += (*c * offset).length_squared();
+            share += volume * smoothing(params.fluid.smoothing.support_radius, offset.length());
+        }
+        let most = f64::from(solve.correction_speed) * step / spacing;
+        let compression = (share - 1.0).min(most);
+        let diagonal =
+            (own.length_squared() + others).max(f64::from(solve.lattice_diagonal) / 3.0) * step * step;
+        fluid.factors[i] = row(own, compression);
+        let pressure = f64::from(fluid.position[i][3]) * density;
+        fluid.pressure_rows[i] = [pressure as f32, 0.0, diagonal as f32, compression as f32];
+        squares += end[i].distance_squared(x[i]);
+    }
+    write_pairs(fluid, &near);
+    let displacement = (squares / count.max(1) as f64).sqrt() / spacing;
+    fluid.pressure_solve.begin_with(displacement as f32, solve);
+}
+
+/// Keeps the lists, and gives every entry its value.
+fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
+    let Fluid { neighbors, pairs, .. } = fluid;
+    pairs.fill(neighbors, |query, target| {
+        let found = near.get(query).and_then(|near| near.iter().find(|(j, _)| *j == target));
+        found.map_or(0.0, |(_, c)| *c as f32)
+    });
+}
+
+pub(super) fn pressure_update(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let length = f64::from(fluid.pressure_solve.length());
+    let density = f64::from(params.fluid.rest_density);
+    for i in 0..columns.rows.fluid {
+        let [pressure, _, diagonal, compression] = fluid.pressure_rows[i].map(f64::from);
+        let next = (pressure + length * compression / diagonal).max(0.0);
+        fluid.pressure_rows[i][0] = next as f32;
+        fluid.pressure_rows[i][1] = (next - pressure) as f32;
+        fluid.predicted[i][3] = (next - density * f64::from(fluid.position[i][3])) as f32;
+    }
+}
+
+pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let near = pairs(params, fluid, count);
+    let end = vectors(&fluid.predicted, count);
+    let origin = params.origin().as_dvec3();
+    fluid.correction.resize(fluid.position.len(), [0.0; 4]);
+    for i in 0..count {
+        let mut sum = f64::from(fluid.predicted[i][3]) * vector(fluid.factors[i]);
+        for (j, c) in &near[i] {
+            sum += *c * f64::from(fluid.predicted[*j][3]) * (end[i] - end[*j]);
+        }
+        fluid.correction[i] = row(sum, sum.dot(end[i] - origin));
+    }
+}
+
+pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let near = pairs(params, fluid, count);
+    let (end, a) = (vectors(&fluid.predicted, count), vectors(&fluid.correction, count));
+    let square = f64::from(params.step).powi(2);
+    let mut sums = [0.0; 5];
+    for i in 0..count {
+        let mut change = -a[i].dot(vector(fluid.factors[i]));
+        for (j, c) in &near[i] {
+            change += *c * a[*j].dot(end[i] - end[*j]);
+        }
+        let left = f64::from(fluid.factors[i][3]) + square * change;
+        let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
+        let response = before - left;
+        sums[0] += if left > 0.0 { left } else { (-left).min(pressure * diagonal) };
+        sums[1] += step * step * diagonal;
+        sums[2] += step * response;
+        sums[3] += response * response / diagonal;
+        sums[4] += pressure * pressure;
+        fluid.pressure_rows[i][3] = left as f32;
+    }
+    fluid.pressure_solve.finish_with(sums, count, solve);
+}
+
+pub(super) fn pressure_kick(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let density = f64::from(params.fluid.rest_density);
+    for i in 0..columns.rows.fluid {
+        let v = vector(fluid.velocity[i]) + f64::from(params.step) * vector(fluid.correction[i]);
+        fluid.velocity[i] = row(v, f64::from(params.fluid.particle_mass) / density);
+        fluid.position[i][3] = (f64::from(fluid.pressure_rows[i][0]) / density) as f32;
+    }
+}

@@ -1,0 +1,182 @@
+//! Share of walls and bodies in the volume around a particle, at the end of the step.
+//!
+//! ```text
+//! lambda(y) = s max(0, 1 - y / R)^6   at the distance y from a surface, added up over surfaces
+//! ```
+//!
+//! A particle of a lattice that begins half a spacing from the surface then has the density of rest, and the pressure of
+//! its neighbours does not push it into the wall: share and slope there are those that `boundary_profile` finds.
+//! Nothing has to be stored on the surface.
+
+use glam::{DVec3, Quat};
+
+use crate::{
+    body::{Body, Placed, Wrench},
+    columns::{Column::*, Columns, FAR, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
+    params::{Incompressible, Params},
+    smoothing::Wendland,
+    vector::{Vec3x8, times},
+};
+
+/// `sph::boundary`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::boundary",
+    needs: &[Need::Fluid, Need::Incompressible],
+    reads: &[FluidPredicted, BodyStates],
+    writes: &[FluidBoundary],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Fluid { predicted, boundary, .. } = &mut columns.fluid;
+    boundary.resize(predicted.len(), [0.0; 4]);
+    let bodies = at_end(&columns.bodies.states.0, params.step);
+    let Some(profile) = Profile::of(params) else { return };
+    cpu.for_chunks(&mut boundary[..], |first, boundary| {
+        let near = near(&bodies, &predicted[first..first + boundary.len()], profile.range);
+        with_lanes!(cpu, simd => {
+            for row in (0..boundary.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, predicted, first + row);
+                let [mut gx, mut gy, mut gz, mut share] = profile.walls(simd, params, [x, y, z]);
+                for body in &near {
+                    let [bx, by, bz, own] = profile.body(simd, &bodies[*body], [x, y, z]);
+                    (gx, gy, gz, share) = (gx + bx, gy + by, gz + bz, share + own);
+                }
+                lanes::store_rows(boundary, row, [gx, gy, gz, share]);
+            }
+        });
+    });
+}
+
+/// The bodies where they will be at the end of the step.
+pub(super) fn at_end(bodies: &[Body], step: f32) -> Vec<Body> {
+    let moved = |body: &Body| {
+        let mut body = body.clone();
+        let state = &mut body.state;
+        state.position += step * state.linear_velocity;
+        let [x, y, z] = (0.5 * step * state.angular_velocity).to_array();
+        let turn = Quat::from_xyzw(x, y, z, 1.0).normalize();
+        state.rotation = (turn * state.rotation).normalize();
+        body
+    };
+    bodies.iter().map(moved).collect()
+}
+
+/// Bodies whose bounding ball comes within `range` of the box of the points.
+pub(super) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usize> {
+    if bodies.is_empty() {
+        return Vec::new();
+    }
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for point in points.iter().filter(|point| point[0] < FAR) {
+        low = [0, 1, 2].map(|axis| low[axis].min(point[axis]));
+        high = [0, 1, 2].map(|axis| high[axis].max(point[axis]));
+    }
+    let is_near = |body: &Body| {
+        let reach = body.shape.bounding_radius() + range;
+        let centre = body.state.position.to_array();
+        (0..3).all(|axis| centre[axis] + reach > low[axis] && centre[axis] - reach < high[axis])
+    };
+    (0..bodies.len()).filter(|body| is_near(&bodies[*body])).collect()
+}
+
+/// The share of a surface as a function of the distance from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Profile {
+    pub(super) range: f32,
+    share: f32,
+}
+
+impl Profile {
+    pub(super) fn of(params: &Params) -> Option<Self> {
+        let Incompressible { boundary_range: range, boundary_share: share, .. } =
+            *params.fluid.incompressible.as_ref()?;
+        Some(Self { range, share })
+    }
+
+    /// Share, and its slope into the surface, at a distance; below one range under the surface as there.
+    #[inline(always)]
+    fn at<S: Simd>(self, simd: S, distance: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
+        let depth = lanes::splat(simd, 1.0) - distance * (1.0 / self.range);
+        let depth = lanes::positive(simd, depth);
+        let two = lanes::splat(simd, 2.0);
+        let depth = lanes::select(depth.simd_gt(two), two, depth);
+        let square = depth * depth;
+        let fifth = square * square * depth;
+        (fifth * depth * self.share, fifth * (6.0 * self.share / self.range))
+    }
+
+    /// Gradient and share of the walls of the container.
+    #[inline(always)]
+    pub(super) fn walls<S: Simd>(self, simd: S, params: &Params, point: Vec3x8<S>) -> [f32x8<S>; 4] {
+        let zero = lanes::splat(simd, 0.0);
+        let mut sum = [zero; 4];
+        let Some((low, high)) = params.walls else { return sum };
+        for axis in 0..3 {
+            let (below, falling) = self.at(simd, point[axis] - low[axis]);
+            let (above, rising) = self.at(simd, lanes::splat(simd, high[axis]) - point[axis]);
+            sum[axis] = rising - falling;
+            sum[3] = sum[3] + below + above;
+        }
+        sum
+    }
+
+    /// Gradient and share of a body.
+    #[inline(always)]
+    pub(super) fn body<S: Simd>(self, simd: S, body: &Body, point: Vec3x8<S>) -> [f32x8<S>; 4] {
+        let placed = Placed::new(simd, body);
+        let (distance, normal) = placed.distance(point);
+        let (share, slope) = self.at(simd, distance);
+        let [x, y, z] = times(normal, -slope);
+        [x, y, z, share]
+    }
+
+    /// Adds to a wrench what particles of the given pressures give to a body: `m h P grad lambda` each, at the particle.
+    #[inline(always)]
+    pub(super) fn react<S: Simd>(
+        self,
+        simd: S,
+        body: &Body,
+        point: Vec3x8<S>,
+        momentum: &[f32],
+        wrench: &mut Wrench,
+    ) {
+        let [gx, gy, gz, _] = self.body(simd, body, point);
+        let centre = body.state.position.as_dvec3();
+        for (lane, momentum) in momentum.iter().enumerate() {
+            let gradient = DVec3::new(f64::from(gx[lane]), f64::from(gy[lane]), f64::from(gz[lane]));
+            let point =
+                DVec3::new(f64::from(point[0][lane]), f64::from(point[1][lane]), f64::from(point[2][lane]));
+            wrench.add(gradient * f64::from(*momentum), point - centre);
+        }
+    }
+}
+
+/// Range over which walls count, and their share at the surface, for a lattice of given spacing that begins half a
+/// spacing from the wall, and the mass of whose particles is such that it is at rest density far from walls.
+///
+/// With the half-space integral of the kernel in place of this profile, a particle of the first layer would feel the slope
+/// of what its neighbours lack twice, by its own pressure and by theirs, and the wall only once: it would sink into the
+/// wall. So the slope is twice that of what the lattice lacks, and the value the same.
+#[must_use]
+pub fn boundary_profile(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
+    let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
+    let reach = (radius / d).ceil() as i32 + 1;
+    let full = Wendland::lattice_sum(radius, d);
+    // What lies at and beyond the wall, and how it falls off with the distance.
+    let (mut missing, mut slope) = (0.0, 0.0);
+    for layer in 1..=reach {
+        let y = f64::from(layer) * d;
+        for (i, k) in (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |k| (i, k))) {
+            let distance = (f64::from(i * i + k * k) * d * d + y * y).sqrt();
+            missing += d.powi(3) * Wendland::value_f64(radius, distance) / full;
+            slope += d.powi(3) * Wendland::gradient_f64(radius, distance) * y / full;
+        }
+    }
+    let range = 0.5 * d + 6.0 * missing / (2.0 * slope);
+    let share = missing * (range / (range - 0.5 * d)).powi(6);
+    (range as f32, share as f32)
+}

@@ -1,0 +1,52 @@
+//! What the change of the pressure gives to the bodies.
+//!
+//! ```text
+//! impulse of a body += m h sum_i dP_i grad lambda_ik   where the body will be at the end of the step
+//! ```
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::{Cpu, PerChunk},
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, prelude::*, with_lanes},
+    params::Params,
+};
+
+use super::{
+    boundary::{Profile, at_end, near},
+    boundary_pressure::per_chunk,
+};
+
+/// `sph::boundary_reaction`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::boundary_reaction",
+    needs: &[Need::Fluid, Need::Bodies, Need::Incompressible],
+    reads: &[FluidPredicted, BodyStates, BodyFluidWrenches],
+    writes: &[BodyFluidWrenches],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
+    let Fluid { predicted, .. } = &columns.fluid;
+    let bodies = at_end(&columns.bodies.states.0, params.step);
+    let Some(profile) = Profile::of(params) else { return };
+    let wrenches = &mut columns.bodies.fluid_wrenches.0;
+    let mut per_chunk = per_chunk(wrenches, predicted.len(), bodies.len());
+    let scale = params.fluid.particle_mass * params.step;
+    cpu.for_chunks(PerChunk(&mut per_chunk), |first, wrenches| {
+        let end = predicted.len().min(first + crate::cpu::CHUNK);
+        let near = near(&bodies, &predicted[first..end], profile.range);
+        with_lanes!(cpu, simd => {
+            for row in (first..end).step_by(LANES) {
+                let [x, y, z, change] = lanes::load_rows(simd, predicted, row);
+                let momentum = (change * scale).to_array();
+                let used = count.saturating_sub(row).min(LANES);
+                for body in &near {
+                    let wrench = &mut wrenches.0[0][*body];
+                    profile.react(simd, &bodies[*body], [x, y, z], &momentum[..used], wrench);
+                }
+            }
+        });
+    });
+}

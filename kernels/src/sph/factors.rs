@@ -1,0 +1,136 @@
+//! What a pressure solve needs to know of the predicted positions, in one pass over the neighbours.
+//!
+//! ```text
+//! c_ij = V (-dW/dr) / r                            grad W_ij = -c_ij x_ij / V
+//! r_i = sum_j V W_ij + lambda_i - 1                compression, if the pressure stays as it is
+//! B_i = sum_j c_ij x_ij - grad lambda_i            acceleration by the particle's own pressure
+//! M_i = h^2 (|B_i|^2 + sum_j |c_ij x_ij|^2)        diagonal of the system [BK17, eq. 8]
+//! ```
+//!
+//! An error of the density is put right at a limited speed: particles that begin on top of each other would fly apart.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    grid::neighbors::ChunkLists,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, prelude::*, with_lanes},
+    params::{Incompressible, Params},
+    smoothing::Wendland,
+    vector::dot,
+};
+
+/// `sph::factors`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::factors",
+    needs: &[Need::Fluid, Need::Incompressible],
+    reads: &[FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary],
+    writes: &[FluidFactors, FluidPairs, FluidPressureRows, FluidPressureSolve],
+    cpu,
+};
+
+/// Least diagonal, over that of a lattice: a lone particle is not moved by its own pressure.
+const LEAST_DIAGONAL: f32 = 1.0 / 3.0;
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
+    let Fluid {
+        position, predicted, neighbors, boundary, factors, pairs, pressure_rows, pressure_solve, ..
+    } = &mut columns.fluid;
+    let Some(solve) = &params.fluid.incompressible else { return };
+    factors.resize(predicted.len(), [0.0; 4]);
+    pressure_rows.resize(predicted.len(), [0.0; 4]);
+    let displacements = pressure_solve.displacements(predicted.len());
+    let rows = (&mut factors[..], &mut pressure_rows[..], pairs.match_lists(neighbors), displacements);
+    let task = Task { params, solve, position, predicted, boundary };
+    cpu.for_chunks(rows, |first, (factors, pressure, pairs, displacement)| {
+        let lists = neighbors.chunk(first);
+        with_lanes!(cpu, simd => task.chunk(simd, first, lists, &mut pairs.0[0], factors, pressure));
+        // Padding rows must not move and must not push.
+        let used = count.saturating_sub(first).min(factors.len());
+        factors[used..].fill([0.0; 4]);
+        pressure[used..].fill([0.0, 0.0, 1.0, 0.0]);
+        displacement.0[0] = squares(&position[first..first + used], &predicted[first..]);
+    });
+    pressure_solve.begin(count, params.fluid.spacing, solve);
+}
+
+/// Sum of the squared displacements in the step.
+fn squares(position: &[[f32; 4]], predicted: &[[f32; 4]]) -> f32 {
+    let mut sum = 0.0;
+    for (x, end) in position.iter().zip(predicted) {
+        let [dx, dy, dz] = [end[0] - x[0], end[1] - x[1], end[2] - x[2]];
+        sum += dx * dx + dy * dy + dz * dz;
+    }
+    sum
+}
+
+struct Task<'a> {
+    params: &'a Params,
+    solve: &'a Incompressible,
+    position: &'a [[f32; 4]],
+    predicted: &'a [[f32; 4]],
+    boundary: &'a [[f32; 4]],
+}
+
+impl Task<'_> {
+    #[inline(always)]
+    fn chunk<S: Simd>(
+        &self,
+        simd: S,
+        first: usize,
+        lists: &ChunkLists,
+        pairs: &mut [[f32; LANES]],
+        factors: &mut [[f32; 4]],
+        pressure: &mut [[f32; 4]],
+    ) {
+        let (fluid, step) = (&self.params.fluid, self.params.step);
+        let kernel = fluid.smoothing.lanes(simd);
+        let volume = fluid.particle_mass / fluid.rest_density;
+        let (gradient, value) = (kernel.gradient_scale() * volume, kernel.value_scale() * volume);
+        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+        let least = lanes::splat(simd, LEAST_DIAGONAL * self.solve.lattice_diagonal);
+        let most = lanes::splat(simd, self.solve.correction_speed * step / fluid.spacing);
+        for row in (0..factors.len()).step_by(LANES) {
+            let [x, y, z, _] = lanes::load_rows(simd, self.predicted, first + row);
+            let mut own = [zero; 3];
+            let (mut others, mut shape_sum) = (zero, zero);
+            for (entry, stored) in lists.group(row).iter().zip(&mut pairs[lists.range(row)]) {
+                let [xj, yj, zj, _] = lanes::gather_rows(simd, self.predicted, entry);
+                let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+                let square = dx * dx + dy * dy + dz * dz;
+                let u = kernel.closeness(square);
+                let c = gradient * (u * u * u);
+                lanes::store(stored, 0, c);
+                own = [own[0] + c * dx, own[1] + c * dy, own[2] + c * dz];
+                others += c * c * square;
+                shape_sum += kernel.shape(u);
+            }
+            let [gx, gy, gz, share] = lanes::load_rows(simd, self.boundary, first + row);
+            let own = [own[0] - gx, own[1] - gy, own[2] - gz];
+            let diagonal = (dot(own, own) + others).max(least) * (step * step);
+            let compression = (shape_sum * value + share - one).min(most);
+            lanes::store_rows(factors, row, [own[0], own[1], own[2], compression]);
+            let [_, _, _, before] = lanes::load_rows(simd, self.position, first + row);
+            lanes::store_rows(pressure, row, [before * fluid.rest_density, zero, diagonal, compression]);
+        }
+    }
+}
+
+/// Sum of `|c_ij x_ij|^2` over the neighbours of a particle in a cubic lattice, the mass of whose particles is such that
+/// it is at rest density \[1/m^2\].
+#[must_use]
+pub fn lattice_diagonal(smoothing: &Wendland, spacing: f32) -> f32 {
+    let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
+    let reach = (radius / d).ceil() as i32;
+    let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
+    let sites = -reach..=reach;
+    let mut sum = 0.0;
+    for (x, y, z) in
+        sites.clone().flat_map(|x| sites.clone().flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))
+    {
+        let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
+        sum += (volume * Wendland::gradient_f64(radius, distance) * distance).powi(2);
+    }
+    sum as f32
+}

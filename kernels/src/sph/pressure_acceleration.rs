@@ -1,0 +1,63 @@
+//! One round of a pressure solve: acceleration by what the pressure has changed since the beginning of the step.
+//!
+//! ```text
+//! a_i = dP_i B_i + sum_j c_ij dP_j x_ij
+//! ```
+//!
+//! Equal and opposite for the two particles of a pair, after any number of rounds.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    grid::neighbors::ChunkLists,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, with_lanes},
+    params::Params,
+    vector::{self, dot, minus},
+};
+
+/// `sph::pressure_acceleration`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::pressure_acceleration",
+    needs: &[Need::Fluid, Need::Incompressible],
+    reads: &[FluidPredicted, FluidNeighbors, FluidPairs, FluidFactors],
+    writes: &[FluidCorrection],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    if params.fluid.incompressible.is_none() {
+        return;
+    }
+    let Fluid { predicted, neighbors, pairs, factors, correction, .. } = &mut columns.fluid;
+    correction.resize(predicted.len(), [0.0; 4]);
+    cpu.for_chunks(&mut correction[..], |first, correction| {
+        let (lists, pairs) = (neighbors.chunk(first), pairs.chunk(first));
+        with_lanes!(cpu, simd => chunk(simd, params, first, (predicted, factors), lists, pairs, correction));
+    });
+}
+
+#[inline(always)]
+fn chunk<S: Simd>(
+    simd: S,
+    params: &Params,
+    first: usize,
+    (predicted, factors): (&[[f32; 4]], &[[f32; 4]]),
+    lists: &ChunkLists,
+    pairs: &[[f32; LANES]],
+    correction: &mut [[f32; 4]],
+) {
+    let origin = vector::splat(simd, params.origin().to_array());
+    for row in (0..correction.len()).step_by(LANES) {
+        let [x, y, z, change] = lanes::load_rows(simd, predicted, first + row);
+        let [bx, by, bz, _] = lanes::load_rows(simd, factors, first + row);
+        let mut sum = [change * bx, change * by, change * bz];
+        for (entry, c) in lists.group(row).iter().zip(&pairs[lists.range(row)]) {
+            let [xj, yj, zj, change_j] = lanes::gather_rows(simd, predicted, entry);
+            let push = lanes::load_array(simd, c) * change_j;
+            sum = [sum[0] + push * (x - xj), sum[1] + push * (y - yj), sum[2] + push * (z - zj)];
+        }
+        let product = dot(sum, minus([x, y, z], origin));
+        lanes::store_rows(correction, row, [sum[0], sum[1], sum[2], product]);
+    }
+}

@@ -1,0 +1,82 @@
+//! One round of a pressure solve: the compression that is left, and how far to go in the next round.
+//!
+//! ```text
+//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i)
+//! ```
+//!
+//! The length of the next step is that of Barzilai and Borwein \[BB88\] in the norm of the diagonal, see
+//! `pressure_solve`.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    grid::neighbors::ChunkLists,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, with_lanes},
+    params::Params,
+    vector::{self, dot, minus},
+};
+
+use super::pressure_solve::Sums;
+
+/// `sph::pressure_residual`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::pressure_residual",
+    needs: &[Need::Fluid, Need::Incompressible],
+    reads: &[
+        FluidPredicted,
+        FluidCorrection,
+        FluidNeighbors,
+        FluidPairs,
+        FluidFactors,
+        FluidPressureRows,
+        FluidPressureSolve,
+    ],
+    writes: &[FluidPressureRows, FluidPressureSolve],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(incompressible) = &params.fluid.incompressible else { return };
+    let count = columns.rows.fluid;
+    let Fluid { predicted, correction, neighbors, pairs, factors, pressure_rows, pressure_solve, .. } =
+        &mut columns.fluid;
+    let rows = (&mut pressure_rows[..], pressure_solve.sums(predicted.len()));
+    cpu.for_chunks(rows, |first, (rows, sums)| {
+        let (lists, pairs) = (neighbors.chunk(first), pairs.chunk(first));
+        let mut left = [0.0; crate::cpu::CHUNK];
+        with_lanes!(cpu, simd =>
+            chunk(simd, params, first, [predicted, correction, factors], lists, pairs, &mut left[..rows.len()]));
+        let used = count.saturating_sub(first).min(rows.len());
+        sums.0[0] = Sums::of(&mut rows[..used], &left);
+    });
+    pressure_solve.finish_round(count, incompressible);
+}
+
+/// The compression that is left.
+#[inline(always)]
+fn chunk<S: Simd>(
+    simd: S,
+    params: &Params,
+    first: usize,
+    [predicted, correction, factors]: [&[[f32; 4]]; 3],
+    lists: &ChunkLists,
+    pairs: &[[f32; LANES]],
+    left: &mut [f32],
+) {
+    let origin = vector::splat(simd, params.origin().to_array());
+    let square = params.step * params.step;
+    for row in (0..left.len()).step_by(LANES) {
+        let [x, y, z, _] = lanes::load_rows(simd, predicted, first + row);
+        let point = minus([x, y, z], origin);
+        let [ax, ay, az, _] = lanes::load_rows(simd, correction, first + row);
+        let [bx, by, bz, before] = lanes::load_rows(simd, factors, first + row);
+        let mut sum = lanes::splat(simd, 0.0);
+        for (entry, c) in lists.group(row).iter().zip(&pairs[lists.range(row)]) {
+            let [axj, ayj, azj, product] = lanes::gather_rows(simd, correction, entry);
+            // a_j . x_ij, with one row of the neighbour instead of two.
+            sum += lanes::load_array(simd, c) * (dot([axj, ayj, azj], point) - product);
+        }
+        lanes::store(left, row, before + (sum - dot([ax, ay, az], [bx, by, bz])) * square);
+    }
+}

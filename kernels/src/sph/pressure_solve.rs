@@ -1,0 +1,186 @@
+//! Where a pressure solve stands: spectral projected gradient, in the norm of the diagonal \[BB88; BMR00\].
+//!
+//! ```text
+//! s = P_new - P_old,   y = r_old - r_new
+//! alpha = s.Ms / s.y  and  s.y / y.(y / M)  in turn;   0.6 in the first two rounds
+//! error = mean of (r > 0 ? r : min(-r, P M))
+//! ```
+//!
+//! The error has two sides: pressure that is too high is one as well, as far as there is pressure that could be less.
+//! Without that side a solve that begins with the pressure of the step before would never notice that it is too high, and
+//! the fluid would gain energy.
+//!
+//! The tolerance falls with the speed of the fluid. What is left of an error in one step becomes a velocity, and errors
+//! that are longer than a few spacings are hardly damped below the tolerance: a pool would ring for ever at a speed in
+//! proportion to it.
+
+use crate::{columns::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::Incompressible};
+
+/// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
+const FIRST_LENGTH: f32 = 0.6;
+/// Mean error over the mean displacement of a step, in spacings, above which the fluid would not come to rest: what is
+/// left of an error becomes a velocity.
+const ERROR_PER_DISPLACEMENT: f32 = 0.02;
+/// Least tolerance: rounding to f32 leaves no less.
+const LEAST_TOLERANCE: f32 = 1.0e-6;
+/// Range of the length of a step.
+const LENGTHS: (f64, f64) = (0.2, 20.0);
+
+/// Sums over the rows of a chunk.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// Error of the density.
+    error: f32,
+    /// s.Ms
+    change: f32,
+    /// s.y
+    mixed: f32,
+    /// y.(y / M)
+    response: f32,
+    /// Square of the pressure over rest density.
+    pressure: f32,
+}
+
+impl Sums {
+    /// Takes over the compression that is left, and sums up.
+    pub(super) fn of(rows: &mut [[f32; 4]], left: &[f32]) -> Self {
+        let mut sums = Self::default();
+        for (row, left) in rows.iter_mut().zip(left) {
+            let [pressure, change, diagonal, before] = *row;
+            let response = before - left;
+            let slack = pressure * diagonal;
+            let over = if -left < slack { -left } else { slack };
+            sums.error += if *left > 0.0 { *left } else { over };
+            sums.change += change * change * diagonal;
+            sums.mixed += change * response;
+            sums.response += response * response / diagonal;
+            sums.pressure += pressure * pressure;
+            row[3] = *left;
+        }
+        sums
+    }
+}
+
+/// Where a pressure solve stands.
+#[derive(Clone, Debug, Default)]
+pub struct PressureSolve {
+    rounds: u32,
+    length: f32,
+    is_converged: bool,
+    error: f32,
+    pressure: f32,
+    tolerance: f32,
+    sums: Vec<Sums>,
+    displacements: Vec<f32>,
+}
+
+impl PressureSolve {
+    /// Rounds of this step.
+    #[must_use]
+    pub fn rounds(&self) -> u32 {
+        self.rounds
+    }
+
+    /// Whether the error is below the tolerance.
+    #[must_use]
+    pub fn is_converged(&self) -> bool {
+        self.is_converged
+    }
+
+    /// Rounds, whether converged, length of the next step, error, pressure and tolerance.
+    #[cfg(test)]
+    pub(crate) fn numbers(&self) -> [f64; 6] {
+        [
+            f64::from(self.rounds),
+            f64::from(u8::from(self.is_converged)),
+            f64::from(self.length),
+            f64::from(self.error),
+            f64::from(self.pressure),
+            f64::from(self.tolerance),
+        ]
+    }
+
+    /// Mean error of the density after the last round, of either sign \[1\].
+    #[must_use]
+    pub fn error(&self) -> f32 {
+        self.error
+    }
+
+    /// Root of the mean square of the pressure over rest density \[m^2/s^2\].
+    #[must_use]
+    pub fn pressure(&self) -> f32 {
+        self.pressure
+    }
+
+    /// Length of the next step along the gradient.
+    pub(crate) fn length(&self) -> f32 {
+        self.length
+    }
+
+    /// Room for the squared displacements of every chunk of `rows` rows.
+    pub(super) fn displacements(&mut self, rows: usize) -> PerChunk<'_, f32> {
+        per_chunk(&mut self.displacements, rows)
+    }
+
+    /// Before the first round, once the displacements of `count` particles in the step are known.
+    pub(super) fn begin(&mut self, count: usize, spacing: f32, solve: &Incompressible) {
+        let squares: f64 = self.displacements.iter().map(|sum| f64::from(*sum)).sum();
+        let displacement = (squares / count.max(1) as f64).sqrt() / f64::from(spacing);
+        self.begin_with(displacement as f32, solve);
+    }
+
+    /// Before the first round, with the root of the mean square of the displacements in spacings.
+    pub(crate) fn begin_with(&mut self, displacement: f32, solve: &Incompressible) {
+        let tolerance = (displacement * ERROR_PER_DISPLACEMENT).max(LEAST_TOLERANCE);
+        self.tolerance = tolerance.min(solve.tolerance);
+        (self.rounds, self.is_converged, self.length) = (0, false, FIRST_LENGTH);
+        (self.error, self.pressure) = (0.0, 0.0);
+    }
+
+    /// Room for the sums over every chunk of `rows` rows.
+    pub(super) fn sums(&mut self, rows: usize) -> PerChunk<'_, Sums> {
+        per_chunk(&mut self.sums, rows)
+    }
+
+    /// After a round over `count` particles.
+    pub(super) fn finish_round(&mut self, count: usize, solve: &Incompressible) {
+        let mut total = [0.0; 5];
+        for Sums { error, change, mixed, response, pressure } in &self.sums {
+            for (total, sum) in total.iter_mut().zip([error, change, mixed, response, pressure]) {
+                *total += f64::from(*sum);
+            }
+        }
+        self.finish_with(total, count, solve);
+    }
+
+    /// After a round over `count` particles, with the sums over all of them.
+    pub(crate) fn finish_with(
+        &mut self,
+        [error, change, mixed, response, pressure]: [f64; 5],
+        count: usize,
+        solve: &Incompressible,
+    ) {
+        let particles = count.max(1) as f64;
+        self.error = (error / particles) as f32;
+        self.pressure = (pressure / particles).sqrt() as f32;
+        self.rounds += 1;
+        self.is_converged = self.error <= self.tolerance || self.rounds >= solve.rounds;
+        let ratio = if self.rounds % 2 == 0 { change / mixed } else { mixed / response };
+        let is_usable = self.rounds > 1 && mixed > 0.0 && ratio.is_finite();
+        self.length = if is_usable { ratio.clamp(LENGTHS.0, LENGTHS.1) as f32 } else { FIRST_LENGTH };
+    }
+}
+
+impl ColumnData for PressureSolve {
+    fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
+        visit(self.rounds);
+        visit(u32::from(self.is_converged));
+        [self.length, self.error, self.pressure, self.tolerance]
+            .into_iter()
+            .for_each(|value| visit(value.to_bits()));
+    }
+    fn poison(&mut self) {
+        (self.rounds, self.length, self.tolerance) = (u32::MAX, f32::NAN, f32::NAN);
+        (self.error, self.pressure) = (f32::NAN, f32::NAN);
+    }
+}

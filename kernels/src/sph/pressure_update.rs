@@ -1,0 +1,43 @@
+//! One round of a pressure solve: a step along the projected gradient.
+//!
+//! ```text
+//! P_i <- max(0, P_i + alpha r_i / M_i)
+//! ```
+//!
+//! with `alpha` from `sph::pressure_residual`. Leaves the change since the beginning of the step beside the predicted
+//! position, where neighbours read it.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `sph::pressure_update`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::pressure_update",
+    needs: &[Need::Fluid, Need::Incompressible],
+    reads: &[FluidPosition, FluidPredicted, FluidPressureRows, FluidPressureSolve],
+    writes: &[FluidPredicted, FluidPressureRows],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    if params.fluid.incompressible.is_none() {
+        return;
+    }
+    let count = columns.rows.fluid;
+    let Fluid { position, predicted, pressure_rows, pressure_solve, .. } = &mut columns.fluid;
+    let (length, density) = (pressure_solve.length(), params.fluid.rest_density);
+    cpu.for_chunks((&mut predicted[..count], &mut pressure_rows[..count]), |first, (predicted, rows)| {
+        for ((predicted, row), position) in predicted.iter_mut().zip(rows).zip(&position[first..]) {
+            let [pressure, _, diagonal, compression] = *row;
+            let next = pressure + length * compression / diagonal;
+            let next = if next > 0.0 { next } else { 0.0 };
+            row[0] = next;
+            row[1] = next - pressure;
+            predicted[3] = next - density * position[3];
+        }
+    });
+}
