@@ -133,6 +133,7 @@ const WET: Content = Content {
     bodies: false,
     surface_tension: false,
     iterations: 0,
+    rounds: 0,
 };
 
 fn small(step: &[Phase], observed: &[Column]) -> Plan {
@@ -172,7 +173,7 @@ fn what_nobody_reads_is_skipped_unless_it_is_observed() {
 fn the_step_itself_is_consistent_for_every_content() {
     for bits in 0..32_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
-        let content = Content { fluid, sponge, walls, bodies, surface_tension, iterations: 1 };
+        let content = Content { fluid, sponge, walls, bodies, surface_tension, iterations: 1, rounds: 0 };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
         }

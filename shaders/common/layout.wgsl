@@ -46,6 +46,16 @@ struct Params {
     unused_1: u32,
     smoothing: Smoothing,
     coupling: Smoothing,
+    // The solve for the pressure, as `Incompressible`.
+    solve_tolerance: f32,
+    solve_rounds: u32,
+    lattice_diagonal: f32,
+    correction_speed: f32,
+    boundary_range: f32,
+    boundary_share: f32,
+    // 1 where pressure is solved for.
+    incompressible: u32,
+    unused_2: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.
@@ -91,6 +101,11 @@ struct Clock {
     all_rounds: u32,
     // Most rounds of a step in this batch, of each repetition.
     most_rounds: vec4<u32>,
+    // Root of the mean square of the pressure over rest density in the last step, where it is solved for.
+    fluid_pressure: f32,
+    unused_0: u32,
+    unused_1: u32,
+    unused_2: u32,
 }
 
 // Threads of a group, for passes whose threads have nothing to do with each other: with few rows, small groups keep more

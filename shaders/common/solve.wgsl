@@ -5,4 +5,9 @@ struct Solve {
     tolerance: f32,
     error: f32,
     pressure: f32,
+    // Of this step.
+    rounds: u32,
+    has_converged: u32,
+    unused_0: u32,
+    unused_1: u32,
 }

@@ -27,11 +27,13 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         return;
     }
     let particles = f32(max(params.fluid_rows, 1u));
-    let rounds = clock.rounds + 1u;
+    let rounds = solve.rounds + 1u;
+    solve.rounds = rounds;
     solve.error = sums.x / particles;
     solve.pressure = sqrt(pressure_sum / particles);
     extremes[8] = bitcast<u32>(solve.pressure);
     let has_converged = solve.error <= solve.tolerance || rounds >= params.solve_rounds;
+    solve.has_converged = select(0u, 1u, has_converged);
     convergence[0] = select(1u, 0u, has_converged);
     solve.length = FIRST_LENGTH;
     let below = select(sums.w, sums.z, rounds % 2u == 0u);

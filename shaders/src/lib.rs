@@ -60,11 +60,22 @@ pub static SHADERS: &[Shader] = shaders! {
     pbd::velocity: ;
     sph::advect: ;
     sph::body_wrenches: wrench;
+    sph::boundary: body surface profile;
+    sph::boundary_pressure: body surface wrench profile;
+    sph::boundary_reaction: body surface wrench profile;
     sph::density: smoothing;
+    sph::factors: smoothing sums;
     sph::forces: smoothing;
     sph::kick: ;
+    sph::predict: ;
     sph::pressure: ;
+    sph::pressure_acceleration: smoothing middle;
+    sph::pressure_kick: ;
+    sph::pressure_residual: smoothing middle sums;
+    sph::pressure_update: solve;
     sph::repulsion: body surface wrench;
+    sph::solve_begin: sums solve;
+    sph::solve_round: sums solve;
     sph::surface_tension: smoothing;
 };
 

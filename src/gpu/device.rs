@@ -22,7 +22,7 @@ use crate::{
 /// Scratch columns that measures and pictures look at.
 const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
 /// Scratch columns that the clock of the host looks at.
-const EXTREMES: [Column; 2] = [Column::FluidExtremes, Column::NodeExtremes];
+const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve, Column::NodeExtremes];
 
 /// Scratch columns that the host looks at after a step that it shares with a device.
 pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {

@@ -90,6 +90,7 @@ impl World {
             fluid_speed: self.clock.fluid_speed,
             fluid_acceleration: self.clock.fluid_acceleration,
             node_speed: self.clock.node_speed,
+            fluid_pressure: self.clock.fluid_pressure,
         };
         let Stores { host, device } = &mut self.stores;
         match device {
@@ -171,6 +172,7 @@ impl World {
         self.clock.fluid_speed = answer.fluid_speed;
         self.clock.fluid_acceleration = answer.fluid_acceleration;
         self.clock.node_speed = answer.node_speed;
+        self.clock.fluid_pressure = answer.fluid_pressure;
         if taken > 0 {
             self.params.step = answer.last_step;
             let wrenches: Vec<Wrench> = answer

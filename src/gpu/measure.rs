@@ -7,6 +7,10 @@ use crate::{Measures, World};
 impl World {
     /// Sums over the state, if that is on a device and was not read back.
     fn sums(&self) -> Option<Sums> {
+        if self.params.fluid.incompressible.is_some() {
+            // The density that is measured is summed up anew.
+            return None;
+        }
         let device = self.stores.device.as_ref().filter(|device| !device.is_looked_at())?;
         let lattice = self.lattice();
         let mass = |(volume, sponge): (&f32, &u32)| volume * self.scene.sponges[*sponge as usize].density;

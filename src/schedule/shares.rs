@@ -72,14 +72,15 @@ struct Placed {
     until: Option<(usize, u32)>,
 }
 
-/// Weights of the coupling do not travel: each side computes them from lists and points.
-const WEIGHTS: [(Column, Column); 2] = [
-    (Column::FluidControlWeights, Column::FluidControls),
-    (Column::ControlFluidWeights, Column::ControlFluid),
+/// Values beside lists do not travel: each side computes them from lists and points.
+const WEIGHTS: [(Column, Column, &[Column]); 3] = [
+    (Column::FluidControlWeights, Column::FluidControls, POINTS),
+    (Column::ControlFluidWeights, Column::ControlFluid, POINTS),
+    (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted]),
 ];
 
-/// What weights are functions of, beside lists.
-const POINTS: [Column; 2] = [Column::FluidPosition, Column::ControlPosition];
+/// What weights of the coupling are functions of, beside lists.
+const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
 
 /// Columns with an up-to-date copy, by place.
 #[derive(Clone, Debug)]
@@ -109,11 +110,11 @@ impl Fresh {
             return Vec::new();
         }
         here.push(column);
-        let Some((_, lists)) = WEIGHTS.iter().find(|(weights, _)| *weights == column) else {
+        let Some((_, lists, points)) = WEIGHTS.iter().find(|(weights, ..)| *weights == column) else {
             return vec![column];
         };
         // A device computes weights where it needs them: points suffice. The host has to compute them first.
-        let mut sources = POINTS.to_vec();
+        let mut sources = points.to_vec();
         if place == Place::Cpu {
             sources.push(*lists);
         }

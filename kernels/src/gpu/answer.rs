@@ -4,7 +4,7 @@ use super::{pack::Capacities, program::REPETITIONS, transfer::vector};
 use crate::body::Wrench;
 
 /// Bytes of the clock, and of the wrenches of a body.
-pub(super) const CLOCK_WORDS: usize = 40;
+pub(super) const CLOCK_WORDS: usize = 44;
 pub(super) const CLOCK_BYTES: u64 = CLOCK_WORDS as u64 * 4;
 pub(super) const WRENCH_BYTES: u64 = 64;
 
@@ -44,6 +44,8 @@ pub struct Answer {
     pub fluid_acceleration: f32,
     /// Largest speed of a node after the last step \[m/s\].
     pub node_speed: f32,
+    /// Root of the mean square of the pressure over rest density in the last step, where it is solved for \[m^2/s^2\].
+    pub fluid_pressure: f32,
     /// How many steps each bound limited.
     pub bounds: [u32; 12],
     /// What the last step gave to every body, by fluid and by sponges.
@@ -69,6 +71,8 @@ pub struct Start {
     pub fluid_acceleration: f32,
     /// Largest speed of a node \[m/s\].
     pub node_speed: f32,
+    /// Root of the mean square of the pressure over rest density, where it is solved for \[m^2/s^2\].
+    pub fluid_pressure: f32,
 }
 
 /// `clock.wgsl` has these numbers too.
@@ -100,6 +104,7 @@ impl Answer {
             fluid_speed: float(5),
             fluid_acceleration: float(6),
             node_speed: float(7),
+            fluid_pressure: float(40),
             bounds: std::array::from_fn(|bound| clock[20 + bound]),
             wrenches: wrenches
                 .chunks_exact(16)

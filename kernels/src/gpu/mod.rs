@@ -54,23 +54,10 @@ mod tests {
     use super::*;
     use crate::kernel::{KERNELS, kernel};
 
-    /// Kernels that run on the CPU only: scenes that need them are refused a GPU.
-    const WITHOUT_TWIN: [&str; 9] = [
-        "sph::boundary",
-        "sph::boundary_pressure",
-        "sph::boundary_reaction",
-        "sph::factors",
-        "sph::predict",
-        "sph::pressure_acceleration",
-        "sph::pressure_kick",
-        "sph::pressure_residual",
-        "sph::pressure_update",
-    ];
-
     #[test]
     fn every_kernel_has_a_twin_and_every_twin_a_kernel() {
         for kernel in KERNELS {
-            assert_eq!(has_twin(kernel.name), !WITHOUT_TWIN.contains(&kernel.name), "{}", kernel.name);
+            assert!(has_twin(kernel.name), "{}", kernel.name);
         }
         for (name, passes) in twins::TWINS {
             assert!(kernel(name).is_some() && !passes.is_empty(), "{name}");

@@ -87,6 +87,15 @@ pub(super) fn params(
     for smoothing in [&fluid.smoothing, &params.coupling] {
         bytes.floats(&smoothing_factors(smoothing));
     }
+    match &fluid.incompressible {
+        Some(solve) => bytes
+            .floats(&[solve.tolerance])
+            .words(&[solve.rounds])
+            .floats(&[solve.lattice_diagonal, solve.correction_speed])
+            .floats(&[solve.boundary_range, solve.boundary_share])
+            .words(&[1, 0]),
+        None => bytes.words(&[0; 8]),
+    };
     bytes.0
 }
 

@@ -19,6 +19,8 @@ use crate::{
     smoothing::Wendland,
 };
 
+/// Bytes of what a pressure solve keeps from round to round.
+pub(super) const SOLVE_BYTES: u64 = 32;
 /// Most cells of a grid: their counts and starts are one binding each.
 const MOST_CELLS: u64 = 1 << 28;
 
@@ -135,6 +137,7 @@ impl Resident {
         let (fluid, nodes, bodies) = (fluid as u64, nodes as u64, bodies as u64);
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
+        let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
@@ -142,13 +145,13 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 208, uniform),
+            ("params", 240, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", SPONGES as u64 * 48, uniform),
             ("fluid_grid", 48, uniform),
             ("control_grid", 48, uniform),
             ("batch", BATCH_STRIDE * COLORS as u64, uniform),
-            ("extremes", 32, plain),
+            ("extremes", 48, plain),
             ("convergence", 16, plain),
             ("fluid_position", fluid * 16, plain),
             ("fluid_velocity", fluid * 16, plain),
@@ -158,6 +161,13 @@ impl Resident {
             ("fluid_id_sorted", fluid * 4, plain),
             ("fluid_density", fluid * 4, plain),
             ("fluid_acceleration", fluid * 16, plain),
+            ("fluid_predicted", solved * 16, plain),
+            ("fluid_boundary", solved * 16, plain),
+            ("fluid_factors", solved * 16, plain),
+            ("fluid_pressure_rows", solved * 16, plain),
+            ("fluid_correction", solved * 16, plain),
+            ("solve", SOLVE_BYTES, plain),
+            ("solve_sums", solved.div_ceil(256) * 32, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
             ("fluid_grouped", fluid * 4, plain),

@@ -73,7 +73,13 @@ fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
         Part::Rounds(rounds),
         Part::Once(dispatch(&resident, "after")),
     ];
-    resident.set_time(&Start { left: f32::MAX, fluid_speed: 1.0, fluid_acceleration: 1.0, node_speed: 1.0 });
+    resident.set_time(&Start {
+        left: f32::MAX,
+        fluid_speed: 1.0,
+        fluid_acceleration: 1.0,
+        node_speed: 1.0,
+        fluid_pressure: 0.0,
+    });
     let answer = resident.advance(&mut program, steps, None).unwrap_or_else(|error| fail(error));
     let found = resident.read(&[("fluid_density", 8)]).unwrap_or_else(|error| fail(error)).concat();
     assert!(planned_at_most(&mut program, maximum));

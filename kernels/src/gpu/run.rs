@@ -33,6 +33,7 @@ impl Resident {
         words[6] = start.fluid_acceleration.to_bits();
         words[7] = start.node_speed.to_bits();
         words[10] = f32::MAX.to_bits();
+        words[40] = start.fluid_pressure.to_bits();
         self.write("clock", bytemuck::cast_slice(&words));
     }
 

@@ -3,7 +3,7 @@
 use super::{
     error::GpuError,
     pack::BODY_BYTES,
-    resident::{Resident, capacities},
+    resident::{Resident, SOLVE_BYTES, capacities},
 };
 use crate::{
     body::Wrench,
@@ -40,6 +40,14 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::FluidInterior => ("fluid_interior", Values(&mut fluid.interior)),
         Column::FluidDragRate => ("fluid_drag_rate", Values(&mut fluid.drag_rate)),
         Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
+        Column::FluidPredicted => ("fluid_predicted", Rows(&mut fluid.predicted, FAR_ROW)),
+        Column::FluidBoundary => ("fluid_boundary", Rows(&mut fluid.boundary, zero)),
+        Column::FluidFactors => ("fluid_factors", Rows(&mut fluid.factors, zero)),
+        // Padding rows have a diagonal, by which they are divided.
+        Column::FluidPressureRows => {
+            ("fluid_pressure_rows", Rows(&mut fluid.pressure_rows, [0.0, 0.0, 1.0, 0.0]))
+        }
+        Column::FluidCorrection => ("fluid_correction", Rows(&mut fluid.correction, zero)),
         Column::NodePosition => ("node_position", Rows(&mut nodes.position, FAR_ROW)),
         Column::NodeVelocity => ("node_velocity", Rows(&mut nodes.velocity, zero)),
         Column::NodeVolume => ("node_volume", Values(&mut nodes.volume)),
@@ -120,6 +128,7 @@ pub fn is_internal(column: Column) -> bool {
         column,
         Column::FluidCells
             | Column::ControlCells
+            | Column::FluidPairs
             | Column::FluidControlWeights
             | Column::ControlFluidWeights
             | Column::NodeTopology
@@ -198,6 +207,9 @@ impl Resident {
                 self.upload_wrenches("fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
             }
             Column::FluidExtremes | Column::NodeExtremes => self.upload_extremes(columns, column),
+            Column::FluidPressureSolve => {
+                self.write("solve", bytemuck::cast_slice(&columns.fluid.pressure_solve.words()));
+            }
             _ => {}
         }
     }
@@ -245,6 +257,8 @@ impl Resident {
                 wanted.push((*column, name, rows * (self.capacities[list] as usize + 1) * 4));
             } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
                 wanted.push((*column, "extremes", 32));
+            } else if *column == Column::FluidPressureSolve {
+                wanted.push((*column, "solve", SOLVE_BYTES as usize));
             } else if let Some((name, size)) = self.wrench_buffer(*column) {
                 wanted.push((*column, name, size));
             }
@@ -287,6 +301,8 @@ impl Resident {
             *lists = Neighbors::from_lists(&all, targets as u32);
         } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
             take_extremes(columns, column, words);
+        } else if column == Column::FluidPressureSolve {
+            columns.fluid.pressure_solve.take_words(words);
         } else {
             let words: &[f32] = bytemuck::cast_slice(words);
             let wrenches = words
@@ -369,6 +385,7 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     }
     match column {
         Column::FluidExtremes | Column::NodeExtremes => 20,
+        Column::FluidPressureSolve => SOLVE_BYTES,
         Column::BodyStates => count * BODY_BYTES,
         Column::BodyFluidWrenches => groups(rows.fluid),
         Column::BodyNodeWrenches => groups(rows.nodes),

@@ -8,13 +8,13 @@ use super::{
 };
 use crate::{
     columns::{Column, Columns, Life},
-    gpu::{Gpu, GpuError, Outcome, Resident, Start, adapters, has_twin, required_limits, wgpu},
+    gpu::{Gpu, GpuError, Outcome, Resident, Start, adapters, required_limits, wgpu},
     kernel::{Kernel, kernel},
 };
 
-fn chain() -> Vec<&'static Kernel> {
-    let with_twin = CHAIN.iter().filter(|name| has_twin(name));
-    with_twin.map(|name| kernel(name).expect("the chain names kernels")).collect()
+fn chain(scene: &Scene) -> Vec<&'static Kernel> {
+    let all = CHAIN.iter().map(|name| kernel(name).expect("the chain names kernels"));
+    all.filter(|kernel| scene.has_work(kernel)).collect()
 }
 
 fn state() -> Vec<Column> {
@@ -31,8 +31,14 @@ fn stepped(gpu: &Arc<Gpu>, scene: &Scene, steps: u32) -> (Columns, Outcome, u32)
     let lives = |column: &Column| column.life() != Life::Scratch;
     let uploaded: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
     resident.upload(&mut columns, &uploaded, false).unwrap_or_else(|error| fail(error));
-    let mut program = resident.program(&chain()).unwrap_or_else(|error| fail(error));
-    resident.set_time(&Start { left: f32::MAX, fluid_speed: 1.0, fluid_acceleration: 10.0, node_speed: 1.0 });
+    let mut program = resident.program(&chain(scene)).unwrap_or_else(|error| fail(error));
+    resident.set_time(&Start {
+        left: f32::MAX,
+        fluid_speed: 1.0,
+        fluid_acceleration: 10.0,
+        node_speed: 1.0,
+        fluid_pressure: 0.0,
+    });
     let answer = resident.advance(&mut program, steps, None).unwrap_or_else(|error| fail(error));
     resident.download(&mut columns, &state()).unwrap_or_else(|error| fail(error));
     (columns, answer.outcome, answer.steps)
@@ -49,7 +55,9 @@ fn words(columns: &Columns) -> Vec<u32> {
 
 #[test]
 fn the_same_device_gives_the_same_bits() {
-    for options in [FULL, Options { bounded: false, walls: false, ..FULL }] {
+    for options in
+        [FULL, Options { bounded: false, walls: false, ..FULL }, Options { incompressible: true, ..FULL }]
+    {
         let scene = Scene::new(options);
         let (first, outcome, steps) = stepped(gpu(), &scene, 20);
         assert_eq!((outcome, steps), (Outcome::Done, 20));
