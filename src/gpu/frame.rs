@@ -10,6 +10,7 @@ use sorb_kernels::{
 use super::{device::Kept, place::placed};
 use crate::{
     Offload,
+    body::BodyKind,
     clock::Bound,
     stores::Stores,
     world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies},
@@ -76,7 +77,8 @@ impl World {
 
     /// Steps that are likely to be left of a frame.
     fn steps_to(&self, end: f64) -> u32 {
-        if !self.stores.host.bodies.states.0.is_empty() {
+        // Bodies that never move need nobody.
+        if (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed) {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);

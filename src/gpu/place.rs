@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sorb_kernels::{
     columns::{Column, RowCounts},
-    gpu::{Gpu, GpuError, column_bytes, has_twin},
+    gpu::{CLOCK_BYTES, Gpu, GpuError, column_bytes, has_twin},
     params::Params,
 };
 
@@ -144,7 +144,7 @@ impl Request<'_> {
 
     /// What travels where everything is on the device.
     fn few_transfers(&self) -> Vec<Transfer> {
-        let (clock, bodies) = (160, self.rows.bodies as u64);
+        let (clock, bodies) = (CLOCK_BYTES, self.rows.bodies as u64);
         let transfer = |before: Option<&'static str>, to_device, what: &str, bytes| Transfer {
             before,
             line: before.and_then(|name| self.plan.lines().iter().position(|line| line.name == name)),

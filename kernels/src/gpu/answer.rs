@@ -3,9 +3,10 @@
 use super::{pack::Capacities, program::REPETITIONS, transfer::vector};
 use crate::body::Wrench;
 
-/// Bytes of the clock, and of the wrenches of a body.
+/// Words of the clock.
 pub(super) const CLOCK_WORDS: usize = 44;
-pub(super) const CLOCK_BYTES: u64 = CLOCK_WORDS as u64 * 4;
+/// Bytes that come back after steps, beside 64 a body.
+pub const CLOCK_BYTES: u64 = CLOCK_WORDS as u64 * 4;
 pub(super) const WRENCH_BYTES: u64 = 64;
 
 /// What happened to the last step of a batch.
