@@ -79,6 +79,9 @@ pub fn required_limits(adapter: &Adapter) -> Limits {
     }
 }
 
+/// Pipelines by shader, entry point and threads of a group.
+type Pipelines = BTreeMap<(&'static str, &'static str, u32), Arc<Pipeline>>;
+
 /// A device to run kernels on, and the pipelines compiled for it so far. Worlds can share one.
 pub struct Gpu {
     pub(super) device: Device,
@@ -89,7 +92,7 @@ pub struct Gpu {
     pub(super) has_subgroups: bool,
     /// What the device reported outside any call.
     lost: Arc<Mutex<Option<String>>>,
-    pub(super) pipelines: Mutex<BTreeMap<(&'static str, &'static str, u32), Arc<Pipeline>>>,
+    pub(super) pipelines: Mutex<Pipelines>,
 }
 
 impl fmt::Debug for Gpu {

@@ -116,7 +116,6 @@ impl Gpu {
                 // Every workgroup variable is written before it is read.
                 zero_initialize_workgroup_memory: false,
                 constants: if has_any_group(shader.source) { &constants } else { &[] },
-                ..Default::default()
             },
             cache: None,
         });

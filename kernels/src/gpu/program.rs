@@ -180,7 +180,7 @@ impl Resident {
                 // The search has every pair at hand and sums up the density.
                 let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
                 let is_checked_later = searches_again && kernel.name == "grid::fluid_neighbors";
-                let is_needed = |pass: &&Pass| !is_done && !(is_checked_later && **pass == CHECK);
+                let is_needed = |pass: &&Pass| !(is_done || is_checked_later && **pass == CHECK);
                 for pass in passes.iter().filter(is_needed) {
                     self.bind(kernel.name, pass, None, &mut dispatches)?;
                 }
