@@ -2,7 +2,8 @@
 // `clock.rs`, from what the last step found.
 //
 // `extremes`: squared speed and acceleration of particles, squared speed of nodes (bits of f32); rows that are not
-// finite, of particles and nodes (0xffffffff - row, 0 if there is none); longest lists that did not fit, as in `Clock`; pressure (bits of f32).
+// finite, of particles and nodes (0xffffffff - row, 0 if there is none); longest lists that did not fit, as in
+// `Clock`; root of the mean square of the pressure (bits of f32).
 
 const NOT_FINITE_PARTICLE: u32 = 1u;
 const NOT_FINITE_NODE: u32 = 2u;
@@ -15,8 +16,6 @@ const COURANT: u32 = 2u;
 const ACCELERATION: u32 = 3u;
 const SPONGE_SPEED: u32 = 8u;
 const PRESSURE: u32 = 9u;
-
-const PRESSURE_COURANT: f32 = 0.4;
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;
@@ -39,7 +38,7 @@ fn choose_step() {
             offer(params.courant * radius / speed, COURANT);
         }
         if (clock.fluid_pressure > 0.0) {
-            offer(PRESSURE_COURANT * params.spacing / sqrt(sqrt(3.0) * clock.fluid_pressure), PRESSURE);
+            offer(params.pressure_courant * params.spacing / sqrt(sqrt(3.0) * clock.fluid_pressure), PRESSURE);
         }
         if (clock.fluid_acceleration > 0.0) {
             offer(0.25 * sqrt(radius / clock.fluid_acceleration), ACCELERATION);

@@ -55,7 +55,8 @@ struct Params {
     boundary_share: f32,
     // 1 where pressure is solved for.
     incompressible: u32,
-    unused_2: u32,
+    // Step over the time in which pressure moves a particle by a spacing.
+    pressure_courant: f32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.

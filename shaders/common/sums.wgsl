@@ -21,7 +21,7 @@ fn no_sums() -> Sums {
 // The same for all threads.
 fn group_row(lane: u32, own: vec4<f32>, is_largest: bool) -> vec4<f32> {
     shared_rows[lane] = own;
-    for (var half = 128u; half > 0u; half = half / 2u) {
+    for (var half = GROUP / 2u; half > 0u; half = half / 2u) {
         workgroupBarrier();
         if (lane < half) {
             let a = shared_rows[lane];

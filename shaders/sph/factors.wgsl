@@ -11,7 +11,7 @@
 @group(0) @binding(7) var<storage, read_write> pressure_rows: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> solve_sums: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -57,7 +57,7 @@ fn main(
     }
     let sum = group_row(lane, vec4<f32>(displacement, 0.0, 0.0, 0.0), false);
     let place = group_of(group, groups);
-    if (lane == 0u && place * 256u < rows) {
+    if (lane == 0u && place * GROUP < rows) {
         solve_sums[place * 2u] = sum;
     }
 }

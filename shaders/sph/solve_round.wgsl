@@ -14,7 +14,8 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
-    let groups = (params.fluid_rows + 255u) / 256u;
+    // Sums of groups that there are not stay zero.
+    let groups = arrayLength(&solve_sums) / 2u;
     var own = vec4<f32>(0.0);
     var pressures = 0.0;
     for (var k = lane; k < groups; k += 256u) {

@@ -18,10 +18,10 @@ pub(super) const REPETITIONS: usize = 4;
 /// Rounds that are encoded before it is known how many are needed.
 const FIRST_ROUNDS: u32 = 4;
 /// Threads of a group.
-const GROUP: u32 = 256;
+pub(super) const GROUP: u32 = 256;
 /// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP`].
-const SMALL_GROUP: u32 = 64;
-const FEW_ROWS: u64 = 65_536;
+pub(super) const SMALL_GROUP: u32 = 64;
+pub(super) const FEW_ROWS: u64 = 65_536;
 /// Pages of cells up to which each adds up those before it, as `scan_pages.wgsl` has it too.
 const FEW_PAGES: u64 = 256;
 

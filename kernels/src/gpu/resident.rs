@@ -9,6 +9,7 @@ use super::{
     device::Gpu,
     error::GpuError,
     pack::{self, BATCH_STRIDE, BODY_BYTES, Capacities, Grid, SPONGES, StepLimits},
+    program::{FEW_ROWS, GROUP, SMALL_GROUP},
     sums::{SUM_BYTES, sum_groups},
 };
 use crate::{
@@ -23,6 +24,12 @@ use crate::{
 pub(super) const SOLVE_BYTES: u64 = 32;
 /// Most cells of a grid: their counts and starts are one binding each.
 const MOST_CELLS: u64 = 1 << 28;
+
+/// Most groups of a pass over this many rows: groups are small where there are few rows.
+fn most_groups(rows: u64) -> u64 {
+    let small = rows.min(FEW_ROWS).div_ceil(u64::from(SMALL_GROUP));
+    small.max(rows.div_ceil(u64::from(GROUP)))
+}
 
 /// Columns on a device. State stays there from step to step.
 #[derive(Debug)]
@@ -167,7 +174,7 @@ impl Resident {
             ("fluid_pressure_rows", solved * 16, plain),
             ("fluid_correction", solved * 16, plain),
             ("solve", SOLVE_BYTES, plain),
-            ("solve_sums", solved.div_ceil(256) * 32, plain),
+            ("solve_sums", most_groups(solved) * 32, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
             ("fluid_grouped", fluid * 4, plain),

@@ -58,8 +58,14 @@ fn dispatch(resident: &Resident, entry: &'static str) -> Vec<Dispatch> {
 /// What steps of a repetition of at most `maximum` rounds, of which `planned` are encoded at first, leave behind.
 fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
     let scene = Scene::new(FULL);
-    let limits =
-        StepLimits { courant: 0.25, edge: f32::INFINITY, minimum: 1e-9, constant: 1.0, constant_bound: 0 };
+    let limits = StepLimits {
+        courant: 0.25,
+        pressure_courant: 0.4,
+        edge: f32::INFINITY,
+        minimum: 1e-9,
+        constant: 1.0,
+        constant_bound: 0,
+    };
     let fail = |error: GpuError| -> ! { panic!("{error}") };
     let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| fail(error)));
     let mut resident =

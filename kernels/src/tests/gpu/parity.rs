@@ -167,12 +167,21 @@ fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
     for kernel in KERNELS.iter().filter(|kernel| !kernel.reads.is_empty()) {
         let before = Scene::new(FULL.suiting(kernel)).before(kernel.name, &best());
         let expected = on_cpu(kernel, &before);
-        let mut altered = before.clone();
-        let planted = kernel.reads.iter().any(|column| scale(&mut altered.columns, *column, 1.001));
-        assert!(planted, "{} reads no numbers", kernel.name);
-        let found = after_on(gpu(), kernel, &altered);
-        let errors = gpu_errors(kernel, &before, &found, &expected);
-        assert!(errors.iter().any(|(_, error)| *error > bound(kernel)), "{}: {errors:?}", kernel.name);
+        let mut planted = 0;
+        for column in kernel.reads.iter().copied() {
+            let mut altered = before.clone();
+            if !scale(&mut altered.columns, column, 1.001)
+                || oracles::CARRIED.contains(&(kernel.name, column))
+            {
+                continue;
+            }
+            planted += 1;
+            let found = after_on(gpu(), kernel, &altered);
+            let errors = gpu_errors(kernel, &before, &found, &expected);
+            let is_noticed = errors.iter().any(|(_, error)| *error > bound(kernel));
+            assert!(is_noticed, "{} does not notice {}: {errors:?}", kernel.name, column.name());
+        }
+        assert!(planted > 0, "{} reads no numbers", kernel.name);
     }
 }
 
