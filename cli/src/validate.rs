@@ -87,7 +87,7 @@ impl Arguments {
             resolution: self.resolution,
             quick: self.quick,
             fault: self.control,
-            options: Options { threads: self.threads, offload: self.backend, ..Options::default() },
+            options: Options { threads: self.threads, offload: self.backend.clone(), ..Options::default() },
         }
     }
 
