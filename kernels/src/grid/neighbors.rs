@@ -148,10 +148,9 @@ impl ListValues {
         for (chunk, (values, lists)) in self.0.iter_mut().zip(&lists.chunks).enumerate() {
             for group in 0..GROUPS {
                 for at in lists.range(group * LANES) {
-                    for lane in 0..LANES {
-                        let query = chunk * CHUNK + group * LANES + lane;
-                        values[at][lane] = value(query, lists.entries[at][lane] as usize);
-                    }
+                    let first = chunk * CHUNK + group * LANES;
+                    values[at] =
+                        std::array::from_fn(|lane| value(first + lane, lists.entries[at][lane] as usize));
                 }
             }
         }

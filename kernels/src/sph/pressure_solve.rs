@@ -184,7 +184,7 @@ impl PressureSolve {
         self.pressure = (pressure / particles).sqrt() as f32;
         self.rounds += 1;
         self.is_converged = self.error <= self.tolerance || self.rounds >= solve.rounds;
-        let ratio = if self.rounds % 2 == 0 { change / mixed } else { mixed / response };
+        let ratio = if self.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
         let is_usable = self.rounds > 1 && mixed > 0.0 && ratio.is_finite();
         self.length = if is_usable { ratio.clamp(LENGTHS.0, LENGTHS.1) as f32 } else { FIRST_LENGTH };
     }
