@@ -24,7 +24,7 @@ const FAULTS: &[Fault] = &[Fault {
 fn is_refused(gpu: &Gpu, begin: &str) -> bool {
     let rest = "@compute @workgroup_size(1) fn main() {}";
     let scope = gpu.device().push_error_scope(wgpu::ErrorFilter::Validation);
-    gpu.device().create_shader_module(wgpu::ShaderModuleDescriptor {
+    let _ = gpu.device().create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("fault"),
         source: wgpu::ShaderSource::Wgsl(format!("{begin}{rest}").into()),
     });
