@@ -85,7 +85,7 @@ mod tests {
             let bindings = pipeline::bindings(shader.source);
             let storage = bindings.iter().filter(|binding| binding.is_storage()).count();
             assert!((1..=8).contains(&storage), "{}: {storage}", shader.name);
-            // Mesa 22.3's lavapipe crashes with four.
+            // Mesa 22.3's lavapipe has crashed with four: see docs/gpu.md.
             assert!(bindings.len() - storage <= 3, "{}: uniform buffers", shader.name);
             let declared = shader.source.matches("@binding(").count();
             assert_eq!(
