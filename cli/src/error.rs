@@ -7,9 +7,12 @@ use sorb::{StepError, WorldError, render::RenderError, scene::SceneError};
 /// Why the command fails.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
-    /// A scene that `sorb check` looked at is bad.
+    /// A scene that `sorb check` looked at is bad, or a case of `sorb validate` out of bounds.
     #[error("{0}")]
     CheckFailed(String),
+    /// Arguments name something that does not exist.
+    #[error("{0}")]
+    Usage(String),
     /// A scene cannot be read or used.
     #[error(transparent)]
     Scene(#[from] SceneError),

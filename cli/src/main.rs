@@ -9,6 +9,7 @@ mod plan;
 mod run;
 mod scenes;
 mod schema;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -38,6 +39,8 @@ enum Command {
     Plan(plan::Arguments),
     /// Simulates a scene and writes measures and pictures
     Run(Box<run::Arguments>),
+    /// Compares the simulator with analytic, experimental and converged references
+    Validate(validate::Arguments),
     /// Shows what this machine and this build offer
     Doctor(doctor::Arguments),
 }
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         Some(Command::Schema) => schema::run(),
         Some(Command::Plan(arguments)) => plan::run(&arguments),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Validate(arguments)) => validate::run(&arguments),
         Some(Command::Doctor(arguments)) => doctor::run(&arguments),
     };
     match outcome {

@@ -8,3 +8,5 @@ mod scenes;
 mod support;
 #[path = "command/usage.rs"]
 mod usage;
+#[path = "command/validate.rs"]
+mod validate;

@@ -41,44 +41,53 @@ fn main(
     let d = (p[1].xyz - p[0].xyz) * scale;
     let e = (p[2].xyz - p[3].xyz) * scale;
     let f = ((p[2].xyz + p[3].xyz) - (p[0].xyz + p[1].xyz)) * scale;
-    let norm = sqrt(dot(d, d) + dot(e, e) + dot(f, f));
-    let inverse = select(1.0, 1.0 / norm, norm > 1.0e-6);
-    let by_norm = array<vec3<f32>, 4>(-(d + f) * inverse, (d - f) * inverse, (e + f) * inverse, (f - e) * inverse);
-    let by_d = cross(e, f);
-    let by_e = cross(f, d);
-    let by_f = cross(d, e);
-    let by_ratio = array<vec3<f32>, 4>(-(by_d + by_f), by_d - by_f, by_e + by_f, by_f - by_e);
-    let ratio = dot(d, by_d) - (1.0 + sponge.mu / sponge.lambda);
+    let area_d = cross(e, f);
+    let area_e = cross(f, d);
+    let area_f = cross(d, e);
+    let square = dot(d, d) + dot(e, e) + dot(f, f);
+    let inverse = 1.0 / select(1.0, square, square > 1.0e-12);
+    let by_norm = array<vec3<f32>, 4>(-(d + f), d - f, e + f, f - e);
+    let apart_d = area_d - d;
+    let apart_e = area_e - e;
+    let apart_f = area_f - f;
+    let apart = array<vec3<f32>, 4>(-(apart_d + apart_f), apart_d - apart_f, apart_e + apart_f, apart_f - apart_e);
+    let change_of_ratio = dot(d, area_d) - 1.0;
     var nn = 0.0;
-    var rr = 0.0;
-    var nr = 0.0;
+    var na = 0.0;
+    var aa = 0.0;
     var norm_rate = 0.0;
-    var ratio_rate = 0.0;
+    var apart_rate = 0.0;
     for (var vertex = 0; vertex < 4; vertex += 1) {
         let n = by_norm[vertex];
-        let r = by_ratio[vertex];
+        let a = apart[vertex];
         let w = p[vertex].w;
         nn += w * dot(n, n);
-        rr += w * dot(r, r);
-        nr += w * dot(n, r);
+        na += w * dot(n, a);
+        aa += w * dot(a, a);
         let way = p[vertex].xyz - old[vertex];
         norm_rate += dot(n, way);
-        ratio_rate += dot(r, way);
+        apart_rate += dot(a, way);
     }
     let rest = sponge.edge * sponge.edge * sponge.edge / 12.0;
+    let soft_norm = 1.0 / (sponge.mu * rest * clock.step * clock.step);
+    let soft_ratio = 1.0 / (sponge.lambda * rest * clock.step * clock.step);
     let damping = sponge.damping / clock.step;
     let factor = (1.0 + damping) * (scale * scale);
-    nn = nn * factor + 1.0 / (sponge.mu * rest * clock.step * clock.step);
-    rr = rr * factor + 1.0 / (sponge.lambda * rest * clock.step * clock.step);
-    nr = nr * factor;
-    let first = -(norm + damping * (norm_rate * scale));
-    let second = -(ratio + damping * (ratio_rate * scale));
-    let determinant = nn * rr - nr * nr;
-    let to_norm = (rr * first - nr * second) / determinant * scale;
-    let to_ratio = (nn * second - nr * first) / determinant * scale;
+    nn = nn * factor;
+    na = na * factor;
+    aa = aa * factor;
+    let slowed_norm = damping * (norm_rate * scale) * inverse;
+    let slowed_ratio = damping * ((norm_rate + apart_rate) * scale);
+    let right = sponge.mu / sponge.lambda - change_of_ratio - slowed_ratio;
+    let determinant = (nn * aa - na * na + nn * soft_ratio) * inverse + (nn + na + na + aa + soft_ratio) * soft_norm;
+    let both = na + aa;
+    let sum = -(both + na * (right * inverse)) - soft_norm * (change_of_ratio + slowed_ratio)
+        - (both + soft_ratio) * slowed_norm;
+    let to_both = sum / determinant * scale;
+    let to_apart = (nn * (right * inverse) + (nn + na) * (1.0 + slowed_norm) + soft_norm * right) / determinant * scale;
     let rows = array<u32, 4>(tet.x, tet.y, tet.z, tet.w);
     for (var vertex = 0; vertex < 4; vertex += 1) {
-        let change = by_norm[vertex] * to_norm + by_ratio[vertex] * to_ratio;
+        let change = by_norm[vertex] * to_both + apart[vertex] * to_apart;
         predicted[rows[vertex]] = vec4<f32>(p[vertex].xyz + change * p[vertex].w, p[vertex].w);
     }
 }

@@ -92,6 +92,21 @@ impl World {
         &self.columns().fluid.velocity[..self.stores.host.rows.fluid]
     }
 
+    /// Pressures of the particles as the last step found them \[Pa\], in the order of the positions; zero at time zero.
+    #[must_use]
+    pub fn particle_pressures(&self) -> Vec<f32> {
+        let (fluid, count) = (&self.columns().fluid, self.stores.host.rows.fluid);
+        let mut pressures = if self.params.fluid.incompressible.is_some() {
+            let over_density = fluid.pressure_rows.iter().take(count).map(|row| row[0]);
+            over_density.map(|pressure| pressure * self.params.fluid.rest_density).collect()
+        } else {
+            let rows = fluid.position.iter().zip(&fluid.density).take(count);
+            rows.map(|(row, density)| row[3] * density * density).collect::<Vec<_>>()
+        };
+        pressures.resize(count, 0.0);
+        pressures
+    }
+
     /// Identities of the particles: `ids[row]` is the same particle for ever.
     #[must_use]
     pub fn particle_ids(&self) -> &[u32] {

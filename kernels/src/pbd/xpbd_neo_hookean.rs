@@ -10,6 +10,10 @@
 //! G holds the gradients of both. Both are far from zero at rest, with forces that cancel, so they must be solved together; and
 //! the multipliers begin at zero, so that more than one sweep a step does not converge to the material: steps must be short
 //! instead.
+//!
+//! What cancels at rest is taken out before it is rounded: with F' the cofactors of F, and g, a the gradients by F and by
+//! F' - F, the change is w (s g + v a), where s = l_D / |F| + l_H and v = l_H. The products of g and a, and so s, are as
+//! small as the strain. A solve for l_D and l_H themselves loses as many digits as forces are larger than their sum.
 
 use crate::{
     columns::{Column::*, Columns},
@@ -54,33 +58,39 @@ impl Law for NeoHookean {
         let [soft_norm, soft_ratio] = [sponge.mu, sponge.lambda].map(|m| 1.0 / (m * volume * step * step));
         let damping = splat(sponge.damping / step);
         let f = tet.columns(scale);
-        let norm = (dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2])).sqrt();
-        let inverse = one / select(norm.simd_gt(splat(1.0e-6)), norm, one);
-        let by_norm = gradient([times(f[0], inverse), times(f[1], inverse), times(f[2], inverse)]);
-        let area = cross(f[1], f[2]);
-        let by_ratio = gradient([area, cross(f[2], f[0]), cross(f[0], f[1])]);
-        let ratio = dot(f[0], area) - splat(1.0 + sponge.mu / sponge.lambda);
+        let area = [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])];
+        let square = dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2]);
+        let inverse = one / select(square.simd_gt(splat(1.0e-12)), square, one);
+        let by_norm = gradient(f);
+        let apart = gradient([minus(area[0], f[0]), minus(area[1], f[1]), minus(area[2], f[2])]);
+        let change_of_ratio = dot(f[0], area[0]) - one;
         let zero = splat(0.0);
-        let (mut nn, mut rr, mut nr) = (zero, zero, zero);
-        let (mut norm_rate, mut ratio_rate) = (zero, zero);
+        let (mut nn, mut na, mut aa) = (zero, zero, zero);
+        let (mut norm_rate, mut apart_rate) = (zero, zero);
         for vertex in 0..4 {
-            let (n, r, w) = (by_norm[vertex], by_ratio[vertex], tet.w[vertex]);
+            let (n, a, w) = (by_norm[vertex], apart[vertex], tet.w[vertex]);
             nn += w * dot(n, n);
-            rr += w * dot(r, r);
-            nr += w * dot(n, r);
+            na += w * dot(n, a);
+            aa += w * dot(a, a);
             let way = minus(tet.p[vertex], tet.old[vertex]);
             norm_rate += dot(n, way);
-            ratio_rate += dot(r, way);
+            apart_rate += dot(a, way);
         }
         let factor = (one + damping) * (scale * scale);
-        let (nn, rr, nr) = (nn * factor + soft_norm, rr * factor + soft_ratio, nr * factor);
-        let first = -(norm + damping * (norm_rate * scale));
-        let second = -(ratio + damping * (ratio_rate * scale));
-        let determinant: f32x8<S> = nn * rr - nr * nr;
-        let to_norm = (rr * first - nr * second) / determinant * scale;
-        let to_ratio = (nn * second - nr * first) / determinant * scale;
+        let (nn, na, aa) = (nn * factor, na * factor, aa * factor);
+        let slowed_norm = damping * (norm_rate * scale) * inverse;
+        let slowed_ratio = damping * ((norm_rate + apart_rate) * scale);
+        let right = splat(sponge.mu / sponge.lambda) - change_of_ratio - slowed_ratio;
+        let determinant: f32x8<S> =
+            (nn * aa - na * na + nn * soft_ratio) * inverse + (nn + na + na + aa + soft_ratio) * soft_norm;
+        let both = na + aa;
+        let to_both = -(both + na * (right * inverse))
+            - soft_norm * (change_of_ratio + slowed_ratio)
+            - (both + soft_ratio) * slowed_norm;
+        let to_apart = nn * (right * inverse) + (nn + na) * (one + slowed_norm) + soft_norm * right;
+        let (to_both, to_apart) = (to_both / determinant * scale, to_apart / determinant * scale);
         for vertex in 0..4 {
-            let change = plus(times(by_norm[vertex], to_norm), times(by_ratio[vertex], to_ratio));
+            let change = plus(times(by_norm[vertex], to_both), times(apart[vertex], to_apart));
             tet.p[vertex] = plus(tet.p[vertex], times(change, tet.w[vertex]));
         }
     }

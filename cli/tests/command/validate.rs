@@ -1,0 +1,39 @@
+//! `sorb validate`: what it lists, refuses, prints and exits with.
+
+use crate::support::sorb;
+
+#[test]
+fn it_lists_its_cases_with_their_references() {
+    let answer = sorb(&["validate", "--list"]);
+    assert_eq!(answer.code, Some(0));
+    assert!(answer.out.contains("dam_break") && answer.out.contains("Martin and Moyce 1952"), "{answer:?}");
+    let json = sorb(&["validate", "--list", "--json"]).json();
+    assert!(json.as_array().is_some_and(|cases| cases.iter().all(|case| case["control"].is_string())));
+}
+
+#[test]
+fn an_unknown_case_or_solver_names_those_there_are() {
+    for (arguments, word) in [
+        (&["validate", "dam_brake"][..], "dam_break"),
+        (&["validate", "dam_break", "--solver", "magic"], "wcsph"),
+        (&["validate", "--resolution", "100"], "0.25 to 8"),
+    ] {
+        let answer = sorb(arguments);
+        assert_eq!(answer.code, Some(2), "{answer:?}");
+        assert!(answer.err.contains(word), "{answer:?}");
+    }
+}
+
+#[test]
+fn a_row_for_every_figure_and_1_if_one_is_out_of_bounds() {
+    let answer = sorb(&["validate", "torsion", "--quick", "--json"]);
+    let rows = answer.json();
+    let figures = rows[0]["figures"].as_array().expect("an array of figures");
+    let out = figures.iter().filter(|figure| figure["verdict"] == "miss").count();
+    assert!(!figures.is_empty() && rows[0]["case"] == "torsion");
+    assert_eq!(answer.code, Some(i32::from(out > 0)), "{answer:?}");
+    // The planted fault must be out of bounds, and then all is well.
+    let control = sorb(&["validate", "torsion", "--quick", "--control"]);
+    assert_eq!((control.code, control.err.as_str()), (Some(0), ""), "{control:?}");
+    assert!(control.out.contains("MISS"), "{control:?}");
+}

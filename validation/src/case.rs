@@ -1,0 +1,178 @@
+//! What a case is, what it is told, and what it gives.
+
+use sorb::{
+    Options, StepError, World, WorldError,
+    scene::{Scene, SceneError},
+};
+
+use crate::solver::Solvers;
+
+/// One comparison with a reference.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What is compared with what.
+    pub title: &'static str,
+    /// Where the reference comes from.
+    pub source: &'static str,
+    /// Which solvers matter to it.
+    pub subject: Subject,
+    /// The fault that [`Setting::fault`] plants.
+    pub control: &'static str,
+    /// Builds, runs and compares.
+    pub run: fn(&Setting) -> Result<Vec<Figure>, Failure>,
+}
+
+/// Which solvers a case depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// The solver of the water.
+    Water,
+    /// The solver of the sponge.
+    Sponge,
+    /// Both.
+    Coupling,
+}
+
+/// What a case is told.
+#[derive(Clone, Debug, Default)]
+pub struct Setting {
+    /// Which solvers to run.
+    pub solvers: Solvers,
+    /// Factor on the number of particles or cells along a length; 1 is what the bounds are meant for. Range 0.25 to 8.
+    pub resolution: f64,
+    /// Fewer, shorter and coarser runs.
+    pub quick: bool,
+    /// Plants the case's fault, which must push it out of its bounds.
+    pub fault: bool,
+    /// What to run on.
+    pub options: Options,
+}
+
+impl Setting {
+    /// The defaults at full length.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { resolution: 1.0, ..Self::default() }
+    }
+
+    /// One of two values: the second in a quick run.
+    #[must_use]
+    pub fn pick<T>(&self, full: T, quick: T) -> T {
+        if self.quick { quick } else { full }
+    }
+
+    /// One of two values: the second with the fault.
+    #[must_use]
+    pub fn planted<T>(&self, sound: T, faulty: T) -> T {
+        if self.fault { faulty } else { sound }
+    }
+
+    /// A number of cells or particles along a length, at the setting's resolution, at least 2.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the cast saturates, and scenes have limits of their own"
+    )]
+    #[expect(clippy::cast_sign_loss, reason = "at least 2")]
+    pub fn count(&self, full: u32) -> u32 {
+        (f64::from(full) * self.resolution).round().max(2.0) as u32
+    }
+
+    /// The world of a scene, with the solvers of the setting.
+    ///
+    /// # Errors
+    /// The scene is bad, or the machine lacks what the options ask for.
+    pub fn world(&self, scene: &Scene) -> Result<World, Failure> {
+        Ok(World::with_options(&self.solvers.applied(scene)?, &self.options)?)
+    }
+}
+
+/// Why a case gives no figures.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Failure {
+    /// The scene cannot be built.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The world cannot be built.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The simulation diverged.
+    #[error("diverged: {0}")]
+    Step(#[from] StepError),
+    /// The reference cannot be computed.
+    #[error("reference: {0}")]
+    Reference(String),
+    /// The run has nothing to measure.
+    #[error("nothing to measure: {0}")]
+    Nothing(String),
+}
+
+/// A measured value against its reference.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Figure {
+    /// What was measured, with the norm.
+    pub name: String,
+    /// SI unit of reference and measured; "1" for pure numbers.
+    pub unit: &'static str,
+    /// The value that it should have.
+    pub reference: f64,
+    /// The value that it has.
+    pub measured: f64,
+    /// How far it is off, in the norm that the name says.
+    pub error: f64,
+    /// Largest error that is in bounds.
+    pub bound: f64,
+}
+
+impl Figure {
+    /// A value whose error is relative to its reference.
+    #[must_use]
+    pub fn relative(
+        name: impl Into<String>,
+        unit: &'static str,
+        reference: f64,
+        measured: f64,
+        bound: f64,
+    ) -> Self {
+        let error = ((measured - reference) / reference).abs();
+        Self { name: name.into(), unit, reference, measured, error, bound }
+    }
+
+    /// A value whose error is relative to a scale of its own.
+    #[must_use]
+    pub fn over(
+        name: impl Into<String>,
+        unit: &'static str,
+        (reference, measured): (f64, f64),
+        scale: f64,
+        bound: f64,
+    ) -> Self {
+        let error = ((measured - reference) / scale).abs();
+        Self { name: name.into(), unit, reference, measured, error, bound }
+    }
+
+    /// An error that a norm gives, whose reference is zero.
+    #[must_use]
+    pub fn error(name: impl Into<String>, unit: &'static str, error: f64, bound: f64) -> Self {
+        Self { name: name.into(), unit, reference: 0.0, measured: error, error, bound }
+    }
+
+    /// Whether the error is in bounds; one that is not a number is not.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        if self.error <= self.bound { Verdict::Ok } else { Verdict::Miss }
+    }
+}
+
+/// Whether a figure keeps its bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// In bounds.
+    Ok,
+    /// Out of bounds.
+    Miss,
+}

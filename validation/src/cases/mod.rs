@@ -1,0 +1,36 @@
+//! The cases, in the order in which they are listed and run.
+
+mod bar;
+mod cantilever;
+mod dam_break;
+mod duct;
+mod floating;
+mod hydrostatic;
+mod imbibition;
+mod momentum;
+mod patch;
+mod permeameter;
+mod rest;
+mod squeeze;
+mod strain;
+
+use crate::case::Case;
+
+/// All cases.
+pub const CASES: &[&Case] = &[
+    &hydrostatic::CASE,
+    &dam_break::CASE,
+    &floating::CASE,
+    &patch::CASE,
+    &cantilever::CANTILEVER,
+    &strain::UNIAXIAL,
+    &strain::CONFINED,
+    &strain::TORSION,
+    &cantilever::VIBRATION,
+    &imbibition::WASHBURN,
+    &imbibition::BATH,
+    &permeameter::CASE,
+    &momentum::CASE,
+    &squeeze::CASE,
+    &rest::CASE,
+];

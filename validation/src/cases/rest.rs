@@ -1,0 +1,64 @@
+//! Scenes that are left alone come to rest.
+
+use sorb::scene::{Scene, preset, presets};
+
+use crate::case::{Case, Failure, Figure, Setting, Subject};
+
+/// The scenes that come with the library.
+pub(super) static CASE: Case = Case {
+    name: "rest",
+    title: "every scene that comes with the library is left alone for ten seconds",
+    source: "what nothing moves comes to rest",
+    subject: Subject::Coupling,
+    control: "left alone for a third of a second only",
+    run,
+};
+
+/// Largest speed in the end \[m/s\].
+const STILL: f64 = 1e-3;
+/// Factor on the resolution of the scenes.
+const RESOLUTION: f64 = 0.5;
+
+fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
+    let mut figures = Vec::new();
+    for preset in presets() {
+        let skipped = setting.quick && !["dry", "standing"].contains(&preset.name);
+        if preset.name != "empty" && !skipped {
+            figures.push(rest(setting, preset.name)?);
+        }
+    }
+    Ok(figures)
+}
+
+fn rest(setting: &Setting, name: &str) -> Result<Figure, Failure> {
+    let resolution = (RESOLUTION * setting.resolution).max(0.1) as f32;
+    let scene = preset(name)?.scaled(resolution)?;
+    let mut world = setting.world(&scene)?;
+    let seconds = setting.planted(last_motion(&scene) + setting.pick(10.0, 3.0), 0.3);
+    let (mut before, mut end) = (0.0_f64, 0.0_f64);
+    while world.clock().time < seconds {
+        let report = world.advance_frame()?;
+        let speed = f64::from(report.maximum_speed);
+        if world.clock().time > seconds - 0.5 {
+            end = end.max(speed);
+        } else if world.clock().time > seconds - 1.0 {
+            before = before.max(speed);
+        }
+    }
+    let falls = if end <= before { "falling" } else { "not falling" };
+    let speed = if end <= before || end <= 0.1 * STILL { end } else { end.max(1.01 * STILL) };
+    Ok(Figure {
+        name: format!("fastest of {name}, {falls}"),
+        unit: "m/s",
+        reference: 0.0,
+        measured: end,
+        error: speed,
+        bound: STILL,
+    })
+}
+
+/// When the last body stops \[s\].
+fn last_motion(scene: &Scene) -> f64 {
+    let motions = scene.bodies.iter().flat_map(|body| &body.motions);
+    motions.map(|motion| f64::from(motion.interval().1)).fold(0.0, f64::max)
+}

@@ -1,0 +1,109 @@
+//! Water in pores: Darcy's law with a sharp front (Green and Ampt, Lucas and Washburn).
+
+use crate::norms::interpolated;
+
+/// A porous block and the water that it drinks.
+#[derive(Clone, Copy, Debug)]
+pub struct Pores {
+    /// Permeability \[m^2\].
+    pub permeability: f64,
+    /// Pore volume over volume \[1\].
+    pub porosity: f64,
+    /// Capillary pressure at the front \[Pa\].
+    pub entry_pressure: f64,
+    /// Dynamic viscosity of the water \[Pa s\].
+    pub viscosity: f64,
+    /// Its density \[kg/m^3\].
+    pub density: f64,
+}
+
+impl Pores {
+    /// Way of the front after a time without gravity \[m\]: `sqrt(2 K p_e t / (phi mu))`.
+    #[must_use]
+    pub fn front(&self, time: f64) -> f64 {
+        (2.0 * self.permeability * self.entry_pressure * time / (self.porosity * self.viscosity))
+            .max(0.0)
+            .sqrt()
+    }
+
+    /// When the front has come this far without gravity \[s\], the inverse of [`Self::front`].
+    #[must_use]
+    pub fn time(&self, front: f64) -> f64 {
+        front * front * self.porosity * self.viscosity / (2.0 * self.permeability * self.entry_pressure)
+    }
+
+    /// Height of the front above the level in the end \[m\]: `p_e / (rho g)`.
+    #[must_use]
+    pub fn rise(&self, gravity: f64) -> f64 {
+        self.entry_pressure / (self.density * gravity)
+    }
+
+    /// Time and height of the front above the level outside \[s, m\] in a bath whose level falls as the block drinks:
+    /// `phi dz/dt = (K rho g / mu) (H - x) / x` with `x = z - level`, and `A_out dlevel = -phi A dz`.
+    ///
+    /// `ratio` is `phi A / A_out`; the front starts at the level, after a thousandth of the rise.
+    #[must_use]
+    pub fn bath(&self, gravity: f64, ratio: f64, seconds: f64) -> Vec<(f64, f64)> {
+        let rise = self.rise(gravity);
+        let speed = self.permeability * self.density * gravity / (self.porosity * self.viscosity);
+        let rate = |x: f64| speed * (1.0 + ratio) * (rise - x) / x;
+        let mut x = 1e-3 * rise;
+        // The start of the root: x^2 / 2 = rate t.
+        let mut time = x * x / (2.0 * speed * (1.0 + ratio) * rise);
+        let mut curve = vec![(0.0, 0.0), (time, x)];
+        while time < seconds {
+            let step = (0.01 * x / rate(x).max(1e-12)).min(1e-3 * seconds);
+            let k1 = rate(x);
+            let k2 = rate(x + 0.5 * step * k1);
+            let k3 = rate(x + 0.5 * step * k2);
+            let k4 = rate(x + step * k3);
+            x += step * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0;
+            time += step;
+            curve.push((time, x));
+        }
+        curve
+    }
+
+    /// Permeability that a falling head shows \[m^2\]: the head plus the thickness of the block falls as
+    /// `exp(-K rho g t / (mu L))`.
+    #[must_use]
+    pub fn from_falling_head(&self, gravity: f64, thickness: f64, decay: f64) -> f64 {
+        decay * self.viscosity * thickness / (self.density * gravity)
+    }
+}
+
+/// Root mean square distance of a curve from a reference, over the largest value of the reference on the way; the curve
+/// may start `delay` later.
+#[must_use]
+pub fn curve_error(reference: &[(f64, f64)], curve: &[(f64, f64)], delay: f64) -> f64 {
+    let expected: Vec<f64> = curve.iter().map(|point| interpolated(reference, point.0 - delay)).collect();
+    let largest = expected.iter().copied().fold(0.0, f64::max);
+    crate::norms::root_mean_square(curve.iter().zip(&expected).map(|(point, x)| point.1 - x)) / largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wide_bath_is_the_formula_with_gravity_and_a_narrow_one_is_faster() {
+        let pores = Pores {
+            permeability: 1e-9,
+            porosity: 0.9,
+            entry_pressure: 500.0,
+            viscosity: 1e-3,
+            density: 1000.0,
+        };
+        let (gravity, curve) = (9.81, pores.bath(9.81, 0.0, 8.0));
+        let rise = pores.rise(gravity);
+        assert!((rise - 0.05097).abs() < 1e-5);
+        // t = (phi mu / (K rho g)) (-h - H ln(1 - h / H)), at the values of the table.
+        for (share, time) in [(0.25, 0.176), (0.5, 0.903), (0.75, 2.975), (0.9, 6.56)] {
+            let found = interpolated(&curve, time) / rise;
+            assert!((found - share).abs() < 2e-3, "{time}: {found}");
+        }
+        let narrow = pores.bath(gravity, 0.3, 8.0);
+        assert!(interpolated(&narrow, 0.903) / rise > 0.53);
+        assert!((pores.front(0.584) - 0.5 * rise).abs() < 2e-4);
+    }
+}

@@ -1,0 +1,6 @@
+//! Tables and formulas with their sources.
+
+pub mod beam;
+pub mod darcy;
+pub mod floating;
+pub mod martin_moyce;

@@ -1,0 +1,71 @@
+//! Every case at a small size, as it is and with its planted fault.
+
+use sorb_validation::{CASES, Case, Figure, KNOWN_MISSES, Setting, run};
+
+/// Coarser than quick: this runs with every test.
+fn setting(case: &Case, fault: bool) -> Setting {
+    // The scenes of `rest` are whole scenes, ten times as long as anything else.
+    let resolution = if case.name == "rest" { 0.5 } else { 1.0 };
+    Setting { resolution, quick: true, fault, ..Setting::new() }
+}
+
+fn figures(case: &'static Case, fault: bool) -> Vec<Figure> {
+    let outcome = run(case, &setting(case, fault));
+    outcome.figures.unwrap_or_else(|error| panic!("{}, fault {fault}: {error}", case.name))
+}
+
+/// The fault pushes a figure out of its bounds, and much further than it is without.
+fn is_caught(name: &str) {
+    let case = CASES.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
+    let (sound, faulty) = (figures(case, false), figures(case, true));
+    assert_eq!(sound.len(), faulty.len(), "{name}");
+    let caught = |(sound, faulty): (&Figure, &Figure)| {
+        faulty.error.is_finite() && faulty.error > faulty.bound && faulty.error > 1.5 * sound.error
+    };
+    assert!(
+        sound.iter().zip(&faulty).any(caught),
+        "{name} does not notice: {}\n{sound:#?}\n{faulty:#?}",
+        case.control
+    );
+}
+
+macro_rules! caught {
+    ($($name:ident)*) => {
+        $(#[test]
+        fn $name() {
+            is_caught(stringify!($name));
+        })*
+
+        #[test]
+        fn every_case_is_here() {
+            let here = [$(stringify!($name)),*];
+            let all: Vec<_> = CASES.iter().map(|case| case.name).collect();
+            assert_eq!(all, here);
+        }
+    };
+}
+
+caught! {
+    hydrostatic
+    dam_break
+    floating
+    patch
+    cantilever
+    uniaxial
+    confined
+    torsion
+    vibration
+    washburn
+    imbibition
+    permeameter
+    momentum
+    squeeze
+    rest
+}
+
+#[test]
+fn known_misses_name_cases_that_there_are() {
+    for miss in KNOWN_MISSES {
+        assert!(CASES.iter().any(|case| case.name == miss.case), "{miss:?}");
+    }
+}
