@@ -11,9 +11,8 @@
 //! the multipliers begin at zero, so that more than one sweep a step does not converge to the material: steps must be short
 //! instead.
 //!
-//! What cancels at rest is taken out before it is rounded: with F' the cofactors of F, and g, a the gradients by F and by
-//! F' - F, the change is w (s g + v a), where s = l_D / |F| + l_H and v = l_H. The products of g and a, and so s, are as
-//! small as the strain. A solve for l_D and l_H themselves loses as many digits as forces are larger than their sum.
+//! With F' the cofactors of F, and g, a the gradients by F and by F' - F, the change is w (s g + v a), where
+//! s = l_D / |F| + l_H and v = l_H: products of g and a, and s, are as small as the strain.
 
 use crate::{
     columns::{Column::*, Columns},
