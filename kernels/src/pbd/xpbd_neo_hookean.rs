@@ -11,8 +11,8 @@
 //! the multipliers begin at zero, so that more than one sweep a step does not converge to the material: steps must be short
 //! instead.
 //!
-//! With F' the cofactors of F, and g, a the gradients by F and by F' - F, the change is w (s g + v a), where
-//! s = l_D / |F| + l_H and v = l_H: products of g and a, and s, are as small as the strain.
+//! With F' the cofactors of F, and g, a the gradients by F and by F' - F, the change is `w (s g + v a)`, where
+//! `s = l_D / |F| + l_H` and `v = l_H`: products of g and a, and s, are as small as the strain.
 
 use crate::{
     columns::{Column::*, Columns},
