@@ -26,6 +26,9 @@ pub(crate) struct Arguments {
     /// Coarser and shorter runs, two minutes in all
     #[arg(long)]
     quick: bool,
+    /// Changes one key of every scene, as in `--set sponges[0].iterations=4`; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Where to run: cpu, gpu or auto
     #[arg(long, value_name = "BACKEND", default_value = "cpu")]
     backend: Offload,
@@ -87,6 +90,7 @@ impl Arguments {
             resolution: self.resolution,
             quick: self.quick,
             fault: self.control,
+            changes: self.set.clone(),
             options: Options { threads: self.threads, offload: self.backend, ..Options::default() },
         }
     }
