@@ -1,9 +1,13 @@
 //! Every kernel of the table, on the columns of a scene in which all of them have work.
 //!
-//! `ball_drop` with the ball on the sponge and with surface tension, at the paper's size and at 100 000 particles.
+//! `ball_drop` with the ball on the sponge and with surface tension, at the paper's size and at 100 000 particles. With the
+//! feature `gpu` also their twins, on the best adapter of the machine: there a kernel is timed by the time stamps of the
+//! device, as a part of whole steps.
 
 #[path = "../tests/common/busy.rs"]
 mod busy;
+#[cfg(feature = "gpu")]
+mod on_gpu;
 
 use std::{
     hint::black_box,
@@ -17,6 +21,7 @@ use sorb::{
     cpu::Cpu,
     kernel::{KERNELS, Kernel},
     params::Params,
+    scene::Scene,
 };
 
 /// (name, resolution): 7650 and about 100 000 particles.
@@ -26,11 +31,16 @@ const STEPS: u32 = 5;
 /// Calls after which the columns are restored: most kernels change what they read, such as positions.
 const CALLS: u64 = 16;
 
-fn prepared(resolution: f32) -> World {
+fn busy(resolution: f32) -> Scene {
     let mut scene = busy::scene("ball_drop", resolution);
     if let Some(fluid) = &mut scene.fluid {
         fluid.surface_tension = 0.072;
     }
+    scene
+}
+
+fn prepared(resolution: f32) -> World {
+    let scene = busy(resolution);
     let run = || {
         let mut world = World::new(&scene).expect("a preset is valid");
         for _ in 0..STEPS {
@@ -82,12 +92,53 @@ fn kernels(criterion: &mut Criterion) {
     }
 }
 
+/// Twins, on an adapter that takes the time of kernels.
+#[cfg(feature = "gpu")]
+fn twins(criterion: &mut Criterion) {
+    let Some(gpu) = on_gpu::adapter().filter(|gpu| gpu.has_timestamps()) else {
+        return;
+    };
+    for (size, resolution) in SIZES {
+        let mut world = on_gpu::world(&busy(resolution), &gpu, true);
+        for kernel in KERNELS {
+            let mut group = criterion.benchmark_group(kernel.name);
+            group.sampling_mode(SamplingMode::Flat);
+            let rows = world.columns().rows.of(kernel.writes[0].store());
+            group.throughput(Throughput::Elements(rows as u64));
+            group.bench_function(BenchmarkId::from_parameter(format!("{size}-gpu")), |bencher| {
+                bencher.iter_custom(|iterations| time_on_gpu(kernel.name, &mut world, iterations));
+            });
+            group.finish();
+        }
+    }
+}
+
+#[cfg(not(feature = "gpu"))]
+fn twins(_criterion: &mut Criterion) {}
+
+/// Time of as many calls of a kernel, from steps of the whole.
+#[cfg(feature = "gpu")]
+fn time_on_gpu(name: &str, world: &mut World, iterations: u64) -> Duration {
+    let so_far = |world: &World| {
+        let time = world.phase_times().iter().find(|time| time.name == name);
+        time.map_or((0, 0.0), |time| (time.calls, time.total_s))
+    };
+    let before = so_far(world);
+    for _ in 0..iterations {
+        world.step().expect("a preset is stable");
+    }
+    let after = so_far(world);
+    // The search on a device sums up the density as well: that has no calls of its own.
+    let calls = (after.0 - before.0).max(1) as f64;
+    Duration::from_secs_f64(((after.1 - before.1) / calls * iterations as f64).max(1e-9))
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(2));
-    targets = kernels
+    targets = kernels, twins
 }
 criterion_main!(benches);

@@ -1,10 +1,14 @@
 //! Whole steps of every scene at the paper's size, and of two at 100 000 particles.
 //!
+//! With the feature `gpu` also on the best adapter of the machine: wall time, the host's part included.
+//!
 //! A sample always starts from the same state and takes the same number of steps, and its digest is compared with
 //! that of the other samples: what is timed is the same work every time.
 
 #[path = "../tests/common/busy.rs"]
 mod busy;
+#[cfg(feature = "gpu")]
+mod on_gpu;
 
 use std::{
     cell::RefCell,
@@ -76,12 +80,44 @@ fn scenes(criterion: &mut Criterion) {
     }
 }
 
+/// The same steps on a device: a sample takes its steps in one go, as a frame does.
+#[cfg(feature = "gpu")]
+fn scenes_on_gpu(criterion: &mut Criterion) {
+    let Some(gpu) = on_gpu::adapter() else { return };
+    let paper = busy::SCENES.iter().map(|name| (*name, "paper", 1.0));
+    for (name, size, resolution) in paper.chain(LARGE.map(|(name, resolution)| (name, "100k", resolution))) {
+        let scene = busy::scene(name, resolution);
+        let mut group = criterion.benchmark_group(format!("step::{name}"));
+        group.sampling_mode(SamplingMode::Flat);
+        group.throughput(Throughput::Elements(scene.estimate().particles.max(1)));
+        let mut prepared: Option<World> = None;
+        group.bench_function(BenchmarkId::from_parameter(format!("{size}-gpu")), |bencher| {
+            let prepared = prepared.get_or_insert_with(|| on_gpu::world(&scene, &gpu, false));
+            bencher.iter_custom(|frames| {
+                let mut world = prepared.clone();
+                // The first frame uploads the state.
+                world.advance_frame().expect("a preset is stable");
+                let (before, start) = (world.clock().steps, Instant::now());
+                for _ in 0..frames {
+                    world.advance_frame().expect("a preset is stable");
+                }
+                let steps = (world.clock().steps - before).max(1);
+                start.elapsed().mul_f64(frames as f64 / steps as f64)
+            });
+        });
+        group.finish();
+    }
+}
+
+#[cfg(not(feature = "gpu"))]
+fn scenes_on_gpu(_criterion: &mut Criterion) {}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(3));
-    targets = scenes
+    targets = scenes, scenes_on_gpu
 }
 criterion_main!(benches);

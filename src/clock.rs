@@ -155,6 +155,7 @@ impl Steps {
     pub(crate) fn limits(&self) -> sorb_kernels::gpu::StepLimits {
         sorb_kernels::gpu::StepLimits {
             courant: self.time.courant,
+            pressure_courant: PRESSURE_COURANT,
             edge: self.edge,
             minimum: self.time.minimum_step,
             constant: self.constant.0,

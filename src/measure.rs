@@ -46,8 +46,14 @@ pub struct Measures {
 impl Measures {
     pub(crate) fn of(world: &World) -> Self {
         let mut measures = Self { time: world.clock().time, ..Self::default() };
-        measures.add_water(world);
-        measures.add_sponges(world);
+        #[cfg(feature = "gpu")]
+        let is_summed_up = measures.add_sums(world);
+        #[cfg(not(feature = "gpu"))]
+        let is_summed_up = false;
+        if !is_summed_up {
+            measures.add_water(world);
+            measures.add_sponges(world);
+        }
         for body in 0..world.bodies().len() {
             if let Some(body) = Mechanics::of(world.rigid_engine(), body, world.scene().gravity) {
                 measures.linear_momentum += body.linear_momentum;

@@ -309,7 +309,7 @@ fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
         let size = sponge.size() - inset * 2.0;
         let fraction = f64::from(sponge.porosity * sponge.saturation);
         let pitch = (volume / fraction).cbrt() as f32;
-        let counts = size.to_array().map(|size| (size / pitch).round().max(1.0) as u32);
+        let counts = filling(size.to_array().map(|size| size / pitch));
         let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
         let first_of = |other: &scene::Sponge, point: Vec3| other.saturation > 0.0 && holds(other, point);
         let keep = |point: Vec3| {
@@ -324,6 +324,22 @@ fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
         columns.fluid.position.resize(padded(count), FAR_ROW);
         columns.fluid.velocity.resize(padded(count), [0.0; 4]);
     }
+}
+
+/// Whole numbers of particles along the axes, next to the given ones: as many particles as possible, but no more than
+/// fit. One too many in a row would be pressed out at the first step.
+fn filling(wanted: [f32; 3]) -> [u32; 3] {
+    let most = wanted.iter().product::<f32>() * 1.001;
+    let corner = |bits: u32| {
+        let mut counts = [1; 3];
+        for (axis, count) in counts.iter_mut().enumerate() {
+            *count = (wanted[axis].floor() as u32 + (bits >> axis & 1)).max(1);
+        }
+        counts
+    };
+    let particles = |counts: &[u32; 3]| counts.iter().product::<u32>();
+    let fitting = (0..8).map(corner).filter(|counts| particles(counts) as f32 <= most);
+    fitting.max_by_key(particles).unwrap_or_else(|| corner(0))
 }
 
 /// Whether a point lies inside the outline of a sponge.

@@ -99,7 +99,7 @@ macro_rules! scenes {
         })+
     };
 }
-scenes! { standing ball_drop squish dam_break wring water dry empty }
+scenes! { standing ball_drop squish dam_break wring water dry empty ball_drop_wcsph }
 
 #[test]
 fn a_pool_of_the_host_changes_nothing() {

@@ -71,8 +71,8 @@ fn a_hull_without_volume_is_refused_with_its_key() {
 
 #[test]
 fn a_step_below_the_minimum_is_refused_and_stays_refused() {
-    let scene =
-        common::with(&busy::scene("water", 0.5), &["time.minimum_step=0.002", "time.maximum_step=0.002"]);
+    let keys = ["fluid.solver=wcsph", "time.minimum_step=0.002", "time.maximum_step=0.002"];
+    let scene = common::with(&busy::scene("water", 0.5), &keys);
     let mut world = common::world(&scene);
     let before = world.digest();
     let error = world.step().expect_err("the speed of sound asks for less");

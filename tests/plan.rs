@@ -43,7 +43,7 @@ plans! { standing ball_drop squish dam_break wring water dry empty }
 fn a_scene_without_sponge_runs_no_phase_of_it() {
     let plan = plan("water");
     let names = running(&plan);
-    assert!(names.contains(&"sph::density") && names.contains(&"sph::advect"), "{names:?}");
+    assert!(names.contains(&"sph::forces") && names.contains(&"sph::advect"), "{names:?}");
     for family in ["pbd::", "couple::", "rigid::"] {
         assert!(!names.iter().any(|name| name.starts_with(family)), "{family} in {names:?}");
     }
@@ -133,6 +133,7 @@ const WET: Content = Content {
     bodies: false,
     surface_tension: false,
     iterations: 0,
+    rounds: 0,
 };
 
 fn small(step: &[Phase], observed: &[Column]) -> Plan {
@@ -170,9 +171,10 @@ fn what_nobody_reads_is_skipped_unless_it_is_observed() {
 
 #[test]
 fn the_step_itself_is_consistent_for_every_content() {
-    for bits in 0..32_u32 {
+    for bits in 0..64_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
-        let content = Content { fluid, sponge, walls, bodies, surface_tension, iterations: 1 };
+        let rounds = bits >> 5;
+        let content = Content { fluid, sponge, walls, bodies, surface_tension, iterations: 1, rounds };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
         }
@@ -190,4 +192,26 @@ fn a_plan_counts_repetitions_from_the_scene() {
     let calls = |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
     assert_eq!((calls("pbd::strain"), calls("pbd::predict")), (Some(21), Some(3)));
     assert_eq!(calls("sph::density"), None, "a skipped phase is not timed");
+}
+
+#[test]
+fn a_pressure_solve_ends_when_it_has_converged() {
+    let calls = |keys: &[&str]| {
+        let mut world = common::world(&common::with(&common::preset("water", 0.5), keys));
+        common::steps(&mut world, 5);
+        let time =
+            |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
+        [time("sph::pressure_update"), time("sph::pressure_residual"), time("sph::pressure_kick")]
+    };
+    let (loose, tight) = (calls(&["fluid.density_tolerance=0.1"]), calls(&["fluid.density_tolerance=1e-6"]));
+    for [update, residual, kick] in [loose, tight] {
+        assert_eq!((update, kick), (residual, Some(5)));
+    }
+    assert!(loose[0] >= Some(5) && tight[0] > loose[0].map(|calls| 2 * calls), "{loose:?} {tight:?}");
+    assert_eq!(
+        calls(&["fluid.density_tolerance=1e-6", "fluid.rounds=3"])[0],
+        Some(15),
+        "no more than asked for"
+    );
+    assert_eq!(calls(&["fluid.solver=wcsph"])[0], None);
 }

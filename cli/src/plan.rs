@@ -14,7 +14,7 @@ use crate::{choice::Choice, error::CliError, output};
 pub(crate) struct Arguments {
     #[command(flatten)]
     choice: Choice,
-    /// Where to run: cpu, gpu, auto or from:KERNEL
+    /// Where to run: cpu, gpu, auto, from:KERNEL, or each:NAME=PLACE,.. kernel by kernel
     #[arg(long, value_name = "BACKEND", default_value = "cpu")]
     backend: Offload,
     /// Prints a JSON object instead of text
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
 /// The scene cannot be read or built, or standard output cannot be written.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let scene = arguments.choice.load()?;
-    let options = Options { threads: Some(1), offload: arguments.backend, ..Options::default() };
+    let options = Options { threads: Some(1), offload: arguments.backend.clone(), ..Options::default() };
     let world = World::with_options(&scene, &options)?;
     if !arguments.json {
         return output::print(&world.plan().to_string());
@@ -46,6 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
                 "to_device": transfer.to_device,
                 "what": transfer.what,
                 "bytes": transfer.bytes,
+                "times": transfer.times,
             })
         })
         .collect();

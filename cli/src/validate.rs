@@ -91,7 +91,7 @@ impl Arguments {
             quick: self.quick,
             fault: self.control,
             changes: self.set.clone(),
-            options: Options { threads: self.threads, offload: self.backend, ..Options::default() },
+            options: Options { threads: self.threads, offload: self.backend.clone(), ..Options::default() },
         }
     }
 

@@ -184,7 +184,7 @@ columns! {
         /// Gradient of the share of walls and bodies in the kernel's volume \[1/m\]; w: the share \[1\].
         FluidBoundary = boundary: Vec<[f32; 4]>, "1/m", Scratch;
         /// Acceleration of a particle by its own pressure, over that pressure over rest density; w: compression
-        /// rho / rho_0 - 1 before the solve.
+        /// `rho / rho_0 - 1` before the solve.
         FluidFactors = factors: Vec<[f32; 4]>, "1/m", Scratch;
         /// For every entry of the neighbour lists, volume times kernel gradient, over the distance vector.
         FluidPairs = pairs: ListValues, "1/m^2", Scratch;

@@ -2,21 +2,24 @@
 // `clock.rs`, from what the last step found.
 //
 // `extremes`: squared speed and acceleration of particles, squared speed of nodes (bits of f32); rows that are not
-// finite, of particles and nodes (0xffffffff - row, 0 if there is none); longest lists that did not fit, as in `Clock`.
+// finite, of particles and nodes (0xffffffff - row, 0 if there is none); longest lists that did not fit, as in
+// `Clock`; root of the mean square of the pressure (bits of f32).
 
 const NOT_FINITE_PARTICLE: u32 = 1u;
 const NOT_FINITE_NODE: u32 = 2u;
 const TOO_SMALL: u32 = 3u;
 const LIST_FULL: u32 = 4u;
+const UNFINISHED: u32 = 5u;
 
 const FRAME: u32 = 1u;
 const COURANT: u32 = 2u;
 const ACCELERATION: u32 = 3u;
 const SPONGE_SPEED: u32 = 8u;
+const PRESSURE: u32 = 9u;
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;
-@group(0) @binding(2) var<storage, read_write> extremes: array<u32, 8>;
+@group(0) @binding(2) var<storage, read_write> extremes: array<u32, 12>;
 
 fn offer(step: f32, bound: u32) {
     if (step < clock.step) {
@@ -30,7 +33,13 @@ fn choose_step() {
     clock.bound = params.constant_bound;
     let radius = params.smoothing.radius;
     if (params.particle_mass > 0.0) {
-        offer(params.courant * radius / (params.sound_speed + clock.fluid_speed), COURANT);
+        let speed = select(params.sound_speed, 0.0, params.incompressible == 1u) + clock.fluid_speed;
+        if (speed > 0.0) {
+            offer(params.courant * radius / speed, COURANT);
+        }
+        if (clock.fluid_pressure > 0.0) {
+            offer(params.pressure_courant * params.spacing / sqrt(sqrt(3.0) * clock.fluid_pressure), PRESSURE);
+        }
         if (clock.fluid_acceleration > 0.0) {
             offer(0.25 * sqrt(radius / clock.fluid_acceleration), ACCELERATION);
         }
@@ -66,7 +75,10 @@ fn begin_step() {
 @compute @workgroup_size(1)
 fn begin() {
     clock.status = 0u;
-    for (var k = 0u; k < 8u; k += 1u) {
+    clock.rounds = 0u;
+    clock.is_converged = 0u;
+    clock.most_rounds = vec4<u32>(0u);
+    for (var k = 0u; k < 12u; k += 1u) {
         extremes[k] = 0u;
     }
     begin_step();
@@ -88,10 +100,20 @@ fn check() {
     }
 }
 
+// Before more rounds of a repetition that the device stopped at.
+@compute @workgroup_size(1)
+fn resume() {
+    if (clock.status == UNFINISHED) {
+        clock.status = 0u;
+        clock.running = 1u;
+    }
+}
+
 fn take_over() {
     clock.fluid_speed = sqrt(bitcast<f32>(extremes[0]));
     clock.fluid_acceleration = sqrt(bitcast<f32>(extremes[1]));
     clock.node_speed = sqrt(bitcast<f32>(extremes[2]));
+    clock.fluid_pressure = bitcast<f32>(extremes[8]);
     clock.maximum_speed = max(clock.maximum_speed, max(clock.fluid_speed, clock.node_speed));
     clock.last_step = clock.step;
     clock.last_bound = clock.bound;
@@ -121,7 +143,7 @@ fn finish() {
         clock.status = NOT_FINITE_NODE;
         clock.failed_row = 0xffffffffu - extremes[4];
     }
-    for (var k = 0u; k < 8u; k += 1u) {
+    for (var k = 0u; k < 12u; k += 1u) {
         extremes[k] = 0u;
     }
     if (clock.status != 0u) {

@@ -46,6 +46,17 @@ struct Params {
     unused_1: u32,
     smoothing: Smoothing,
     coupling: Smoothing,
+    // The solve for the pressure, as `Incompressible`.
+    solve_tolerance: f32,
+    solve_rounds: u32,
+    lattice_diagonal: f32,
+    correction_speed: f32,
+    boundary_range: f32,
+    boundary_share: f32,
+    // 1 where pressure is solved for.
+    incompressible: u32,
+    // Step over the time in which pressure moves a particle by a spacing.
+    pressure_courant: f32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.
@@ -81,11 +92,30 @@ struct Clock {
     bounds_0: vec4<u32>,
     bounds_1: vec4<u32>,
     bounds_2: vec4<u32>,
+    // Rounds of the present repetition so far, see `rounds.wgsl`.
+    rounds: u32,
+    // 1: it has converged; what is left of its rounds leaves at once.
+    is_converged: u32,
+    // The repetition, counted from 1, that needs more rounds than were handed in.
+    unfinished: u32,
+    // Of all steps since the time was set.
+    all_rounds: u32,
+    // Most rounds of a step in this batch, of each repetition.
+    most_rounds: vec4<u32>,
+    // Root of the mean square of the pressure over rest density in the last step, where it is solved for.
+    fluid_pressure: f32,
+    unused_0: u32,
+    unused_1: u32,
+    unused_2: u32,
 }
+
+// Threads of a group, for passes whose threads have nothing to do with each other: with few rows, small groups keep more
+// of the device busy.
+override GROUP: u32 = 256u;
 
 // The row of a thread; groups beyond the limit of one dimension continue in the second.
 fn row_of(group: vec3<u32>, groups: vec3<u32>, lane: u32) -> u32 {
-    return (group.y * groups.x + group.x) * 256u + lane;
+    return (group.y * groups.x + group.x) * GROUP + lane;
 }
 
 fn group_of(group: vec3<u32>, groups: vec3<u32>) -> u32 {

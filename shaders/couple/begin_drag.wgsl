@@ -8,7 +8,7 @@
 @group(0) @binding(5) var<storage, read_write> unfiltered: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> drag: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -9,7 +9,7 @@
 @group(0) @binding(6) var<storage, read_write> control_position: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_node: array<u32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -13,7 +13,7 @@
 @group(0) @binding(8) var<storage, read_write> interior: array<f32>;
 @group(0) @binding(9) var<storage, read_write> drag_rate: array<f32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

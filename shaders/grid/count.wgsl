@@ -1,4 +1,4 @@
-// First pass of the counting sort: the cell of every point, and how many points a cell has.
+// First pass of the counting sort: the cell of every point, and how many points a cell and a page of 4096 cells have.
 //
 // The slot that a point gets in its cell depends on which thread is first; `sort_fluid.wgsl` and `controls.wgsl` order
 // the points of a cell by the row they came from, so that the sort is stable.
@@ -9,8 +9,9 @@
 @group(0) @binding(3) var<storage, read_write> cells: array<u32>;
 @group(0) @binding(4) var<storage, read_write> slots: array<u32>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
+@group(0) @binding(6) var<storage, read_write> page_sums: array<atomic<u32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -23,4 +24,5 @@ fn main(
     let cell = cell_of(grid, points[row].xyz);
     cells[row] = cell;
     slots[row] = atomicAdd(&counts[cell], 1u);
+    atomicAdd(&page_sums[cell / 4096u], 1u);
 }

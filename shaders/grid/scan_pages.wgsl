@@ -1,13 +1,10 @@
-// Prefix sums, third pass: where every cell begins. Leaves the counts at zero for the next step.
+// Prefix sums, last pass: where every cell begins. Leaves the counts at zero for the next step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;
 @group(0) @binding(2) var<storage, read_write> counts: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> page_sums: array<u32>;
 @group(0) @binding(4) var<storage, read_write> starts: array<vec4<u32>>;
-
-// Sums of four tiles of 1024 values at once.
-var<workgroup> sums: array<vec4<u32>, 256>;
 
 fn total(values: vec4<u32>) -> u32 {
     return values.x + values.y + values.z + values.w;
@@ -30,25 +27,25 @@ fn main(
     if (clock.running == 0u || page >= pages) {
         return;
     }
+    var start = 0u;
+    if (pages > 256u) {
+        start = page_sums[page];
+    } else {
+        // Few pages: each adds up those before it.
+        var of_page = 0u;
+        if (lane < page) {
+            of_page = page_sums[lane];
+        }
+        start = group_scan(lane, vec4<u32>(of_page, 0u, 0u, 0u)).all.x;
+    }
+    // Four tiles of 1024 values at once.
     let first = page * 1024u + lane;
     let a = counts[first];
     let b = counts[first + 256u];
     let c = counts[first + 512u];
     let d = counts[first + 768u];
-    let own = vec4<u32>(total(a), total(b), total(c), total(d));
-    sums[lane] = own;
-    for (var step = 1u; step < 256u; step = step * 2u) {
-        workgroupBarrier();
-        var other = vec4<u32>(0u);
-        if (lane >= step) {
-            other = sums[lane - step];
-        }
-        workgroupBarrier();
-        sums[lane] += other;
-    }
-    workgroupBarrier();
-    let tiles = exclusive(sums[255], page_sums[page]);
-    let before = tiles + (sums[lane] - own);
+    let scan = group_scan(lane, vec4<u32>(total(a), total(b), total(c), total(d)));
+    let before = exclusive(scan.all, start) + scan.before;
     starts[first] = exclusive(a, before.x);
     starts[first + 256u] = exclusive(b, before.y);
     starts[first + 512u] = exclusive(c, before.z);

@@ -1,10 +1,9 @@
-// Prefix sums, second pass: one group replaces the sums of the pages by the sums of all pages before them.
+// Prefix sums, first pass, of grids with more than 256 pages: one group replaces the sums of the pages by the sums of all
+// pages before them. `count.wgsl` has added them up.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;
 @group(0) @binding(2) var<storage, read_write> page_sums: array<u32>;
-
-var<workgroup> sums: array<u32, 256>;
 
 @compute @workgroup_size(256)
 fn main(@builtin(local_invocation_index) lane: u32) {
@@ -22,23 +21,9 @@ fn main(@builtin(local_invocation_index) lane: u32) {
                 values[k] = page_sums[own + k];
             }
         }
-        sums[lane] = values.x + values.y + values.z + values.w;
-        for (var step = 1u; step < 256u; step = step * 2u) {
-            workgroupBarrier();
-            var other = 0u;
-            if (lane >= step) {
-                other = sums[lane - step];
-            }
-            workgroupBarrier();
-            sums[lane] += other;
-        }
-        workgroupBarrier();
-        var sum = before;
-        if (lane > 0u) {
-            sum += sums[lane - 1u];
-        }
-        before += sums[255];
-        workgroupBarrier();
+        let scan = group_scan(lane, vec4<u32>(values.x + values.y + values.z + values.w, 0u, 0u, 0u));
+        var sum = before + scan.before.x;
+        before += scan.all.x;
         for (var k = 0u; k < 4u; k += 1u) {
             if (own + k < pages) {
                 page_sums[own + k] = sum;

@@ -1,4 +1,5 @@
-// Rows grouped by cell, those of one cell in any order.
+// Rows grouped by cell, those of one cell in any order. Leaves the sums of the pages at zero for the next step: there are
+// no more pages than threads.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;
@@ -6,6 +7,7 @@
 @group(0) @binding(3) var<storage, read> slots: array<u32>;
 @group(0) @binding(4) var<storage, read> starts: array<u32>;
 @group(0) @binding(5) var<storage, read_write> grouped: array<u32>;
+@group(0) @binding(6) var<storage, read_write> page_sums: array<u32>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -14,7 +16,13 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= grid.wrap.w) {
+    if (clock.running == 0u) {
+        return;
+    }
+    if (row <= grid.size.w / 4096u) {
+        page_sums[row] = 0u;
+    }
+    if (row >= grid.wrap.w) {
         return;
     }
     grouped[starts[cells[row]] + slots[row]] = row;

@@ -108,7 +108,7 @@ fn volume(compliance: f32, damping: f32, limit: bool) {
     correct(constraint, -(by_d + by_f), by_d - by_f, by_e + by_f, by_f - by_e, compliance, damping);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -16,7 +16,7 @@ fn pressure(rho: f32) -> f32 {
     return max(params.rest_density * square * (1.0 / 7.0) * (cube * cube * ratio - 1.0), 0.0);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -29,6 +29,7 @@ macro_rules! shaders {
 /// All passes, by family, with the common files that each is built from.
 pub static SHADERS: &[Shader] = shaders! {
     clock::clock: ;
+    clock::rounds: ;
     couple::begin_drag: ;
     couple::control_velocity: smoothing drag control_group;
     couple::controls: grid;
@@ -44,11 +45,14 @@ pub static SHADERS: &[Shader] = shaders! {
     couple::zero_distance: smoothing sponges control_group;
     grid::count: grid;
     grid::fluid_neighbors: grid smoothing;
-    grid::page_sums: grid;
-    grid::scan_pages: grid;
-    grid::scan_sums: grid;
+    grid::scan_pages: grid scan;
+    grid::scan_sums: grid scan;
     grid::scatter: grid;
     grid::sort_fluid: grid;
+    measure::fluid: sums partial_sums;
+    measure::nodes: sums partial_sums;
+    measure::tets: sponges sums partial_sums;
+    measure::total: sums;
     pbd::contact: body surface sponges wrench;
     pbd::gravity: ;
     pbd::predict: body;
@@ -56,13 +60,36 @@ pub static SHADERS: &[Shader] = shaders! {
     pbd::velocity: ;
     sph::advect: ;
     sph::body_wrenches: wrench;
+    sph::boundary: body surface profile;
+    sph::boundary_pressure: body surface wrench profile;
+    sph::boundary_reaction: body surface wrench profile;
     sph::density: smoothing;
+    sph::factors: smoothing sums;
     sph::forces: smoothing;
     sph::kick: ;
+    sph::predict: ;
     sph::pressure: ;
+    sph::pressure_acceleration: smoothing middle;
+    sph::pressure_kick: ;
+    sph::pressure_residual: smoothing middle sums;
+    sph::pressure_update: solve;
     sph::repulsion: body surface wrench;
+    sph::solve_begin: sums solve;
+    sph::solve_round: sums solve;
     sph::surface_tension: smoothing;
 };
+
+/// The same passes with subgroup operations, for adapters that have them.
+pub static SUBGROUP_SHADERS: &[Shader] = shaders! {
+    grid::scan_pages: grid scan_subgroup;
+    grid::scan_sums: grid scan_subgroup;
+};
+
+/// The pass of that name with subgroup operations, if it has use for them.
+#[must_use]
+pub fn subgroup_shader(name: &str) -> Option<&'static Shader> {
+    SUBGROUP_SHADERS.iter().find(|shader| shader.name == name)
+}
 
 /// The pass of that name.
 #[must_use]

@@ -4,15 +4,31 @@ use std::sync::{Arc, OnceLock};
 
 use sorb_kernels::{
     columns::{Column, Columns, Life},
+    couple::weights::weigh,
     cpu::Cpu,
-    gpu::{Answer, Gpu, GpuError, Profile, Program, Resident, Start, StepLimits, is_internal},
+    gpu::{
+        Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Stage, Start, StepLimits, is_internal,
+        make_room,
+    },
     params::Params,
 };
 
-use crate::schedule::{Plan, Shares};
+use crate::{
+    clock::Clock,
+    rigid::RigidEngine,
+    schedule::{Place, Plan, Shares},
+};
 
 /// Scratch columns that measures and pictures look at.
 const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
+/// Scratch columns that the clock of the host looks at.
+const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve, Column::NodeExtremes];
+
+/// Scratch columns that the host looks at after a step that it shares with a device.
+pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
+    let observed = observed.iter().filter(|column| !is_internal(**column));
+    LOOKED_AT.iter().chain(&EXTREMES).chain(observed).copied().collect()
+}
 
 /// What runs the kernels of a world on a device.
 #[derive(Debug)]
@@ -28,13 +44,25 @@ pub(crate) struct Device {
     is_ahead: bool,
     /// The present state, once the host has looked at it.
     mirror: OnceLock<Columns>,
+    /// What belongs to the state that the host has, if the device is ahead of it.
+    kept: Option<Kept>,
+}
+
+/// What belongs to a state beside its columns.
+#[derive(Clone, Debug)]
+pub(crate) struct Kept {
+    pub(crate) clock: Clock,
+    pub(crate) engine: Box<dyn RigidEngine>,
+    /// Length of the step before \[s\].
+    pub(crate) step: f32,
 }
 
 /// Columns on the device, with the kernels bound to them.
 #[derive(Debug)]
 struct On {
     resident: Resident,
-    program: Program,
+    /// One for every share that the device has, in order.
+    programs: Vec<Program>,
     profile: Option<Profile>,
 }
 
@@ -46,8 +74,8 @@ impl Device {
         observed: &[Column],
         wants_times: bool,
     ) -> Self {
-        let shares = plan.shares();
-        let written: Vec<Column> = shares.gpu.iter().flat_map(|kernel| kernel.writes).copied().collect();
+        let shares = plan.shares(&looked_at(observed));
+        let written: Vec<Column> = shares.on_gpu().flat_map(|kernel| kernel.writes).copied().collect();
         let wanted = |column: &Column| {
             let is_state = column.life() == Life::State;
             (is_state || LOOKED_AT.contains(column) || observed.contains(column))
@@ -64,11 +92,14 @@ impl Device {
             resident: None,
             is_ahead: false,
             mirror: OnceLock::new(),
+            kept: None,
         }
     }
 
-    /// The same without the columns.
+    /// The same without what is on the device, for a copy of the host's columns. If those are of an earlier state, because
+    /// the device was lost, the copy knows.
     pub(crate) fn another(&self) -> Self {
+        let is_ahead = !self.is_looked_at();
         Self {
             gpu: Arc::clone(&self.gpu),
             limits: self.limits,
@@ -76,8 +107,9 @@ impl Device {
             looked_at: self.looked_at.clone(),
             wants_times: self.wants_times,
             resident: None,
-            is_ahead: false,
+            is_ahead,
             mirror: OnceLock::new(),
+            kept: self.kept.clone().filter(|_| is_ahead),
         }
     }
 
@@ -93,7 +125,7 @@ impl Device {
 
     /// Whether all kernels of the step run here, so that the device can take many steps on its own.
     pub(crate) fn has_all(&self) -> bool {
-        self.shares.cpu.is_empty()
+        self.shares.are_all_on_gpu()
     }
 
     /// The present state: read back when it is first looked at. If that fails the device is lost, which the next step
@@ -108,6 +140,31 @@ impl Device {
             Ok(()) => self.mirror.get_or_init(|| columns),
             Err(_) => host,
         }
+    }
+
+    /// Asks for what the host looks at; none if there is nothing on the device.
+    pub(crate) fn ask(&self) -> Result<Option<Pending>, GpuError> {
+        self.resident.as_ref().map(|on| on.resident.ask(&self.looked_at)).transpose()
+    }
+
+    /// Whether the host has the present state, so that the next step leaves it behind.
+    pub(crate) fn is_looked_at(&self) -> bool {
+        !self.is_ahead || self.mirror.get().is_some()
+    }
+
+    /// Notes what belongs to the state that the next step leaves behind.
+    pub(crate) fn keep(&mut self, kept: Kept) {
+        self.kept = Some(kept);
+    }
+
+    /// Gives up what is on the device: the newest state that the host has becomes the present one. Some if that is an
+    /// earlier one.
+    pub(crate) fn give_up(&mut self, host: &mut Columns) -> Option<Kept> {
+        let is_earlier = !self.is_looked_at();
+        self.leave(host);
+        self.is_ahead = false;
+        self.resident = None;
+        self.kept.take().filter(|_| is_earlier)
     }
 
     /// What the host has read back becomes its state: the newest that it has if the device is lost.
@@ -128,11 +185,15 @@ impl Device {
         let lives = |column: &Column| column.life() != Life::Scratch && !is_internal(*column);
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;
-        let program = resident.program(&self.shares.gpu)?;
+        let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
+        let programs =
+            shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
-        self.resident = Some(On { resident, program, profile });
+        self.resident = Some(On { resident, programs, profile });
         if self.has_all() {
             forget_lists(host);
+        } else {
+            Column::ALL.iter().for_each(|column| make_room(host, *column));
         }
         Ok(())
     }
@@ -154,15 +215,15 @@ impl Device {
     /// Takes steps that the device chooses.
     pub(crate) fn advance(&mut self, host: &mut Columns, steps: u32) -> Result<Answer, GpuError> {
         self.leave(host);
-        let Some(On { resident, program, profile }) = &mut self.resident else {
-            return Err(GpuError::Refused { reason: "no state was uploaded".to_owned() });
-        };
+        let refused = || GpuError::Refused { reason: "no state was uploaded".to_owned() };
+        let On { resident, programs, profile } = self.resident.as_mut().ok_or_else(refused)?;
+        let program = programs.first_mut().ok_or_else(refused)?;
         resident.upload_bodies(&host.bodies.states.0);
         let steps = if profile.is_some() { steps.min(Profile::steps(program.passes())) } else { steps };
         resident.advance(program, steps, profile.as_mut())
     }
 
-    /// One step of given length, of which the CPU does its share first. Everything travels both ways.
+    /// One step of given length that is shared with the CPU. What the other side made travels.
     pub(crate) fn step_with(
         &mut self,
         cpu: &Cpu,
@@ -170,13 +231,29 @@ impl Device {
         params: &Params,
     ) -> Result<(), GpuError> {
         self.ready(host, params)?;
-        for kernel in &self.shares.cpu {
-            cpu.enter(|| (kernel.cpu)(cpu, params, host));
+        let before = host.clone();
+        // A step that cannot be finished changes nothing.
+        self.try_step_with(cpu, host, params).inspect_err(|_| *host = before)
+    }
+
+    fn try_step_with(&mut self, cpu: &Cpu, host: &mut Columns, params: &Params) -> Result<(), GpuError> {
+        let Some(On { resident, programs, .. }) = &mut self.resident else { return Ok(()) };
+        let mut programs = programs.iter_mut();
+        for share in &self.shares.segments {
+            match share.place {
+                Place::Cpu => {
+                    fetch(resident, host, params, &share.needs)?;
+                    share.stages.iter().for_each(|stage| run(stage, cpu, params, host));
+                }
+                Place::Gpu => {
+                    resident.upload(host, &share.needs, share.is_sorted)?;
+                    if let Some(program) = programs.next() {
+                        resident.run_kernels(program, params.step)?;
+                    }
+                }
+            }
         }
-        let Some(On { resident, program, .. }) = &mut self.resident else { return Ok(()) };
-        resident.upload(host, &self.shares.sent, self.shares.sort_is_done)?;
-        resident.run_kernels(program, params.step)?;
-        resident.download(host, &self.shares.fetched)
+        fetch(resident, host, params, &self.shares.fetched)
     }
 
     /// Milliseconds of every call of a kernel since the last time this was asked.
@@ -184,6 +261,34 @@ impl Device {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
     }
+}
+
+/// Runs a stage on the CPU.
+fn run(stage: &Stage, cpu: &Cpu, params: &Params, host: &mut Columns) {
+    let rounds = match stage {
+        Stage::Run(_) => 1,
+        Stage::Rounds { maximum, .. } => *maximum,
+    };
+    for _ in 0..rounds {
+        for kernel in stage.kernels() {
+            cpu.enter(|| (kernel.cpu)(cpu, params, host));
+        }
+        if host.fluid.pressure_solve.is_converged() {
+            break;
+        }
+    }
+}
+
+/// Reads columns back, and computes those that a device does not keep.
+fn fetch(
+    resident: &Resident,
+    host: &mut Columns,
+    params: &Params,
+    columns: &[Column],
+) -> Result<(), GpuError> {
+    resident.download(host, columns)?;
+    columns.iter().for_each(|column| weigh(params, host, *column));
+    Ok(())
 }
 
 /// Cells and lists of the CPU, which nobody keeps up to date while the device takes the steps: most of the memory.

@@ -1,16 +1,19 @@
 //! Steps and frames of a world that lives on a device.
 
-use std::time::Instant;
+use std::{sync::Arc, time::Instant};
 
 use sorb_kernels::{
     body::Wrench,
-    gpu::{Answer, GpuError, Outcome, Start},
+    gpu::{Answer, Gpu, GpuError, Outcome, Start},
 };
 
+use super::{device::Kept, place::placed};
 use crate::{
+    Offload,
+    body::BodyKind,
     clock::Bound,
     stores::Stores,
-    world::{FrameReport, StepError, StepReport, World, move_bodies},
+    world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies},
 };
 
 /// Most steps of a submission: the host must be able to stop.
@@ -74,7 +77,8 @@ impl World {
 
     /// Steps that are likely to be left of a frame.
     fn steps_to(&self, end: f64) -> u32 {
-        if !self.stores.host.bodies.states.0.is_empty() {
+        // Bodies that never move need nobody.
+        if (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed) {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);
@@ -88,6 +92,7 @@ impl World {
             fluid_speed: self.clock.fluid_speed,
             fluid_acceleration: self.clock.fluid_acceleration,
             node_speed: self.clock.node_speed,
+            fluid_pressure: self.clock.fluid_pressure,
         };
         let Stores { host, device } = &mut self.stores;
         match device {
@@ -99,6 +104,7 @@ impl World {
     /// Takes steps, and the time they take; `before` have been taken since the time was set.
     fn advance_on_device(&mut self, steps: u32, before: u32) -> Result<Answer, StepError> {
         let clock = Instant::now();
+        self.keep_state();
         let Stores { host, device } = &mut self.stores;
         let Some(device) = device else {
             return Err(GpuError::Refused { reason: "the world has no device".to_owned() }.into());
@@ -109,12 +115,66 @@ impl World {
         Ok(answer)
     }
 
+    /// Notes what belongs to the state that the host has, before the device goes on from it.
+    fn keep_state(&mut self) {
+        if let Some(device) = self.stores.device.as_mut().filter(|device| device.is_looked_at()) {
+            let (clock, engine) = (self.clock, self.engine.clone());
+            device.keep(Kept { clock, engine, step: self.params.step });
+        }
+    }
+
+    /// Goes on elsewhere: on `gpu`, or on the CPU if that is none. For a world whose device was lost, and for one that is
+    /// to leave a device that works.
+    ///
+    /// A device that works is read back, and nothing is lost. Of one that was lost, the newest state that the host has
+    /// looked at ([`Self::columns`], [`Self::measures`] and all else that reads the state) becomes the present one, with
+    /// its clock and its bodies; if it never looked, that is the beginning. The error of the loss is forgotten.
+    ///
+    /// The kernels that the options placed on a GPU are placed there again; all of them if they placed none.
+    ///
+    /// # Errors
+    /// Kernels are asked for at places where they cannot be.
+    pub fn move_to(&mut self, gpu: Option<&Arc<Gpu>>) -> Result<(), WorldError> {
+        // Reads back what the host does not have yet, if it can.
+        self.stores.view();
+        if let Some(device) = &mut self.stores.device
+            && let Some(kept) = device.give_up(&mut self.stores.host)
+        {
+            let bodies = &mut self.stores.host.bodies.states.0;
+            for (index, body) in bodies.iter_mut().enumerate() {
+                body.state = kept.engine.state(index);
+            }
+            self.clock = kept.clock;
+            self.engine = kept.engine;
+            self.params.step = kept.step;
+        }
+        if matches!(self.failed, Some(StepError::Gpu(_))) {
+            self.failed = None;
+        }
+        let asked = self.options.offload.clone();
+        let options = Options {
+            gpu: gpu.cloned(),
+            offload: match gpu {
+                None => Offload::Cpu,
+                Some(_) if matches!(asked, Offload::Cpu | Offload::Auto) => Offload::Gpu,
+                Some(_) => asked,
+            },
+            ..self.options.clone()
+        };
+        let rows = self.stores.host.rows;
+        let (plan, device) = placed(self.plan.clone(), rows, &self.params, &self.steps, &options)?;
+        self.plan = plan;
+        self.stores.device = device;
+        Ok(())
+    }
+
     /// Takes over what the device found, moves the bodies, and refuses what is not finite.
     fn take_over(&mut self, answer: &Answer, taken: u32) -> Result<(), StepError> {
         let (step, time) = (self.clock.steps, self.clock.time);
         self.clock.fluid_speed = answer.fluid_speed;
         self.clock.fluid_acceleration = answer.fluid_acceleration;
         self.clock.node_speed = answer.node_speed;
+        self.clock.fluid_pressure = answer.fluid_pressure;
         if taken > 0 {
             self.params.step = answer.last_step;
             let wrenches: Vec<Wrench> = answer

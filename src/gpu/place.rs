@@ -4,126 +4,163 @@ use std::sync::Arc;
 
 use sorb_kernels::{
     columns::{Column, RowCounts},
-    gpu::{Gpu, GpuError},
+    gpu::{CLOCK_BYTES, Gpu, GpuError, column_bytes, has_twin},
+    params::Params,
 };
 
-use super::Device;
+use super::{Device, device::looked_at};
 use crate::{
     clock::Steps,
-    schedule::{Offload, Placement, Plan, Transfer, beginning},
-    world::Options,
+    schedule::{Offload, Place, Placement, Plan, Transfer},
+    world::{Options, WorldError},
 };
 
 /// Particles and nodes from which [`Offload::Auto`] takes a GPU; `docs/gpu.md` has the measurements.
 const ROWS_FOR_GPU: usize = 5_000;
 
+/// What a placement depends on.
+struct Request<'a> {
+    plan: &'a Plan,
+    rows: RowCounts,
+    params: &'a Params,
+    options: &'a Options,
+}
+
 /// A plan with its place, and the device if it is one.
 ///
 /// # Errors
-/// A GPU is asked for, and there is none.
+/// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
 pub(crate) fn placed(
     plan: Plan,
     rows: RowCounts,
+    params: &Params,
     steps: &Steps,
     options: &Options,
-) -> Result<(Plan, Option<Device>), GpuError> {
-    if !options.offload.wants_gpu() {
-        return Ok((plan, None));
+) -> Result<(Plan, Option<Device>), WorldError> {
+    if options.offload == Offload::Cpu {
+        return Ok((plan.unplaced(), None));
     }
-    let (placement, gpu) = place(&plan, rows, options.offload, options.gpu.as_ref())?;
+    let (placement, gpu) = Request { plan: &plan, rows, params, options }.place()?;
     let plan = plan.placed(placement);
     let device = gpu.map(|gpu| Device::new(gpu, &plan, steps.limits(), &options.observed, options.gpu_times));
     Ok((plan, device))
 }
 
-/// Decides where the step runs, on the device that the host gives or one of its own.
-///
-/// # Errors
-/// A GPU is asked for, and there is none.
-fn place(
-    plan: &Plan,
-    rows: RowCounts,
-    offload: Offload,
-    given: Option<&Arc<Gpu>>,
-) -> Result<(Placement, Option<Arc<Gpu>>), GpuError> {
-    let on_cpu = |reason: String| Ok((Placement::cpu(offload, reason), None));
-    let device = || given.map_or_else(|| Gpu::new().map(Arc::new), |gpu| Ok(Arc::clone(gpu)));
-    let Some(first) = plan.first_kernel() else {
-        return on_cpu("nothing runs".to_owned());
-    };
-    match offload {
-        Offload::Cpu => on_cpu("asked for".to_owned()),
-        Offload::Gpu => on_gpu(plan, rows, offload, first, device()?),
-        Offload::From(name) => {
-            let name = beginning(name);
-            if !plan.runs(name) {
-                return on_cpu(format!("{name} does not run in this scene"));
-            }
-            on_gpu(plan, rows, offload, name, device()?)
+type Placed = (Placement, Option<Arc<Gpu>>);
+
+impl Request<'_> {
+    /// Decides where the step runs, on the device that the host gives or one of its own.
+    fn place(&self) -> Result<Placed, WorldError> {
+        let offload = &self.options.offload;
+        let on_gpu = self.plan.kernels_on_gpu(offload)?;
+        if on_gpu.is_empty() {
+            let why = match offload {
+                Offload::From(name) => format!("{name} does not run in this scene"),
+                Offload::Each(_) => "none of the kernels for a GPU runs in this scene".to_owned(),
+                _ => "nothing runs".to_owned(),
+            };
+            return Ok(self.on_cpu(why));
         }
-        Offload::Auto => {
-            let few = rows.fluid + rows.nodes;
-            if few < ROWS_FOR_GPU {
-                return on_cpu(format!("{few} particles and nodes, of {ROWS_FOR_GPU} that are worth a GPU"));
+        let lacking = on_gpu.iter().copied().find(|name| !has_twin(name));
+        if *offload != Offload::Auto {
+            if let Some(kernel) = lacking {
+                return Err(GpuError::NoTwin { kernel }.into());
             }
-            match device() {
-                Ok(gpu) if gpu.report().is_software() => {
-                    on_cpu(format!("`{}` is a program on the CPU", gpu.report().name))
-                }
-                Ok(gpu) => on_gpu(plan, rows, offload, first, gpu),
-                Err(error) => on_cpu(error.to_string()),
+            return Ok(self.on_gpu(on_gpu, self.device()?));
+        }
+        if let Some(kernel) = lacking {
+            return Ok(self.on_cpu(GpuError::NoTwin { kernel }.to_string()));
+        }
+        let few = self.rows.fluid + self.rows.nodes;
+        if few < ROWS_FOR_GPU {
+            return Ok(
+                self.on_cpu(format!("{few} particles and nodes, of {ROWS_FOR_GPU} that are worth a GPU"))
+            );
+        }
+        Ok(match self.device() {
+            Ok(gpu) if gpu.report().is_software() => {
+                self.on_cpu(format!("`{}` is a program on the CPU", gpu.report().name))
             }
+            Ok(gpu) => self.on_gpu(on_gpu, gpu),
+            Err(error) => self.on_cpu(error.to_string()),
+        })
+    }
+
+    fn device(&self) -> Result<Arc<Gpu>, GpuError> {
+        let given = self.options.gpu.as_ref();
+        given.map_or_else(|| Gpu::new().map(Arc::new), |gpu| Ok(Arc::clone(gpu)))
+    }
+
+    fn on_cpu(&self, reason: String) -> Placed {
+        (Placement::cpu(self.options.offload.clone(), reason), None)
+    }
+
+    fn on_gpu(&self, on_gpu: Vec<&'static str>, gpu: Arc<Gpu>) -> Placed {
+        let report = gpu.report();
+        let reason = format!("{} ({})", report.name, report.driver);
+        let transfers = self.transfers(&on_gpu);
+        (Placement { offload: self.options.offload.clone(), on_gpu, reason, transfers }, Some(gpu))
+    }
+
+    /// What travels in every step.
+    fn transfers(&self, on_gpu: &[&'static str]) -> Vec<Transfer> {
+        let shares = self.plan.shares_with(on_gpu, &looked_at(&self.options.observed));
+        if shares.are_all_on_gpu() {
+            return self.few_transfers();
+        }
+        let mut all: Vec<Transfer> = Vec::new();
+        for share in shares.segments.iter().filter(|share| !share.needs.is_empty()) {
+            let line = share.line;
+            let mut transfer = self.columns(&share.needs, share.place == Place::Gpu);
+            transfer.before = share.kernels().next().map(|kernel| kernel.name);
+            transfer.line = Some(line);
+            let same = |other: &&mut Transfer| {
+                (other.line, other.to_device, &other.what) == (Some(line), transfer.to_device, &transfer.what)
+            };
+            match all.iter_mut().find(same) {
+                Some(other) => other.times += 1,
+                None => all.push(transfer),
+            }
+        }
+        if !shares.fetched.is_empty() {
+            all.push(self.columns(&shares.fetched, false));
+        }
+        all
+    }
+
+    fn columns(&self, columns: &[Column], to_device: bool) -> Transfer {
+        let bytes = |column: &Column| column_bytes(self.params, self.rows, *column);
+        let names: Vec<_> =
+            columns.iter().filter(|column| bytes(column) > 0).map(|column| column.name()).collect();
+        Transfer {
+            before: None,
+            line: None,
+            to_device,
+            what: names.join(", "),
+            bytes: columns.iter().map(bytes).sum(),
+            times: 1,
         }
     }
-}
 
-fn on_gpu(
-    plan: &Plan,
-    rows: RowCounts,
-    offload: Offload,
-    first: &'static str,
-    gpu: Arc<Gpu>,
-) -> Result<(Placement, Option<Arc<Gpu>>), GpuError> {
-    let report = gpu.report();
-    let reason = format!("{} ({})", report.name, report.driver);
-    let transfers = transfers(plan, rows, first);
-    Ok((Placement { offload, first: Some(first), reason, transfers }, Some(gpu)))
-}
-
-/// What travels in every step.
-fn transfers(plan: &Plan, rows: RowCounts, first: &'static str) -> Vec<Transfer> {
-    let shares = plan.shares_from(Some(first));
-    let bodies = rows.bodies as u64;
-    if !shares.cpu.is_empty() {
-        let all = |columns: &[Column]| {
-            let names: Vec<_> = columns.iter().map(|column| column.name()).collect();
-            let bytes = columns.iter().map(|column| rows.of(column.store()) as u64 * 16).sum();
-            (names.join(", "), bytes)
+    /// What travels where everything is on the device.
+    fn few_transfers(&self) -> Vec<Transfer> {
+        let (clock, bodies) = (CLOCK_BYTES, self.rows.bodies as u64);
+        let transfer = |before: Option<&'static str>, to_device, what: &str, bytes| Transfer {
+            before,
+            line: before.and_then(|name| self.plan.lines().iter().position(|line| line.name == name)),
+            to_device,
+            what: what.to_owned(),
+            bytes,
+            times: 1,
         };
-        let ((sent, sent_bytes), (fetched, fetched_bytes)) = (all(&shares.sent), all(&shares.fetched));
-        return vec![
-            Transfer { before: Some(first), to_device: true, what: sent, bytes: sent_bytes },
-            Transfer { before: None, to_device: false, what: fetched, bytes: fetched_bytes },
-        ];
+        if bodies == 0 {
+            return vec![transfer(None, false, "clock (once for the steps of a frame)", clock)];
+        }
+        let first = self.plan.lines().iter().map(|line| line.name).find(|name| self.plan.runs(name));
+        let wrenches = "clock, bodies.fluid_wrenches, bodies.node_wrenches";
+        vec![
+            transfer(first, true, "bodies.states", bodies * 144),
+            transfer(Some("rigid::step"), false, wrenches, clock + bodies * 64),
+        ]
     }
-    let clock = 128;
-    if bodies == 0 {
-        let what = "clock (once for the steps of a frame)".to_owned();
-        return vec![Transfer { before: None, to_device: false, what, bytes: clock }];
-    }
-    let wrenches = "clock, bodies.fluid_wrenches, bodies.node_wrenches".to_owned();
-    vec![
-        Transfer {
-            before: Some(first),
-            to_device: true,
-            what: "bodies.states".to_owned(),
-            bytes: bodies * 144,
-        },
-        Transfer {
-            before: Some("rigid::step"),
-            to_device: false,
-            what: wrenches,
-            bytes: clock + bodies * 64,
-        },
-    ]
 }

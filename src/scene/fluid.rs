@@ -19,7 +19,7 @@ pub struct Fluid {
     ///
     /// Below 1.8 a particle has too few neighbours; cost grows with the cube.
     pub support: f32,
-    /// How pressure is found; default `wcsph`.
+    /// How pressure is found; default `dfsph`.
     pub solver: FluidSolver,
     /// Mean error of the density, of either sign, at which the `dfsph` solve stops. Range 1e-6 to 0.1; default 0.001.
     ///
@@ -55,7 +55,7 @@ impl Default for Fluid {
             spacing: 0.005,
             rest_density: 1000.0,
             support: 2.0,
-            solver: FluidSolver::Wcsph,
+            solver: FluidSolver::Dfsph,
             density_tolerance: 1e-3,
             rounds: 50,
             equation_of_state: EquationOfState::Tait,
@@ -83,9 +83,9 @@ impl Fluid {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum FluidSolver {
     /// From the density, by an equation of state: weakly compressible, many short steps (the paper).
-    #[default]
     Wcsph,
     /// By a solve that keeps the density at rest density: few long steps \[BK17\].
+    #[default]
     Dfsph,
 }
 

@@ -114,7 +114,7 @@ pub struct Time {
     pub frame_rate: f32,
     /// Length of a run when the caller names none. Range 0 to 100000 s; default 10.
     pub duration: f32,
-    /// Longest step. Range 1e-6 to 0.1 s; default 0.002.
+    /// Longest step. Range 1e-6 to 0.1 s; default 0.004.
     ///
     /// Above about 0.005 the sponge's contacts become soft.
     pub maximum_step: f32,
@@ -129,7 +129,7 @@ pub struct Time {
 
 impl Default for Time {
     fn default() -> Self {
-        Self { frame_rate: 60.0, duration: 10.0, maximum_step: 0.002, minimum_step: 1e-6, courant: 0.25 }
+        Self { frame_rate: 60.0, duration: 10.0, maximum_step: 0.004, minimum_step: 1e-6, courant: 0.25 }
     }
 }
 

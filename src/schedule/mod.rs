@@ -3,12 +3,11 @@
 mod offload;
 mod plan;
 mod run;
+#[cfg(feature = "gpu")]
 mod shares;
 mod step;
 
-#[cfg(feature = "gpu")]
-pub(crate) use offload::beginning;
-pub use offload::{Offload, OffloadError, Place, Placement, Transfer};
+pub use offload::{Offload, OffloadError, Place, PlaceError, Placement, Transfer};
 pub use plan::{Content, Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
 #[cfg(feature = "gpu")]

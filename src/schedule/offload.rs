@@ -2,10 +2,10 @@
 
 use std::{fmt, str::FromStr};
 
-use sorb_kernels::kernel::kernel;
+use sorb_kernels::kernel::{KERNELS, Kernel, kernel};
 
 /// What the host wants to run on a GPU.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Offload {
     /// Nothing: everything on the CPU, with the same bits on every machine. The default.
     #[default]
@@ -14,39 +14,80 @@ pub enum Offload {
     Gpu,
     /// Everything, if there is a real adapter and enough rows to keep it busy; else nothing. The plan says why.
     Auto,
-    /// This kernel and all after it in the step; those before it on the CPU, with all columns sent to and fro in every
-    /// step. To find the kernel that differs.
+    /// This kernel and all after it in the step; those before it on the CPU, with what the other side made sent to and
+    /// fro in every step. To find the kernel that differs.
     From(&'static str),
+    /// Kernel by kernel, the last entry of a name counts; kernels that are not named run on the CPU. What the other
+    /// side made is sent to and fro in every step.
+    Each(Vec<(&'static str, Place)>),
 }
 
 impl Offload {
     /// Whether a GPU may be used at all.
     #[must_use]
-    pub fn wants_gpu(self) -> bool {
-        self != Self::Cpu
+    pub fn wants_gpu(&self) -> bool {
+        match self {
+            Self::Cpu => false,
+            Self::Each(list) => KERNELS.iter().any(|kernel| last(list, kernel) == Place::Gpu),
+            Self::Gpu | Self::Auto | Self::From(_) => true,
+        }
     }
+}
+
+/// The place that a list gives to a kernel.
+pub(super) fn last(list: &[(&'static str, Place)], kernel: &Kernel) -> Place {
+    let entry = list.iter().rev().find(|(name, _)| *name == kernel.name);
+    entry.map_or(Place::Cpu, |(_, place)| *place)
 }
 
 /// A text that names no way to offload.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no backend; there are: cpu, gpu, auto, from:KERNEL with a kernel such as sph::density")]
+#[error(
+    "`{0}` is no backend; there are: cpu, gpu, auto, from:KERNEL with a kernel such as sph::density, and \
+     each:NAME=PLACE,.. with a kernel, a family such as sph, or all, and cpu or gpu"
+)]
 pub struct OffloadError(String);
 
 impl FromStr for Offload {
     type Err = OffloadError;
 
     fn from_str(text: &str) -> Result<Self, OffloadError> {
-        match text {
-            "cpu" => Ok(Self::Cpu),
-            "gpu" => Ok(Self::Gpu),
-            "auto" => Ok(Self::Auto),
-            other => other
-                .strip_prefix("from:")
-                .and_then(kernel)
-                .map(|kernel| Self::From(kernel.name))
-                .ok_or_else(|| OffloadError(text.to_owned())),
+        let offload = match text {
+            "cpu" => Some(Self::Cpu),
+            "gpu" => Some(Self::Gpu),
+            "auto" => Some(Self::Auto),
+            other => match other.split_once(':') {
+                Some(("from", name)) => kernel(name).map(|kernel| Self::From(kernel.name)),
+                Some(("each", entries)) => each(entries).map(Self::Each),
+                _ => None,
+            },
+        };
+        offload.ok_or_else(|| OffloadError(text.to_owned()))
+    }
+}
+
+/// Entries `NAME=PLACE`, with a kernel, a family or `all` for a name.
+fn each(entries: &str) -> Option<Vec<(&'static str, Place)>> {
+    let mut list = Vec::new();
+    for entry in entries.split(',') {
+        let (name, place) = entry.trim().split_once('=')?;
+        let place = match place {
+            "cpu" => Place::Cpu,
+            "gpu" => Place::Gpu,
+            _ => return None,
+        };
+        let is_meant = |kernel: &&&Kernel| {
+            name == "all"
+                || kernel.name == name
+                || kernel.name.split_once("::").is_some_and(|(family, _)| family == name)
+        };
+        let before = list.len();
+        list.extend(KERNELS.iter().filter(is_meant).map(|kernel| (kernel.name, place)));
+        if list.len() == before {
+            return None;
         }
     }
+    Some(list)
 }
 
 impl fmt::Display for Offload {
@@ -56,6 +97,10 @@ impl fmt::Display for Offload {
             Self::Gpu => formatter.write_str("gpu"),
             Self::Auto => formatter.write_str("auto"),
             Self::From(kernel) => write!(formatter, "from:{kernel}"),
+            Self::Each(list) => {
+                let entry = |(kernel, place): &(&str, Place)| format!("{kernel}={place}");
+                write!(formatter, "each:{}", list.iter().map(entry).collect::<Vec<_>>().join(","))
+            }
         }
     }
 }
@@ -69,13 +114,22 @@ pub enum Place {
     Gpu,
 }
 
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        })
+    }
+}
+
 /// Where a whole step runs, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
     /// What was asked for.
     pub offload: Offload,
-    /// The first kernel that runs on the GPU; none if all run on the CPU.
-    pub first: Option<&'static str>,
+    /// The kernels that run on the GPU; none if all run on the CPU.
+    pub on_gpu: Vec<&'static str>,
     /// Name of the adapter, and why it is used or not.
     pub reason: String,
     /// What is sent between host and device, in the order of a step.
@@ -87,18 +141,26 @@ pub struct Placement {
 pub struct Transfer {
     /// The phase that it is sent before; none for the end of the step.
     pub before: Option<&'static str>,
+    /// The line of the plan that this phase is, from 0.
+    pub line: Option<usize>,
     /// Whether it is sent to the device, else from it.
     pub to_device: bool,
     /// What is sent: columns, or `clock`.
     pub what: String,
-    /// How much \[B\].
+    /// How much at a time \[B\]; lists as long as those of a fluid and a lattice at rest.
     pub bytes: u64,
+    /// How often in a step: less than the phase is repeated if later rounds need less.
+    pub times: u32,
 }
 
 impl fmt::Display for Transfer {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verb = if self.to_device { "send" } else { "fetch" };
-        write!(formatter, "{verb:5} {}: {} bytes", self.what, self.bytes)
+        write!(formatter, "{verb:5} ")?;
+        if self.times > 1 {
+            write!(formatter, "{} x ", self.times)?;
+        }
+        write!(formatter, "{}: {} bytes", self.what, self.bytes)
     }
 }
 
@@ -106,19 +168,44 @@ impl Placement {
     /// Everything on the CPU.
     #[must_use]
     pub fn cpu(offload: Offload, reason: impl Into<String>) -> Self {
-        Self { offload, first: None, reason: reason.into(), transfers: Vec::new() }
+        Self { offload, on_gpu: Vec::new(), reason: reason.into(), transfers: Vec::new() }
     }
 }
 
-/// Kernels that go through the cells that `grid::sort_fluid` made, which do not travel: where the sort runs on the CPU,
-/// so do they, and before everything else that does not.
-pub(crate) const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
-
-/// The kernel that [`Offload::From`] really begins with: the sort, where it names the search that goes with it.
-#[cfg(feature = "gpu")]
-pub(crate) fn beginning(name: &'static str) -> &'static str {
-    if name == "grid::fluid_neighbors" { "grid::sort_fluid" } else { name }
+/// Kernels are asked for at places where they cannot be.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PlaceError {
+    /// A kernel that needs the cells of another is elsewhere.
+    #[error(
+        "backend `{kernel}={place}`: it goes through the cells of {sort}, which do not travel; both run at one place"
+    )]
+    BesideSort {
+        /// The kernel.
+        kernel: &'static str,
+        /// Where it is asked for.
+        place: Place,
+        /// What it must be with.
+        sort: &'static str,
+    },
+    /// Kernels that are repeated until they have converged are at two places.
+    #[error(
+        "backend `{kernel}={place}`: it is repeated with {with} until they have converged; both run at one place"
+    )]
+    Apart {
+        /// The kernel.
+        kernel: &'static str,
+        /// Where it is asked for.
+        place: Place,
+        /// What it must be with.
+        with: &'static str,
+    },
+    /// No kernel has this name.
+    #[error("backend: there is no kernel `{0}`")]
+    Unknown(&'static str),
 }
+
+/// Kernels that go through the cells that `grid::sort_fluid` made, which do not travel: they run where the sort does.
+pub(crate) const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
 
 #[cfg(test)]
 mod tests {
@@ -127,12 +214,30 @@ mod tests {
 
     #[test]
     fn names_round_trip_and_others_are_refused() {
-        for offload in [Offload::Cpu, Offload::Gpu, Offload::Auto, Offload::From(KERNELS[5].name)] {
+        let list = vec![(KERNELS[3].name, Place::Gpu), (KERNELS[4].name, Place::Cpu)];
+        let from = Offload::From(KERNELS[5].name);
+        for offload in [Offload::Cpu, Offload::Gpu, Offload::Auto, from, Offload::Each(list)] {
             assert_eq!(offload.to_string().parse(), Ok(offload));
         }
-        for bad in ["", "cuda", "from:", "from:sph::nothing", "sph::density"] {
+        let bad = ["", "cuda", "from:", "from:sph::nothing", "sph::density", "each:", "each:sph::density"];
+        let each = ["each:sph::nothing=gpu", "each:s=gpu", "each:sph=cuda", "each:sph=gpu,"];
+        for bad in bad.into_iter().chain(each) {
             let error = bad.parse::<Offload>().map_err(|error| error.to_string());
             assert!(error.is_err_and(|error| error.contains("from:KERNEL")), "{bad}");
         }
+    }
+    #[test]
+    fn lists_name_kernels_families_and_all_and_the_last_entry_counts() {
+        let place = |text: &str, name: &str| match text.parse() {
+            Ok(Offload::Each(list)) => kernel(name).map(|kernel| last(&list, kernel)),
+            other => panic!("{other:?}"),
+        };
+        let text = "each:all=gpu,sph=cpu, sph::kick=gpu";
+        assert_eq!(place(text, "pbd::strain"), Some(Place::Gpu));
+        assert_eq!(place(text, "sph::density"), Some(Place::Cpu));
+        assert_eq!(place(text, "sph::kick"), Some(Place::Gpu));
+        assert_eq!(place("each:pbd::strain=gpu", "sph::kick"), Some(Place::Cpu));
+        let wants = |text: &str| text.parse::<Offload>().is_ok_and(|offload| offload.wants_gpu());
+        assert!(wants(text) && !wants("each:all=gpu,all=cpu"));
     }
 }

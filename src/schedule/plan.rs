@@ -106,15 +106,21 @@ impl Plan {
     /// Where a phase runs.
     #[must_use]
     pub fn place(&self, name: &str) -> Place {
-        let shares = self.shares();
-        let on_gpu = shares.gpu.iter().any(|kernel| kernel.name == name);
-        if on_gpu { Place::Gpu } else { Place::Cpu }
+        let on_gpu = self.placement.as_ref().map_or(&[][..], |placement| &placement.on_gpu);
+        if on_gpu.contains(&name) { Place::Gpu } else { Place::Cpu }
     }
 
     /// The same plan, placed.
     #[cfg(feature = "gpu")]
     pub(crate) fn placed(mut self, placement: Placement) -> Self {
         self.placement = Some(placement);
+        self
+    }
+
+    /// The same plan, all of it on the CPU.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn unplaced(mut self) -> Self {
+        self.placement = None;
         self
     }
 
@@ -239,12 +245,12 @@ impl PlanLine {
 impl fmt::Display for Plan {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let transfers = self.placement.as_ref().map_or(&[][..], |placement| &placement.transfers);
-        if let Some(Placement { offload, first, reason, .. }) = &self.placement {
-            let place = if first.is_some() { "gpu" } else { "cpu" };
+        if let Some(Placement { offload, on_gpu, reason, .. }) = &self.placement {
+            let place = if on_gpu.is_empty() { "cpu" } else { "gpu" };
             writeln!(formatter, "backend {place}, of {offload}: {reason}")?;
         }
-        for line in &self.lines {
-            for transfer in transfers.iter().filter(|transfer| transfer.before == Some(line.name)) {
+        for (index, line) in self.lines.iter().enumerate() {
+            for transfer in transfers.iter().filter(|transfer| transfer.line == Some(index)) {
                 writeln!(formatter, "{transfer}")?;
             }
             let repeat = match line.repeat {
@@ -264,7 +270,7 @@ impl fmt::Display for Plan {
                 Verdict::Skipped(reason) => writeln!(formatter, "skip  {repeat}{}: {reason}", line.name)?,
             }
         }
-        for transfer in transfers.iter().filter(|transfer| transfer.before.is_none()) {
+        for transfer in transfers.iter().filter(|transfer| transfer.line.is_none()) {
             writeln!(formatter, "{transfer}")?;
         }
         Ok(())

@@ -1,89 +1,308 @@
-//! The share of a step that a device has.
+//! The shares of a step that CPU and device have, and what travels between them.
 
-use sorb_kernels::{columns::Column, kernel::Kernel};
-
-use super::{
-    offload::BESIDE_SORT,
-    plan::{Plan, Verdict, Work},
+use sorb_kernels::{
+    columns::{Column, Life},
+    gpu::Stage,
+    kernel::Kernel,
 };
 
-/// Kernels of a step by place, repetitions written out, and what travels between them.
+use super::{
+    offload::{BESIDE_SORT, Offload, Place, PlaceError, last},
+    plan::{Plan, PlanLine, Verdict, Work},
+};
+
+/// Kernels that run one after the other at one place.
+#[derive(Clone, Debug)]
+pub(crate) struct Segment {
+    pub(crate) place: Place,
+    pub(crate) stages: Vec<Stage>,
+    /// The line of the plan of the first.
+    pub(crate) line: usize,
+    /// Columns that these kernels need and that only the other side has.
+    pub(crate) needs: Vec<Column>,
+    /// Whether the particles are in the order of this step when it begins.
+    pub(crate) is_sorted: bool,
+}
+
+/// A step, place by place.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shares {
-    /// On the CPU, before all others.
-    pub(crate) cpu: Vec<&'static Kernel>,
-    /// On the device.
-    pub(crate) gpu: Vec<&'static Kernel>,
-    /// Columns that the device needs and does not make itself.
-    pub(crate) sent: Vec<Column>,
-    /// Columns that the device makes.
+    /// In order, repetitions written out.
+    pub(crate) segments: Vec<Segment>,
+    /// Columns that the host fetches at the end of the step.
     pub(crate) fetched: Vec<Column>,
-    /// Whether the particles are sorted before the device has its turn.
-    pub(crate) sort_is_done: bool,
+}
+
+impl Shares {
+    /// Whether the device does all of it.
+    pub(crate) fn are_all_on_gpu(&self) -> bool {
+        !self.segments.is_empty() && self.segments.iter().all(|segment| segment.place == Place::Gpu)
+    }
+
+    /// Kernels of the device, in order, repetitions written out.
+    pub(crate) fn on_gpu(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
+        let segments = self.segments.iter().filter(|segment| segment.place == Place::Gpu);
+        segments.flat_map(Segment::kernels)
+    }
+}
+
+impl Segment {
+    /// Its kernels, in order.
+    pub(crate) fn kernels(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
+        self.stages.iter().flat_map(Stage::kernels).copied()
+    }
+
+    /// Adds a kernel, to the last stage if that repeats the same group.
+    fn push(&mut self, kernel: &'static Kernel, rounds: Option<u32>, is_same: bool) {
+        match (self.stages.last_mut(), rounds) {
+            (Some(Stage::Rounds { kernels, .. }), Some(_)) if is_same => kernels.push(kernel),
+            (_, Some(maximum)) => self.stages.push(Stage::Rounds { maximum, kernels: vec![kernel] }),
+            (_, None) => self.stages.push(Stage::Run(kernel)),
+        }
+    }
+}
+
+/// A kernel or host phase at its place, and its line in the plan.
+#[derive(Clone, Copy, Debug)]
+struct Placed {
+    work: Work,
+    line: usize,
+    place: Place,
+    /// The group that is repeated until it has converged, and its most rounds.
+    until: Option<(usize, u32)>,
+}
+
+/// Values beside lists do not travel: each side computes them from lists and points.
+const WEIGHTS: [(Column, Column, &[Column]); 3] = [
+    (Column::FluidControlWeights, Column::FluidControls, POINTS),
+    (Column::ControlFluidWeights, Column::ControlFluid, POINTS),
+    (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted]),
+];
+
+/// What weights of the coupling are functions of, beside lists.
+const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
+
+/// Columns with an up-to-date copy, by place.
+#[derive(Clone, Debug)]
+struct Fresh {
+    host: Vec<Column>,
+    device: Vec<Column>,
+}
+
+impl Fresh {
+    /// As a state is uploaded.
+    fn at_upload() -> Self {
+        let lives = |column: &Column| column.life() != Life::Scratch;
+        Self { host: Column::ALL.to_vec(), device: Column::ALL.iter().copied().filter(lives).collect() }
+    }
+
+    fn at(&mut self, place: Place) -> (&mut Vec<Column>, &mut Vec<Column>) {
+        match place {
+            Place::Cpu => (&mut self.host, &mut self.device),
+            Place::Gpu => (&mut self.device, &mut self.host),
+        }
+    }
+
+    /// Columns that are to be sent to a place before it reads `column`; they are fresh there from then on.
+    fn bring(&mut self, column: Column, place: Place) -> Vec<Column> {
+        let (here, _) = self.at(place);
+        if here.contains(&column) {
+            return Vec::new();
+        }
+        here.push(column);
+        let Some((_, lists, points)) = WEIGHTS.iter().find(|(weights, ..)| *weights == column) else {
+            return vec![column];
+        };
+        // A device computes weights where it needs them: points suffice. The host has to compute them first.
+        let mut sources = points.to_vec();
+        if place == Place::Cpu {
+            sources.push(*lists);
+        }
+        let mut sent: Vec<Column> =
+            sources.into_iter().flat_map(|source| self.bring(source, place)).collect();
+        if place == Place::Cpu {
+            sent.push(column);
+        }
+        sent
+    }
+
+    fn write(&mut self, column: Column, place: Place) {
+        let (here, there) = self.at(place);
+        there.retain(|other| *other != column);
+        if !here.contains(&column) {
+            here.push(column);
+        }
+    }
+}
+
+/// What a kernel reads and writes where it is placed. Particles are brought back from the order of the step as a
+/// whole, their identity with them.
+fn moved(work: Work) -> (Vec<Column>, Vec<Column>) {
+    let (reads, writes, name) = match work {
+        Work::Kernel(kernel) => (kernel.reads, kernel.writes, kernel.name),
+        Work::Host(host) => (host.reads, host.writes, host.name),
+    };
+    let (mut reads, mut writes) = (reads.to_vec(), writes.to_vec());
+    if name == "sph::advect" {
+        reads.push(Column::FluidId);
+        writes.push(Column::FluidId);
+    }
+    (reads, writes)
 }
 
 impl Plan {
-    /// Kernels that run, in order, repetitions written out.
-    fn kernels(&self) -> Vec<&'static Kernel> {
+    /// What runs, in order, repetitions written out.
+    fn placed_work(&self, on_gpu: &[&str]) -> Vec<Placed> {
         let mut all = Vec::new();
-        let lines = self.lines();
-        for group in lines.chunk_by(|a, b| a.group().is_some() && a.group() == b.group()) {
-            let times = group[0].repeat.map_or(1, |(_, times)| times);
+        let mut first = 0;
+        for group in self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group()) {
+            let until = group[0].repeat.filter(|_| group[0].until_converged);
+            let times = group[0].repeat.filter(|_| until.is_none()).map_or(1, |(_, times)| times);
             for _ in 0..times {
-                for line in group.iter().filter(|line| line.verdict == Verdict::Runs) {
-                    if let Work::Kernel(kernel) = line.work {
-                        all.push(kernel);
-                    }
+                for (index, line) in
+                    group.iter().enumerate().filter(|(_, line)| line.verdict == Verdict::Runs)
+                {
+                    let place = if on_gpu.contains(&line.name) { Place::Gpu } else { Place::Cpu };
+                    all.push(Placed { work: line.work, line: first + index, place, until });
                 }
             }
+            first += group.len();
         }
         all
     }
 
-    /// The first kernel that runs.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn first_kernel(&self) -> Option<&'static str> {
-        self.kernels().first().map(|kernel| kernel.name)
-    }
-
-    /// Whether a kernel runs.
-    #[cfg(feature = "gpu")]
+    /// Whether a phase runs.
     pub(crate) fn runs(&self, name: &str) -> bool {
         self.lines().iter().any(|line| line.name == name && line.verdict == Verdict::Runs)
     }
 
-    /// The shares of CPU and device, as the plan is placed.
-    pub(crate) fn shares(&self) -> Shares {
-        let first = self.placement().and_then(|placement| placement.first);
-        self.shares_from(first)
+    /// The kernels that run on a GPU, of those that run.
+    ///
+    /// # Errors
+    /// Kernels are asked for at places where they cannot be.
+    pub(crate) fn kernels_on_gpu(&self, offload: &Offload) -> Result<Vec<&'static str>, PlaceError> {
+        const SORT: &str = "grid::sort_fluid";
+        let kernels: Vec<&'static Kernel> = self
+            .lines()
+            .iter()
+            .filter(|line| line.verdict == Verdict::Runs)
+            .filter_map(|line| match line.work {
+                Work::Kernel(kernel) => Some(kernel),
+                Work::Host(_) => None,
+            })
+            .collect();
+        let names = kernels.iter().map(|kernel| kernel.name);
+        match offload {
+            Offload::Cpu => Ok(Vec::new()),
+            Offload::Gpu | Offload::Auto => Ok(names.collect()),
+            Offload::From(first) => {
+                let first = if *first == BESIDE_SORT[0] { SORT } else { self.first_of_rounds(first) };
+                let all: Vec<_> = names.skip_while(|name| *name != first).collect();
+                let is_sorted_there = all.contains(&SORT);
+                let stays = |name: &&str| is_sorted_there || !BESIDE_SORT.contains(name);
+                Ok(all.into_iter().filter(stays).collect())
+            }
+            Offload::Each(list) => {
+                let is_known = |name: &str| sorb_kernels::kernel::kernel(name).is_some();
+                if let Some((name, _)) = list.iter().find(|(name, _)| !is_known(name)) {
+                    return Err(PlaceError::Unknown(name));
+                }
+                let place = |name: &str| {
+                    let kernel = kernels.iter().find(|kernel| kernel.name == name);
+                    kernel.map(|kernel| last(list, kernel))
+                };
+                for name in BESIDE_SORT {
+                    let (here, there) = (place(name), place(SORT));
+                    if let (Some(place), true) = (here, here.is_some() && there.is_some() && here != there) {
+                        return Err(PlaceError::BesideSort { kernel: name, place, sort: SORT });
+                    }
+                }
+                for group in self.rounds() {
+                    let mut places = group.iter().map(|line| (line.name, place(line.name)));
+                    let Some((with, there)) = places.next() else { continue };
+                    if let Some((kernel, Some(place))) = places.find(|(_, here)| *here != there) {
+                        return Err(PlaceError::Apart { kernel, place, with });
+                    }
+                }
+                Ok(names.filter(|name| place(name) == Some(Place::Gpu)).collect())
+            }
+        }
     }
 
-    /// The shares if the device has everything from `first` on.
-    pub(crate) fn shares_from(&self, first: Option<&str>) -> Shares {
-        let mut shares = Shares { cpu: self.kernels(), ..Shares::default() };
-        let Some(at) = first.and_then(|first| shares.cpu.iter().position(|kernel| kernel.name == first))
-        else {
-            return shares;
-        };
-        shares.gpu = shares.cpu.split_off(at);
-        shares.sort_is_done = shares.cpu.iter().any(|kernel| kernel.name == "grid::sort_fluid");
-        if shares.sort_is_done {
-            let (beside, rest) = shares.gpu.iter().partition(|kernel| BESIDE_SORT.contains(&kernel.name));
-            shares.gpu = rest;
-            shares.cpu.extend::<Vec<_>>(beside);
-        }
-        for kernel in &shares.gpu {
-            for column in kernel.reads.iter().filter(|column| !shares.fetched.contains(column)) {
-                if !shares.sent.contains(column) {
-                    shares.sent.push(*column);
-                }
-            }
-            for column in kernel.writes {
-                if !shares.fetched.contains(column) {
-                    shares.fetched.push(*column);
-                }
-            }
-        }
-        shares
+    /// Groups that are repeated until they have converged, of lines that run.
+    fn rounds(&self) -> impl Iterator<Item = Vec<&PlanLine>> {
+        let groups = self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group());
+        groups
+            .filter(|group| group[0].until_converged)
+            .map(|group| group.iter().filter(|line| line.verdict == Verdict::Runs).collect())
     }
+
+    /// The first kernel of the group that this one is repeated in until it has converged; else the kernel.
+    fn first_of_rounds(&self, name: &'static str) -> &'static str {
+        let group = self.rounds().find(|group| group.iter().any(|line| line.name == name));
+        group.map_or(name, |group| group[0].name)
+    }
+
+    /// The shares of CPU and device, as the plan is placed; `looked_at` are columns that the host wants after a step.
+    pub(crate) fn shares(&self, looked_at: &[Column]) -> Shares {
+        let on_gpu = self.placement().map_or(&[][..], |placement| &placement.on_gpu);
+        self.shares_with(on_gpu, looked_at)
+    }
+
+    /// The shares if the device has these kernels.
+    pub(crate) fn shares_with(&self, on_gpu: &[&str], looked_at: &[Column]) -> Shares {
+        let work = self.placed_work(on_gpu);
+        let mut fresh = Fresh::at_upload();
+        // What a step leaves on the device is there for the next one: only the second shows what travels in all others.
+        shares_of(&work, &mut fresh, looked_at);
+        shares_of(&work, &mut fresh, looked_at)
+    }
+}
+
+/// The shares of a step that begins with these columns up to date.
+fn shares_of(work: &[Placed], fresh: &mut Fresh, looked_at: &[Column]) -> Shares {
+    let mut shares = Shares::default();
+    let mut is_sorted = false;
+    let mut last: Option<&Placed> = None;
+    for placed in work {
+        let Work::Kernel(kernel) = placed.work else { continue };
+        let (reads, writes) = moved(placed.work);
+        let begins = shares.segments.last().is_none_or(|last| last.place != placed.place);
+        if begins {
+            let segment = Segment {
+                place: placed.place,
+                stages: Vec::new(),
+                line: placed.line,
+                needs: Vec::new(),
+                is_sorted,
+            };
+            shares.segments.push(segment);
+        }
+        if let Some(segment) = shares.segments.last_mut() {
+            for column in reads {
+                segment.needs.extend(fresh.bring(column, placed.place));
+            }
+            let is_same = last.is_some_and(|last| last.until == placed.until);
+            segment.push(kernel, placed.until.map(|(_, maximum)| maximum), is_same);
+        }
+        writes.into_iter().for_each(|column| fresh.write(column, placed.place));
+        match kernel.name {
+            "grid::sort_fluid" => is_sorted = true,
+            "sph::advect" => is_sorted = false,
+            _ => {}
+        }
+        last = Some(placed);
+    }
+    // The host keeps the state, looks at it, and has phases of its own.
+    let state = |column: &Column| column.life() == Life::State || looked_at.contains(column);
+    let mut wanted: Vec<Column> = Column::ALL.iter().copied().filter(state).collect();
+    let host = work.iter().filter(|placed| matches!(placed.work, Work::Host(_)));
+    host.clone().for_each(|placed| wanted.extend(moved(placed.work).0));
+    if last.is_some() {
+        shares.fetched = wanted.into_iter().flat_map(|column| fresh.bring(column, Place::Cpu)).collect();
+    }
+    for column in host.flat_map(|placed| moved(placed.work).1) {
+        fresh.write(column, Place::Cpu);
+    }
+    shares
 }

@@ -42,6 +42,10 @@ pub enum WorldError {
     #[cfg(not(feature = "gpu"))]
     #[error("backend `{0}`: built without the feature `gpu`")]
     NeedsGpu(crate::schedule::Offload),
+    /// Kernels are asked for at places where they cannot be.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Place(#[from] crate::schedule::PlaceError),
     /// A GPU was asked for, and there is none that can be used.
     #[cfg(feature = "gpu")]
     #[error(transparent)]
@@ -92,7 +96,8 @@ pub enum StepError {
     /// The engine of the bodies failed.
     #[error("rigid bodies: {0}")]
     Rigid(String),
-    /// The GPU failed. A clone of the world that was made before can go on: it uploads its state anew.
+    /// The GPU failed. [`crate::World::move_to`] goes on elsewhere from the state that was looked at last; a clone that
+    /// was made before goes on as well: it uploads its state anew.
     #[cfg(feature = "gpu")]
     #[error(transparent)]
     Gpu(#[from] crate::gpu::GpuError),

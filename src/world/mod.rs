@@ -90,11 +90,13 @@ pub struct World {
     pub(crate) stores: Stores,
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
-    plan: Plan,
+    pub(crate) plan: Plan,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
-    failed: Option<StepError>,
+    pub(crate) failed: Option<StepError>,
+    #[cfg(feature = "gpu")]
+    pub(crate) options: Options,
 }
 
 impl World {
@@ -143,10 +145,10 @@ impl World {
         let steps = Steps::new(scene, &params);
         #[cfg(not(feature = "gpu"))]
         if options.offload.wants_gpu() {
-            return Err(WorldError::NeedsGpu(options.offload));
+            return Err(WorldError::NeedsGpu(options.offload.clone()));
         }
         #[cfg(feature = "gpu")]
-        let (plan, device) = crate::gpu::placed(plan, columns.rows, &steps, options)?;
+        let (plan, device) = crate::gpu::placed(plan, columns.rows, &params, &steps, options)?;
         let stores = Stores {
             host: columns,
             #[cfg(feature = "gpu")]
@@ -164,6 +166,8 @@ impl World {
             plan,
             clock: Clock::default(),
             failed: None,
+            #[cfg(feature = "gpu")]
+            options: options.clone(),
         };
         let Columns { rows, fluid, nodes, .. } = &world.stores.host;
         world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);

@@ -5,18 +5,22 @@
 
 use sorb::{
     glam::Vec3,
-    scene::{self, Motion, Scene},
+    scene::{self, FluidSolver, Motion, Scene},
 };
 
 /// All presets, in the order of the documentation.
 pub(crate) const SCENES: [&str; 8] =
     ["standing", "ball_drop", "squish", "dam_break", "wring", "water", "dry", "empty"];
 
-/// A preset at a resolution, in the middle of things.
+/// A preset at a resolution, in the middle of things; with `_wcsph` behind its name, with the equation of state.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
+    let (name, wcsph) = name.strip_suffix("_wcsph").map_or((name, false), |name| (name, true));
     let mut scene = scene::preset(name)
         .and_then(|scene| scene.scaled(resolution))
         .unwrap_or_else(|error| panic!("{name}: {error}"));
+    if let Some(fluid) = scene.fluid.as_mut().filter(|_| wcsph) {
+        fluid.solver = FluidSolver::Wcsph;
+    }
     match name {
         "ball_drop" | "dry" => {
             // A radius of 3 cm on a sponge of 8 cm: just above the surface, off centre, falling.

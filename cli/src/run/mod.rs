@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let options = Options {
         threads: arguments.threads,
         simd: arguments.simd.0,
-        offload: arguments.backend,
+        offload: arguments.backend.clone(),
         #[cfg(feature = "gpu")]
         gpu_times: arguments.gpu_times,
         ..Options::default()

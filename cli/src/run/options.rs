@@ -27,7 +27,8 @@ pub(crate) struct Arguments {
     /// SIMD level: auto, fallback, sse2, sse4.2, avx2, avx512 or neon; results do not depend on it
     #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = simd, hide_possible_values = true)]
     pub(super) simd: Simd,
-    /// Where to run: cpu, gpu, auto (a GPU if it is worth it), or from:KERNEL (that kernel and all after it on the GPU)
+    /// Where to run: cpu, gpu, auto (a GPU if it is worth it), from:KERNEL (that kernel and all after it on the GPU), or
+    /// each:NAME=PLACE,.. with kernels, families or all for names, and cpu or gpu
     #[arg(long, value_name = "BACKEND", default_value = "cpu")]
     pub(super) backend: Offload,
     /// Takes the time of every kernel on the GPU, which makes its steps a little longer

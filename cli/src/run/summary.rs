@@ -53,7 +53,11 @@ impl Summary {
         let particle_steps = particles as f64 * clock.steps as f64;
         Self {
             scene: world.scene().name.clone(),
-            backend: if placement.is_some_and(|placement| placement.first.is_some()) { "gpu" } else { "cpu" },
+            backend: if placement.is_some_and(|placement| !placement.on_gpu.is_empty()) {
+                "gpu"
+            } else {
+                "cpu"
+            },
             backend_reason: placement.map(|placement| format!("{}: {}", placement.offload, placement.reason)),
             threads: world.cpu().threads(),
             simd: world.cpu().simd().name(),

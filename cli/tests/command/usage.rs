@@ -39,6 +39,7 @@ fn an_unknown_or_missing_simd_level_names_those_there_are() {
 fn an_unknown_backend_names_those_there_are() {
     refused(&["water", "--backend", "cuda"], &["cuda", "cpu, gpu, auto, from:KERNEL"]);
     refused(&["water", "--backend", "from:sph::nothing"], &["sph::nothing", "from:KERNEL"]);
+    refused(&["water", "--backend", "each:sph=cuda"], &["each:sph=cuda", "each:NAME=PLACE"]);
 }
 
 #[cfg(not(feature = "gpu"))]

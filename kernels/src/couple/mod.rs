@@ -8,4 +8,6 @@ pub mod interior;
 pub mod saturation;
 pub mod suction;
 pub mod velocity_filter;
+#[cfg(feature = "gpu")]
+pub mod weights;
 pub mod zero_distance;

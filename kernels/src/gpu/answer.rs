@@ -1,10 +1,12 @@
 //! What is said to the device before steps, and what it says after them: the clock of `layout.wgsl`.
 
-use super::{pack::Capacities, transfer::vector};
+use super::{pack::Capacities, program::REPETITIONS, transfer::vector};
 use crate::body::Wrench;
 
-/// Bytes of the clock, and of the wrenches of a body.
-pub(super) const CLOCK_BYTES: u64 = 128;
+/// Words of the clock.
+pub(super) const CLOCK_WORDS: usize = 44;
+/// Bytes that come back after steps, beside 64 a body.
+pub const CLOCK_BYTES: u64 = CLOCK_WORDS as u64 * 4;
 pub(super) const WRENCH_BYTES: u64 = 64;
 
 /// What happened to the last step of a batch.
@@ -43,10 +45,18 @@ pub struct Answer {
     pub fluid_acceleration: f32,
     /// Largest speed of a node after the last step \[m/s\].
     pub node_speed: f32,
+    /// Root of the mean square of the pressure over rest density in the last step, where it is solved for \[m^2/s^2\].
+    pub fluid_pressure: f32,
     /// How many steps each bound limited.
     pub bounds: [u32; 12],
     /// What the last step gave to every body, by fluid and by sponges.
     pub wrenches: Vec<(Wrench, Wrench)>,
+    /// Rounds of repetitions that end when they have converged, of all steps since the time was set.
+    pub rounds: u32,
+    /// Most rounds that each of them took in these steps, in their order.
+    pub(super) most_rounds: [u32; REPETITIONS],
+    /// The repetition, counted from 1, of which more rounds are needed than were handed in, and how many it had.
+    pub(super) unfinished: Option<(usize, u32)>,
     /// Lengths of lists that did not fit.
     pub(super) longest: Option<Capacities>,
 }
@@ -62,6 +72,8 @@ pub struct Start {
     pub fluid_acceleration: f32,
     /// Largest speed of a node \[m/s\].
     pub node_speed: f32,
+    /// Root of the mean square of the pressure over rest density, where it is solved for \[m^2/s^2\].
+    pub fluid_pressure: f32,
 }
 
 /// `clock.wgsl` has these numbers too.
@@ -69,6 +81,7 @@ const NOT_FINITE_PARTICLE: u32 = 1;
 const NOT_FINITE_NODE: u32 = 2;
 const TOO_SMALL: u32 = 3;
 const LIST_FULL: u32 = 4;
+const UNFINISHED: u32 = 5;
 
 impl Answer {
     pub(super) fn new(clock: &[u32], wrenches: &[f32]) -> Self {
@@ -92,11 +105,15 @@ impl Answer {
             fluid_speed: float(5),
             fluid_acceleration: float(6),
             node_speed: float(7),
+            fluid_pressure: float(40),
             bounds: std::array::from_fn(|bound| clock[20 + bound]),
             wrenches: wrenches
                 .chunks_exact(16)
                 .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
                 .collect(),
+            rounds: clock[35],
+            most_rounds: std::array::from_fn(|index| clock[36 + index]),
+            unfinished: (status == UNFINISHED).then(|| (clock[34] as usize, clock[32])),
             longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15]]),
         }
     }

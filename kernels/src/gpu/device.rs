@@ -64,7 +64,7 @@ const TIMESTAMPS: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP
 /// can use. None is necessary.
 #[must_use]
 pub fn required_features(adapter: &Adapter) -> Features {
-    adapter.features() & TIMESTAMPS
+    adapter.features() & TIMESTAMPS.union(Features::SUBGROUP)
 }
 
 /// The limits that a host should request for a device that it hands in: WebGPU's defaults, with buffers as large as the
@@ -79,15 +79,20 @@ pub fn required_limits(adapter: &Adapter) -> Limits {
     }
 }
 
+/// Pipelines by shader, entry point and threads of a group.
+type Pipelines = BTreeMap<(&'static str, &'static str, u32), Arc<Pipeline>>;
+
 /// A device to run kernels on, and the pipelines compiled for it so far. Worlds can share one.
 pub struct Gpu {
     pub(super) device: Device,
     pub(super) queue: Queue,
     report: AdapterReport,
     pub(super) limits: Limits,
+    /// Whether prefix sums use subgroup operations.
+    pub(super) has_subgroups: bool,
     /// What the device reported outside any call.
     lost: Arc<Mutex<Option<String>>>,
-    pub(super) pipelines: Mutex<BTreeMap<(&'static str, &'static str), Arc<Pipeline>>>,
+    pub(super) pipelines: Mutex<Pipelines>,
 }
 
 impl fmt::Debug for Gpu {
@@ -148,14 +153,31 @@ impl Gpu {
             let text = format!("{reason:?}: {message}");
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
         });
-        Self {
+        let mut gpu = Self {
             report: AdapterReport::new(adapter),
             limits: device.limits(),
+            has_subgroups: device.features().contains(Features::SUBGROUP),
             device,
             queue,
             lost,
             pipelines: Mutex::default(),
-        }
+        };
+        gpu.has_subgroups = gpu.has_subgroups && gpu.subgroups_are_runs();
+        gpu
+    }
+
+    /// The same device without subgroup operations: for a test, and for a driver that gets them wrong.
+    #[must_use]
+    pub fn without_subgroups(mut self) -> Self {
+        self.has_subgroups = false;
+        self.pipelines = Mutex::default();
+        self
+    }
+
+    /// Whether prefix sums use subgroup operations: if the device has them, and its subgroups are runs of threads.
+    #[must_use]
+    pub fn has_subgroups(&self) -> bool {
+        self.has_subgroups
     }
 
     /// What the adapter is.

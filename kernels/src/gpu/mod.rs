@@ -20,20 +20,27 @@ mod error;
 mod pack;
 mod pipeline;
 mod profile;
+mod program;
 mod read;
 mod resident;
+#[cfg(test)]
+mod rounds;
 mod run;
+mod subgroups;
+mod sums;
 mod transfer;
 mod twins;
 
-pub use answer::{Answer, Outcome, Start};
+pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
 pub use error::GpuError;
 pub use pack::StepLimits;
 pub use profile::Profile;
+pub use program::{Program, Stage};
+pub use read::Pending;
 pub use resident::Resident;
-pub use run::Program;
-pub use transfer::is_internal;
+pub use sums::{FluidSums, NodeSums, Sums, TetSums};
+pub use transfer::{column_bytes, is_internal, make_room};
 pub use wgpu;
 
 /// Whether a kernel has a twin.
@@ -59,10 +66,21 @@ mod tests {
 
     #[test]
     fn every_shader_is_used_and_binds_at_most_eight_storage_buffers() {
-        let helpers = [twins::BEGIN, twins::BODY_WRENCHES, twins::FINISH];
+        let helpers = [
+            twins::BEGIN,
+            twins::BODY_WRENCHES,
+            twins::END_ROUND,
+            twins::END_ROUNDS,
+            twins::FINISH,
+            twins::RESUME,
+            twins::SUMS[0],
+            twins::SUMS[1],
+            twins::SUMS[2],
+            twins::TOTAL,
+        ];
         let passes: Vec<_> =
             twins::TWINS.iter().flat_map(|(_, passes)| passes.iter()).chain(&helpers).collect();
-        for shader in sorb_shaders::SHADERS {
+        for shader in sorb_shaders::SHADERS.iter().chain(sorb_shaders::SUBGROUP_SHADERS) {
             assert!(passes.iter().any(|pass| pass.shader == shader.name), "{}", shader.name);
             let bindings = pipeline::bindings(shader.source);
             let storage = bindings.iter().filter(|binding| binding.is_storage()).count();
@@ -82,6 +100,16 @@ mod tests {
         }
         for pass in passes {
             assert!(sorb_shaders::shader(pass.shader).is_some(), "{}", pass.shader);
+        }
+    }
+
+    #[test]
+    fn every_pass_leaves_when_nothing_is_to_be_done() {
+        for (name, passes) in twins::TWINS {
+            for pass in *passes {
+                let source = sorb_shaders::shader(pass.shader).map_or("", |shader| shader.source);
+                assert!(source.contains("clock.running == 0u"), "{name}: {}", pass.shader);
+            }
         }
     }
 }

@@ -23,6 +23,8 @@ pub(super) const BODY_BYTES: u64 = 144;
 pub struct StepLimits {
     /// Factor on support radius over speed of sound and flow \[1\].
     pub courant: f32,
+    /// Step over the time in which pressure moves a particle by a spacing, where pressure is solved for \[1\].
+    pub pressure_courant: f32,
     /// Smallest lattice constant of the sponges \[m\]; infinite without sponges.
     pub edge: f32,
     /// Shortest step that is allowed \[s\].
@@ -87,6 +89,16 @@ pub(super) fn params(
     for smoothing in [&fluid.smoothing, &params.coupling] {
         bytes.floats(&smoothing_factors(smoothing));
     }
+    match &fluid.incompressible {
+        Some(solve) => bytes
+            .floats(&[solve.tolerance])
+            .words(&[solve.rounds])
+            .floats(&[solve.lattice_diagonal, solve.correction_speed])
+            .floats(&[solve.boundary_range, solve.boundary_share])
+            .words(&[1])
+            .floats(&[limits.pressure_courant]),
+        None => bytes.words(&[0; 8]),
+    };
     bytes.0
 }
 

@@ -7,6 +7,14 @@ use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 
 use super::{device::Gpu, error::GpuError};
 
+/// The constant of `layout.wgsl` for the threads of a group.
+const GROUP: &str = "GROUP";
+
+/// Whether the groups of a pass can have any number of threads; else they have 256, or one.
+pub(super) fn has_any_group(source: &str) -> bool {
+    source.contains("@workgroup_size(GROUP)")
+}
+
 /// One binding of a pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Binding {
@@ -54,19 +62,22 @@ impl Gpu {
         &self,
         shader: &'static str,
         entry: &'static str,
+        group: u32,
     ) -> Result<Arc<Pipeline>, GpuError> {
-        let key = (shader, entry);
+        let key = (shader, entry, group);
         if let Some(found) = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
             return Ok(Arc::clone(found));
         }
-        let text = sorb_shaders::shader(shader)
+        let subgroups = sorb_shaders::subgroup_shader(shader).filter(|_| self.has_subgroups);
+        let text = subgroups
+            .or_else(|| sorb_shaders::shader(shader))
             .ok_or_else(|| GpuError::Refused { reason: format!("there is no shader {shader}") })?;
-        let made = Arc::new(self.guarded(None, || self.compile(text, entry))?);
+        let made = Arc::new(self.guarded(None, || self.compile(text, entry, group))?);
         let mut all = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         Ok(Arc::clone(all.entry(key).or_insert(made)))
     }
 
-    fn compile(&self, shader: &'static Shader, entry: &'static str) -> Pipeline {
+    pub(super) fn compile(&self, shader: &'static Shader, entry: &'static str, group: u32) -> Pipeline {
         let bindings = bindings(shader.source);
         let entries: Vec<_> = bindings
             .iter()
@@ -95,6 +106,7 @@ impl Gpu {
             label: Some(shader.name),
             source: wgpu::ShaderSource::Wgsl(shader.source.into()),
         });
+        let constants = [(GROUP, f64::from(group))];
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(shader.name),
             layout: Some(&pipeline_layout),
@@ -103,7 +115,7 @@ impl Gpu {
             compilation_options: wgpu::PipelineCompilationOptions {
                 // Every workgroup variable is written before it is read.
                 zero_initialize_workgroup_memory: false,
-                ..Default::default()
+                constants: if has_any_group(shader.source) { &constants } else { &[] },
             },
             cache: None,
         });

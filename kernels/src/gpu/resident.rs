@@ -9,6 +9,8 @@ use super::{
     device::Gpu,
     error::GpuError,
     pack::{self, BATCH_STRIDE, BODY_BYTES, Capacities, Grid, SPONGES, StepLimits},
+    program::{FEW_ROWS, GROUP, SMALL_GROUP},
+    sums::{SUM_BYTES, sum_groups},
 };
 use crate::{
     body::Body,
@@ -18,8 +20,16 @@ use crate::{
     smoothing::Wendland,
 };
 
+/// Bytes of what a pressure solve keeps from round to round.
+pub(super) const SOLVE_BYTES: u64 = 32;
 /// Most cells of a grid: their counts and starts are one binding each.
 const MOST_CELLS: u64 = 1 << 28;
+
+/// Most groups of a pass over this many rows: groups are small where there are few rows.
+fn most_groups(rows: u64) -> u64 {
+    let small = rows.min(FEW_ROWS).div_ceil(u64::from(SMALL_GROUP));
+    small.max(rows.div_ceil(u64::from(GROUP)))
+}
 
 /// Columns on a device. State stays there from step to step.
 #[derive(Debug)]
@@ -36,6 +46,10 @@ pub struct Resident {
     pub(super) sorted: bool,
     /// Steps since the time was set.
     pub(super) steps: u32,
+    /// Whether the clock has chosen the next step.
+    pub(super) has_begun: bool,
+    /// How often buffers were replaced, so that programs know when to bind anew.
+    pub(super) replaced: u32,
     /// Where the host reads what the device says after a batch.
     pub(super) answer: Buffer,
 }
@@ -83,6 +97,8 @@ impl Resident {
             colors,
             sorted: false,
             steps: 0,
+            has_begun: false,
+            replaced: 0,
             answer,
         };
         for (name, size, usage) in resident.layout(columns) {
@@ -128,6 +144,7 @@ impl Resident {
         let (fluid, nodes, bodies) = (fluid as u64, nodes as u64, bodies as u64);
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
+        let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
@@ -135,13 +152,14 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 208, uniform),
+            ("params", 240, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", SPONGES as u64 * 48, uniform),
             ("fluid_grid", 48, uniform),
             ("control_grid", 48, uniform),
             ("batch", BATCH_STRIDE * COLORS as u64, uniform),
-            ("extremes", 32, plain),
+            ("extremes", 48, plain),
+            ("convergence", 16, plain),
             ("fluid_position", fluid * 16, plain),
             ("fluid_velocity", fluid * 16, plain),
             ("fluid_id", fluid * 4, plain),
@@ -150,6 +168,13 @@ impl Resident {
             ("fluid_id_sorted", fluid * 4, plain),
             ("fluid_density", fluid * 4, plain),
             ("fluid_acceleration", fluid * 16, plain),
+            ("fluid_predicted", solved * 16, plain),
+            ("fluid_boundary", solved * 16, plain),
+            ("fluid_factors", solved * 16, plain),
+            ("fluid_pressure_rows", solved * 16, plain),
+            ("fluid_correction", solved * 16, plain),
+            ("solve", SOLVE_BYTES, plain),
+            ("solve_sums", most_groups(solved) * 32, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
             ("fluid_grouped", fluid * 4, plain),
@@ -191,6 +216,9 @@ impl Resident {
             ("fluid_wrenches", groups(fluid), plain),
             ("node_wrenches", groups(nodes), plain),
             ("body_wrenches", bodies * WRENCH_BYTES, plain),
+            ("node_mass", nodes * 4, plain),
+            ("partial_sums", sum_groups(self.rows) * SUM_BYTES, plain),
+            ("totals", 3 * SUM_BYTES, plain),
         ]
     }
 
@@ -263,13 +291,14 @@ impl Resident {
             let size = rows[which] as u64 * (u64::from(capacity) + 1) * 4;
             self.allocate(names[which], size, BufferUsages::STORAGE)?;
         }
+        self.replaced += 1;
         self.fill_params();
         Ok(())
     }
 }
 
 /// Entries that lists of a fluid and a lattice at rest need, and half as many again.
-fn capacities(params: &Params, rows: RowCounts) -> Capacities {
+pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
     let ball = |radius: f32| f64::from(radius).powi(3) * 4.0 / 3.0 * std::f64::consts::PI;
     let spacing = f64::from(params.fluid.spacing).powi(3);
     // Two nodes per cell of the lattice.

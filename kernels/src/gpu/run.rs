@@ -1,149 +1,45 @@
 //! Steps on the device: one submission for many, and one small answer.
 
-use std::sync::Arc;
-
-use wgpu::{BindGroup, CommandBuffer, CommandEncoder};
+use wgpu::{CommandBuffer, CommandEncoder};
 
 use super::{
-    answer::{Answer, CLOCK_BYTES, Start, WRENCH_BYTES},
+    answer::{Answer, CLOCK_BYTES, CLOCK_WORDS, Outcome, Start, WRENCH_BYTES},
     error::GpuError,
-    pack::{BATCH_STRIDE, Capacities},
-    pipeline::Pipeline,
     profile::Profile,
+    program::{Dispatch, Program},
     resident::Resident,
-    twins::{BEGIN, BODY_WRENCHES, FINISH, Pass, Rows, twin},
 };
-use crate::{kernel::Kernel, pbd::lattice::COLORS};
 
 /// Steps of one submission.
 const STEPS_AT_ONCE: u32 = 16;
 
-/// A pass bound to its buffers.
-#[derive(Debug)]
-struct Dispatch {
-    kernel: &'static str,
-    pipeline: Arc<Pipeline>,
-    bind: BindGroup,
-    groups: [u32; 2],
-}
-
-/// The passes of a step in order, bound to the buffers of a [`Resident`].
-#[derive(Debug)]
-pub struct Program {
-    kernels: Vec<&'static Kernel>,
-    begin: Vec<Dispatch>,
-    step: Vec<Dispatch>,
-    finish: Vec<Dispatch>,
-    /// A step that is encoded and waits for its turn.
-    prepared: Option<CommandBuffer>,
-}
-
-impl Program {
-    /// Passes of a step.
-    #[must_use]
-    pub fn passes(&self) -> usize {
-        self.step.len() + self.finish.len()
-    }
+/// Where steps begin.
+#[derive(Clone, Copy, Debug)]
+enum From {
+    /// With the clock.
+    Begin,
+    /// With more rounds of a repetition, counted from 1, that the device stopped at.
+    Rounds(usize, u32),
 }
 
 impl Resident {
-    /// Binds kernels, in the order in which they are to run.
-    ///
-    /// # Errors
-    /// A kernel has no twin, or a pipeline cannot be compiled.
-    pub fn program(&self, kernels: &[&'static Kernel]) -> Result<Program, GpuError> {
-        let mut step = Vec::new();
-        let mut before = "";
-        for kernel in kernels {
-            let passes = twin(kernel.name).ok_or(GpuError::NoTwin { kernel: kernel.name })?;
-            // The search has every pair at hand and sums up the density.
-            let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
-            for pass in passes.iter().filter(|_| !is_done) {
-                self.bind(kernel.name, pass, &mut step)?;
-            }
-            before = kernel.name;
-        }
-        let (mut begin, mut finish) = (Vec::new(), Vec::new());
-        self.bind("clock", &BEGIN, &mut begin)?;
-        if self.rows.bodies > 0 {
-            self.bind("clock", &BODY_WRENCHES, &mut finish)?;
-        }
-        self.bind("clock", &FINISH, &mut finish)?;
-        Ok(Program { kernels: kernels.to_vec(), begin, step, finish, prepared: None })
-    }
-
-    fn bind(&self, kernel: &'static str, pass: &Pass, into: &mut Vec<Dispatch>) -> Result<(), GpuError> {
-        let pipeline = self.gpu.pipeline(pass.shader, pass.entry)?;
-        let times = if pass.rows == Rows::Colors { COLORS } else { 1 };
-        for color in 0..times {
-            let groups = self.groups(pass.rows, color);
-            if groups[0] > 0 {
-                let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color))?;
-                into.push(Dispatch { kernel, pipeline: Arc::clone(&pipeline), bind, groups });
-            }
-        }
-        Ok(())
-    }
-
-    fn bind_group(&self, pass: &Pass, pipeline: &Pipeline, color: usize) -> BindGroup {
-        let entries: Vec<_> = pipeline
-            .bindings
-            .iter()
-            .map(|binding| {
-                let name = pass.buffer(binding.name);
-                let buffer = self.buffer(name);
-                let mut part = buffer.as_entire_buffer_binding();
-                if name == "batch" {
-                    part.offset = color as u64 * BATCH_STRIDE;
-                    part.size = std::num::NonZeroU64::new(16);
-                }
-                wgpu::BindGroupEntry { binding: binding.index, resource: wgpu::BindingResource::Buffer(part) }
-            })
-            .collect();
-        self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(pass.shader),
-            layout: &pipeline.layout,
-            entries: &entries,
-        })
-    }
-
-    /// Groups of a pass in two dimensions, none larger than the device allows.
-    fn groups(&self, rows: Rows, color: usize) -> [u32; 2] {
-        let threads = |rows: usize| rows.div_ceil(256) as u64;
-        let count = match rows {
-            Rows::One => 1,
-            Rows::Fluid => threads(self.rows.fluid),
-            Rows::Nodes => threads(self.rows.nodes),
-            Rows::Controls => self.rows.nodes.div_ceil(8) as u64,
-            Rows::FluidOrNodes => threads(self.rows.fluid.max(self.rows.nodes)),
-            Rows::FluidPages => self.grids[0].pages(),
-            Rows::ControlPages => self.grids[1].pages(),
-            Rows::Bodies => self.rows.bodies as u64,
-            Rows::Colors => threads(self.colors[color][1] as usize),
-        };
-        let most = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
-        if count <= most {
-            return [count as u32, 1];
-        }
-        let lines = count.div_ceil(most);
-        [count.div_ceil(lines) as u32, lines as u32]
-    }
-
     /// Sets the time that the next steps are to fill.
     pub fn set_time(&mut self, start: &Start) {
         self.steps = 0;
-        let mut words = [0_u32; 32];
+        self.has_begun = false;
+        let mut words = [0_u32; CLOCK_WORDS];
         words[4] = start.left.to_bits();
         words[5] = start.fluid_speed.to_bits();
         words[6] = start.fluid_acceleration.to_bits();
         words[7] = start.node_speed.to_bits();
         words[10] = f32::MAX.to_bits();
+        words[40] = start.fluid_pressure.to_bits();
         self.write("clock", bytemuck::cast_slice(&words));
     }
 
     /// Sets one step of this length, for kernels that run without the others.
     fn set_step(&self, step: f32) {
-        let mut words = [0_u32; 32];
+        let mut words = [0_u32; CLOCK_WORDS];
         words[0] = step.to_bits();
         words[1] = (1.0 / step).to_bits();
         words[2] = 1;
@@ -153,13 +49,12 @@ impl Resident {
     }
 
     /// Forgets the extremes that kernels are about to find, and keeps those that were found before them.
-    fn clear_extremes(&self, kernels: &[&'static Kernel]) {
-        let runs = |name: &str| kernels.iter().any(|kernel| kernel.name == name);
+    fn clear_extremes(&self, program: &Program) {
         let mut stale = vec![5, 6, 7];
-        if runs("sph::kick") {
+        if program.runs("sph::kick") {
             stale.extend([0, 1, 3]);
         }
-        if runs("pbd::velocity") {
+        if program.runs("pbd::velocity") {
             stale.extend([2, 4]);
         }
         for word in stale {
@@ -174,18 +69,27 @@ impl Resident {
     /// As [`Self::advance`].
     pub fn run_kernels(&mut self, program: &mut Program, step: f32) -> Result<(), GpuError> {
         loop {
+            self.keep_bound(program)?;
             self.set_step(step);
-            self.clear_extremes(&program.kernels);
-            self.submit(&[&program.step], true, None)?;
-            let Some(longest) = self.listen()?.longest else { break };
-            self.grow(longest, program)?;
-        }
-        for kernel in &program.kernels {
-            match kernel.name {
-                "grid::sort_fluid" => self.sorted = true,
-                "sph::advect" => self.sorted = false,
-                _ => {}
+            self.clear_extremes(program);
+            self.submit(&program.parts(0, 0), true, None)?;
+            let mut answer = self.listen()?;
+            while let Some((index, done)) = answer.unfinished {
+                let more = program.more(index, done);
+                let mut parts = vec![&program.resume[..]];
+                parts.extend(program.parts(index, more));
+                self.submit(&parts, true, None)?;
+                answer = self.listen()?;
             }
+            program.expect(answer.most_rounds);
+            let Some(longest) = answer.longest else { break };
+            self.lengthen(longest)?;
+        }
+        if program.runs("grid::sort_fluid") {
+            self.sorted = true;
+        }
+        if program.runs("sph::advect") {
+            self.sorted = false;
         }
         Ok(())
     }
@@ -202,35 +106,50 @@ impl Resident {
         mut profile: Option<&mut Profile>,
     ) -> Result<Answer, GpuError> {
         let mut to_do = steps;
+        let mut from = From::Begin;
         loop {
-            if to_do == 1 && profile.is_none() {
-                self.submit_step(program)?;
-            } else {
-                self.submit_steps(program, to_do, profile.as_deref_mut())?;
+            self.keep_bound(program)?;
+            match from {
+                From::Begin if to_do == 1 && profile.is_none() => self.submit_step(program)?,
+                _ => self.submit_steps(program, from, to_do, profile.as_deref_mut())?,
             }
             let answer = self.listen()?;
             to_do -= to_do.min(answer.steps - self.steps);
             self.steps = answer.steps;
-            let Some(longest) = answer.longest else {
+            program.expect(answer.most_rounds);
+            if let Some(longest) = answer.longest {
+                self.lengthen(longest)?;
+                self.has_begun = false;
+                from = From::Begin;
+            } else if let Some((index, done)) = answer.unfinished {
+                from = From::Rounds(index, program.more(index, done));
+            } else {
+                // The last step has begun the next one.
+                self.has_begun = answer.outcome == Outcome::Done;
                 return Ok(answer);
-            };
-            self.grow(longest, program)?;
+            }
         }
     }
 
     /// Submits one step, and encodes the next while the device works: with bodies, every step waits for the host.
     fn submit_step(&mut self, program: &mut Program) -> Result<(), GpuError> {
-        let buffer = match program.prepared.take() {
+        let buffer = match program.prepared.take().filter(|_| self.has_begun) {
             Some(buffer) => buffer,
             None => self.encode_step(program)?,
         };
         self.hand_in(buffer)?;
+        self.has_begun = true;
         program.prepared = Some(self.encode_step(program)?);
         Ok(())
     }
 
     fn encode_step(&self, program: &Program) -> Result<CommandBuffer, GpuError> {
-        let parts = [&program.begin[..], &program.step, &program.finish];
+        let mut parts = Vec::new();
+        if !self.has_begun {
+            parts.push(&program.begin[..]);
+        }
+        parts.extend(program.parts(0, 0));
+        parts.push(&program.finish);
         self.gpu.guarded(None, || self.encode(&parts, true, None))
     }
 
@@ -238,13 +157,19 @@ impl Resident {
     fn submit_steps(
         &self,
         program: &Program,
+        from: From,
         steps: u32,
         mut profile: Option<&mut Profile>,
     ) -> Result<(), GpuError> {
         let at_once = if profile.is_some() { steps } else { STEPS_AT_ONCE };
-        let mut parts: Vec<&[Dispatch]> = vec![&program.begin];
+        let (mut parts, mut index, more): (Vec<&[Dispatch]>, _, _) = match from {
+            From::Begin => (vec![&program.begin], 0, 0),
+            From::Rounds(index, more) => (vec![&program.resume], index, more),
+        };
         for step in 1..=steps {
-            parts.extend([&program.step[..], &program.finish[..]]);
+            parts.extend(program.parts(index, more));
+            parts.push(&program.finish);
+            index = 0;
             if step % at_once == 0 || step == steps {
                 self.submit(&parts, step == steps, profile.as_deref_mut())?;
                 parts.clear();
@@ -253,17 +178,8 @@ impl Resident {
         Ok(())
     }
 
-    fn grow(&mut self, longest: Capacities, program: &mut Program) -> Result<(), GpuError> {
-        self.lengthen(longest)?;
-        // The bind groups hold the old buffers.
-        *program = self.program(&program.kernels)?;
-        Ok(())
-    }
-}
-
-impl Resident {
     /// Encodes and submits passes, all in one, and the copy of what [`Self::listen`] waits for.
-    fn submit(
+    pub(super) fn submit(
         &self,
         parts: &[&[Dispatch]],
         answers: bool,
@@ -323,11 +239,11 @@ impl Resident {
     }
 
     /// What the device has to say: a few hundred bytes.
-    fn listen(&self) -> Result<Answer, GpuError> {
+    pub(super) fn listen(&self) -> Result<Answer, GpuError> {
         let bytes = self.gpu.map(&self.answer)?;
         self.answer.unmap();
         let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
-        let (clock, wrenches) = words.split_at(CLOCK_BYTES as usize / 4);
+        let (clock, wrenches) = words.split_at(CLOCK_WORDS);
         Ok(Answer::new(clock, bytemuck::cast_slice(wrenches)))
     }
 }

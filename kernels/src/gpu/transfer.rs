@@ -1,10 +1,16 @@
 //! Columns to the device and back.
 
-use super::{error::GpuError, resident::Resident};
+use super::{
+    error::GpuError,
+    pack::BODY_BYTES,
+    resident::{Resident, SOLVE_BYTES, capacities},
+};
 use crate::{
     body::Wrench,
-    columns::{Column, Columns, FAR_ROW, padded},
+    columns::{Column, Columns, FAR_ROW, RowCounts, padded},
+    cpu::CHUNK,
     grid::neighbors::Neighbors,
+    params::Params,
     reduce::{Extreme, Extremes, Wrenches},
 };
 
@@ -34,6 +40,14 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::FluidInterior => ("fluid_interior", Values(&mut fluid.interior)),
         Column::FluidDragRate => ("fluid_drag_rate", Values(&mut fluid.drag_rate)),
         Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
+        Column::FluidPredicted => ("fluid_predicted", Rows(&mut fluid.predicted, FAR_ROW)),
+        Column::FluidBoundary => ("fluid_boundary", Rows(&mut fluid.boundary, zero)),
+        Column::FluidFactors => ("fluid_factors", Rows(&mut fluid.factors, zero)),
+        // Padding rows have a diagonal, by which they are divided.
+        Column::FluidPressureRows => {
+            ("fluid_pressure_rows", Rows(&mut fluid.pressure_rows, [0.0, 0.0, 1.0, 0.0]))
+        }
+        Column::FluidCorrection => ("fluid_correction", Rows(&mut fluid.correction, zero)),
         Column::NodePosition => ("node_position", Rows(&mut nodes.position, FAR_ROW)),
         Column::NodeVelocity => ("node_velocity", Rows(&mut nodes.velocity, zero)),
         Column::NodeVolume => ("node_volume", Values(&mut nodes.volume)),
@@ -114,6 +128,7 @@ pub fn is_internal(column: Column) -> bool {
         column,
         Column::FluidCells
             | Column::ControlCells
+            | Column::FluidPairs
             | Column::FluidControlWeights
             | Column::ControlFluidWeights
             | Column::NodeTopology
@@ -191,22 +206,24 @@ impl Resident {
             Column::BodyFluidWrenches => {
                 self.upload_wrenches("fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
             }
-            Column::FluidExtremes | Column::NodeExtremes => {
-                let (fluid, nodes) = (columns.fluid.extremes.total(), columns.nodes.extremes.total());
-                let row = |failed: u32| failed.checked_sub(1).map_or(0, |row| u32::MAX - row);
-                let words = [
-                    fluid.speed_squared.to_bits(),
-                    fluid.acceleration_squared.to_bits(),
-                    nodes.speed_squared.to_bits(),
-                    row(fluid.not_finite),
-                    row(nodes.not_finite),
-                    0,
-                    0,
-                    0,
-                ];
-                self.write("extremes", bytemuck::cast_slice(&words));
+            Column::FluidExtremes | Column::NodeExtremes => self.upload_extremes(columns, column),
+            Column::FluidPressureSolve => {
+                self.write("solve", bytemuck::cast_slice(&columns.fluid.pressure_solve.words()));
             }
             _ => {}
+        }
+    }
+
+    /// The words of one side only: those of the other may be newer on the device.
+    fn upload_extremes(&self, columns: &Columns, column: Column) {
+        let is_fluid = column == Column::FluidExtremes;
+        let found = if is_fluid { columns.fluid.extremes.total() } else { columns.nodes.extremes.total() };
+        let row = found.not_finite.checked_sub(1).map_or(0, |row| u32::MAX - row);
+        let (speed, acceleration) = (found.speed_squared.to_bits(), found.acceleration_squared.to_bits());
+        let words: &[(u64, u32)] =
+            if is_fluid { &[(0, speed), (1, acceleration), (3, row)] } else { &[(2, speed), (4, row)] };
+        for (place, word) in words {
+            self.gpu.queue.write_buffer(self.buffer("extremes"), place * 4, &word.to_ne_bytes());
         }
     }
 
@@ -240,6 +257,8 @@ impl Resident {
                 wanted.push((*column, name, rows * (self.capacities[list] as usize + 1) * 4));
             } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
                 wanted.push((*column, "extremes", 32));
+            } else if *column == Column::FluidPressureSolve {
+                wanted.push((*column, "solve", SOLVE_BYTES as usize));
             } else if let Some((name, size)) = self.wrench_buffer(*column) {
                 wanted.push((*column, name, size));
             }
@@ -261,13 +280,18 @@ impl Resident {
         }
     }
 
+    /// A column that is a plain array, with its buffer and its bytes.
+    pub(super) fn plain_buffer(&self, column: Column) -> Option<(Column, &'static str, usize)> {
+        let mut none = Columns::default();
+        let (name, data) = plain(&mut none, column, self.sorted)?;
+        Some((column, name, columns_rows(self, column) * data.row_bytes()))
+    }
+
     fn take(&self, columns: &mut Columns, column: Column, words: &[u32]) {
-        if let Some((_, data)) = plain(columns, column, self.sorted) {
-            let rows = columns_rows(self, column);
-            // The one column that the CPU does not pad.
-            let to = if column == Column::ControlNode { rows } else { padded(rows) };
-            data.take(words, rows, to);
-        } else if let Some((_, which)) = list_of(column) {
+        if take_plain(columns, column, words) {
+            return;
+        }
+        if let Some((_, which)) = list_of(column) {
             let (lists, rows, targets) = lists(columns, which);
             let place = self.list_layout(which, rows);
             let length = |row: usize| words[place(0, row)] as usize;
@@ -277,18 +301,46 @@ impl Resident {
             *lists = Neighbors::from_lists(&all, targets as u32);
         } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
             take_extremes(columns, column, words);
+        } else if column == Column::FluidPressureSolve {
+            columns.fluid.pressure_solve.take_words(words);
         } else {
             let words: &[f32] = bytemuck::cast_slice(words);
             let wrenches = words
                 .chunks_exact(8)
                 .map(|words| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) });
-            let wrenches = Wrenches(wrenches.collect());
-            match column {
-                Column::BodyFluidWrenches => columns.bodies.fluid_wrenches = wrenches,
-                _ => columns.bodies.node_wrenches = wrenches,
-            }
+            let mut wrenches: Vec<Wrench> = wrenches.collect();
+            let is_fluid = column == Column::BodyFluidWrenches;
+            let rows = if is_fluid { columns.rows.fluid } else { columns.rows.nodes };
+            // Chunks of the CPU, which may go on with them, are smaller than groups.
+            wrenches.resize(padded(rows).div_ceil(CHUNK) * columns.rows.bodies, Wrench::default());
+            let all = &mut columns.bodies;
+            *if is_fluid { &mut all.fluid_wrenches } else { &mut all.node_wrenches } = Wrenches(wrenches);
         }
     }
+}
+
+/// Makes room for a column that is a plain array, so that a kernel of the CPU finds it where those before it ran
+/// elsewhere.
+pub fn make_room(columns: &mut Columns, column: Column) {
+    let rows = padded(columns.rows.of(column.store()));
+    match plain(columns, column, false) {
+        Some((_, Plain::Rows(data, padding))) if data.len() < rows => data.resize(rows, padding),
+        Some((_, Plain::Values(data))) if data.len() < rows => data.resize(rows, 0.0),
+        Some((_, Plain::Words(data, padding))) if data.len() < rows && column != Column::ControlNode => {
+            data.resize(rows, padding);
+        }
+        _ => {}
+    }
+}
+
+/// Takes over a column that is a plain array, if it is one.
+pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) -> bool {
+    let rows = columns.rows.of(column.store());
+    let Some((_, data)) = plain(columns, column, false) else { return false };
+    // The one column that the CPU does not pad.
+    let to = if column == Column::ControlNode { rows } else { padded(rows) };
+    data.take(words, rows, to);
+    true
 }
 
 pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
@@ -297,7 +349,13 @@ pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
 
 fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
     let row = |word: u32| if word == 0 { 0 } else { u32::MAX - word + 1 };
-    let all = |extreme: Extreme| Extremes(vec![extreme]);
+    // All of it in the first chunk, none in the others, which the CPU may go on with.
+    let chunks = columns.rows.of(column.store()).div_ceil(CHUNK).max(1);
+    let all = |extreme: Extreme| {
+        let mut all = vec![Extreme::default(); chunks];
+        all[0] = extreme;
+        Extremes(all)
+    };
     if column == Column::FluidExtremes {
         columns.fluid.extremes = all(Extreme {
             speed_squared: f32::from_bits(words[0]),
@@ -310,6 +368,28 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
             acceleration_squared: 0.0,
             not_finite: row(words[4]),
         });
+    }
+}
+
+/// Bytes of a column on a device, in a scene of these parameters: lists as long as those of a fluid and a lattice at
+/// rest, 0 for columns that a device does not hold.
+#[must_use]
+pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
+    let count = rows.of(column.store()) as u64;
+    let groups = |rows: usize| rows.div_ceil(256) as u64 * count * 32;
+    if let Some((_, data)) = plain(&mut Columns::default(), column, false) {
+        return count * data.row_bytes() as u64;
+    }
+    if let Some((_, which)) = list_of(column) {
+        return count * (u64::from(capacities(params, rows)[which]) + 1) * 4;
+    }
+    match column {
+        Column::FluidExtremes | Column::NodeExtremes => 20,
+        Column::FluidPressureSolve => SOLVE_BYTES,
+        Column::BodyStates => count * BODY_BYTES,
+        Column::BodyFluidWrenches => groups(rows.fluid),
+        Column::BodyNodeWrenches => groups(rows.nodes),
+        _ => 0,
     }
 }
 

@@ -17,6 +17,12 @@ pub(super) enum Rows {
     FluidPages,
     /// A group per page of the cells over the controls.
     ControlPages,
+    /// One group if the cells over the particles have many pages.
+    FluidScan,
+    /// One group if the cells over the controls have many pages.
+    ControlScan,
+    /// A thread per tet.
+    Tets,
     /// A group per body.
     Bodies,
     /// A thread per tet of a colour, and a pass per colour.
@@ -24,7 +30,7 @@ pub(super) enum Rows {
 }
 
 /// One pass of a twin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pass {
     /// Name of the shader, `family::file`.
     pub(super) shader: &'static str,
@@ -46,6 +52,11 @@ const FLUID: Names = &[
     ("velocity", "fluid_velocity_sorted"),
     ("acceleration", "fluid_acceleration"),
     ("density", "fluid_density"),
+    ("predicted", "fluid_predicted"),
+    ("boundary", "fluid_boundary"),
+    ("factors", "fluid_factors"),
+    ("pressure_rows", "fluid_pressure_rows"),
+    ("correction", "fluid_correction"),
     ("list", "fluid_neighbors"),
     ("grid", "fluid_grid"),
     ("starts", "fluid_starts"),
@@ -130,14 +141,40 @@ const NODES: Names = &[
     ("wrenches", "node_wrenches"),
 ];
 
-const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::One, names: &[] };
+/// Whether lists fit; the last of a step is enough, since nothing before it writes what survives.
+pub(super) const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::One, names: &[] };
 
 /// Before the first step of a batch.
 pub(super) const BEGIN: Pass = Pass { shader: "clock::clock", entry: "begin", rows: Rows::One, names: &[] };
 /// After the last phase of a step.
 pub(super) const FINISH: Pass = Pass { shader: "clock::clock", entry: "finish", rows: Rows::One, names: &[] };
+/// After a round of a repetition that ends when it has converged.
+pub(super) const END_ROUND: Pass =
+    Pass { shader: "clock::rounds", entry: "end_round", rows: Rows::One, names: &[] };
+/// After the last of its rounds.
+pub(super) const END_ROUNDS: Pass =
+    Pass { shader: "clock::rounds", entry: "end_rounds", rows: Rows::One, names: &[] };
+/// Before more rounds, where those that were handed in did not suffice.
+pub(super) const RESUME: Pass = Pass { shader: "clock::clock", entry: "resume", rows: Rows::One, names: &[] };
 /// Before bodies can move.
 pub(super) const BODY_WRENCHES: Pass = pass("sph::body_wrenches", Rows::Bodies, &[]);
+
+/// Sums over particles, nodes and tets, and where each is among the totals.
+pub(super) const SUMS: [Pass; 3] = [
+    pass("measure::fluid", Rows::Fluid, MEASURED_FLUID),
+    pass("measure::nodes", Rows::Nodes, NODES),
+    pass("measure::tets", Rows::Tets, NODES),
+];
+/// The sums of all groups of one of [`SUMS`].
+pub(super) const TOTAL: Pass = pass("measure::total", Rows::One, &[]);
+
+/// Particles after a step.
+const MEASURED_FLUID: Names = &[
+    ("position", "fluid_position"),
+    ("velocity", "fluid_velocity"),
+    ("density", "fluid_density"),
+    ("interior", "fluid_interior"),
+];
 
 /// The passes of every twin.
 pub(super) static TWINS: &[(&str, &[Pass])] = &[
@@ -145,8 +182,7 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
         "grid::sort_fluid",
         &[
             pass("grid::count", Rows::Fluid, SORT),
-            pass("grid::page_sums", Rows::FluidPages, SORT),
-            pass("grid::scan_sums", Rows::One, SORT),
+            pass("grid::scan_sums", Rows::FluidScan, SORT),
             pass("grid::scan_pages", Rows::FluidPages, SORT),
             pass("grid::scatter", Rows::Fluid, SORT),
             pass("grid::sort_fluid", Rows::Fluid, SORT),
@@ -159,6 +195,18 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
     ("sph::surface_tension", &[pass("sph::surface_tension", Rows::Fluid, FLUID)]),
     ("sph::repulsion", &[pass("sph::repulsion", Rows::Fluid, FLUID)]),
     ("sph::kick", &[pass("sph::kick", Rows::Fluid, FLUID)]),
+    ("sph::boundary_pressure", &[pass("sph::boundary_pressure", Rows::Fluid, FLUID)]),
+    ("sph::predict", &[pass("sph::predict", Rows::Fluid, FLUID)]),
+    ("sph::boundary", &[pass("sph::boundary", Rows::Fluid, FLUID)]),
+    ("sph::factors", &[pass("sph::factors", Rows::Fluid, FLUID), pass("sph::solve_begin", Rows::One, FLUID)]),
+    ("sph::pressure_update", &[pass("sph::pressure_update", Rows::Fluid, FLUID)]),
+    ("sph::pressure_acceleration", &[pass("sph::pressure_acceleration", Rows::Fluid, FLUID)]),
+    (
+        "sph::pressure_residual",
+        &[pass("sph::pressure_residual", Rows::Fluid, FLUID), pass("sph::solve_round", Rows::One, FLUID)],
+    ),
+    ("sph::pressure_kick", &[pass("sph::pressure_kick", Rows::Fluid, FLUID)]),
+    ("sph::boundary_reaction", &[pass("sph::boundary_reaction", Rows::Fluid, FLUID)]),
     ("sph::advect", &[pass("sph::advect", Rows::Fluid, SORT)]),
     ("pbd::gravity", &[pass("pbd::gravity", Rows::Nodes, NODES)]),
     ("pbd::predict", &[pass("pbd::predict", Rows::Nodes, NODES)]),
@@ -169,8 +217,7 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
         "couple::controls",
         &[
             pass("grid::count", Rows::Nodes, CONTROLS),
-            pass("grid::page_sums", Rows::ControlPages, CONTROLS),
-            pass("grid::scan_sums", Rows::One, CONTROLS),
+            pass("grid::scan_sums", Rows::ControlScan, CONTROLS),
             pass("grid::scan_pages", Rows::ControlPages, CONTROLS),
             pass("grid::scatter", Rows::Nodes, CONTROLS),
             pass("couple::controls", Rows::Nodes, CONTROLS),

@@ -148,9 +148,9 @@ impl ListValues {
         for (chunk, (values, lists)) in self.0.iter_mut().zip(&lists.chunks).enumerate() {
             for group in 0..GROUPS {
                 for at in lists.range(group * LANES) {
-                    for lane in 0..LANES {
-                        let query = chunk * CHUNK + group * LANES + lane;
-                        values[at][lane] = value(query, lists.entries[at][lane] as usize);
+                    let query = chunk * CHUNK + group * LANES;
+                    for (lane, (own, target)) in values[at].iter_mut().zip(lists.entries[at]).enumerate() {
+                        *own = value(query + lane, target as usize);
                     }
                 }
             }

@@ -9,7 +9,7 @@ use crate::{
     params::Params,
 };
 
-/// c_ij of all pairs that are neighbours at the beginning of the step.
+/// `c_ij` of all pairs that are neighbours at the beginning of the step.
 fn pairs(params: &Params, fluid: &Fluid, count: usize) -> Vec<Vec<(usize, f64)>> {
     let radius = params.fluid.smoothing.support_radius;
     let volume = f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density);

@@ -117,6 +117,25 @@ impl PressureSolve {
         self.length
     }
 
+    /// What a device keeps of it: length, tolerance, error, pressure (bits of f32), rounds, whether converged.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn words(&self) -> [u32; 8] {
+        let [length, tolerance, error, pressure] =
+            [self.length, self.tolerance, self.error, self.pressure].map(f32::to_bits);
+        [length, tolerance, error, pressure, self.rounds, u32::from(self.is_converged), 0, 0]
+    }
+
+    /// Takes over what a device keeps of it; words that are missing change nothing.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn take_words(&mut self, words: &[u32]) {
+        if let [length, tolerance, error, pressure, rounds, is_converged, ..] = *words {
+            let [length, tolerance, error, pressure] =
+                [length, tolerance, error, pressure].map(f32::from_bits);
+            (self.length, self.tolerance, self.error, self.pressure) = (length, tolerance, error, pressure);
+            (self.rounds, self.is_converged) = (rounds, is_converged != 0);
+        }
+    }
+
     /// Room for the squared displacements of every chunk of `rows` rows.
     pub(super) fn displacements(&mut self, rows: usize) -> PerChunk<'_, f32> {
         per_chunk(&mut self.displacements, rows)
@@ -165,7 +184,7 @@ impl PressureSolve {
         self.pressure = (pressure / particles).sqrt() as f32;
         self.rounds += 1;
         self.is_converged = self.error <= self.tolerance || self.rounds >= solve.rounds;
-        let ratio = if self.rounds % 2 == 0 { change / mixed } else { mixed / response };
+        let ratio = if self.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
         let is_usable = self.rounds > 1 && mixed > 0.0 && ratio.is_finite();
         self.length = if is_usable { ratio.clamp(LENGTHS.0, LENGTHS.1) as f32 } else { FIRST_LENGTH };
     }

@@ -9,5 +9,5 @@ mod lattice;
 mod levels;
 mod momentum;
 mod oracles;
-mod scene;
+pub(crate) mod scene;
 mod strain;

@@ -175,7 +175,7 @@ fn scale_values(columns: &mut Columns, column: Column, factor: f32) -> bool {
 }
 
 /// Columns of which a kernel only keeps what it does not overwrite: the scalar beside a vector.
-const CARRIED: &[(&str, Column)] =
+pub(super) const CARRIED: &[(&str, Column)] =
     &[("pbd::velocity", Column::NodeVelocity), ("couple::exchange", Column::NodeVelocity)];
 
 #[test]

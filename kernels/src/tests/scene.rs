@@ -62,19 +62,19 @@ pub(super) const CHAIN: &[&str] = &[
 
 /// What a scene contains.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Options {
+pub(crate) struct Options {
     /// Particles; beyond [`BLOCK`] they are closer together.
-    pub(super) fluid: usize,
-    pub(super) sponges: bool,
-    pub(super) bodies: bool,
-    pub(super) walls: bool,
-    pub(super) bounded: bool,
-    pub(super) equation_of_state: EquationOfState,
-    pub(super) incompressible: bool,
+    pub(crate) fluid: usize,
+    pub(crate) sponges: bool,
+    pub(crate) bodies: bool,
+    pub(crate) walls: bool,
+    pub(crate) bounded: bool,
+    pub(crate) equation_of_state: EquationOfState,
+    pub(crate) incompressible: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
-pub(super) const FULL: Options = Options {
+pub(crate) const FULL: Options = Options {
     fluid: BLOCK,
     sponges: true,
     bodies: true,
@@ -117,14 +117,14 @@ pub(super) fn all_options() -> Vec<Options> {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Scene {
-    pub(super) options: Options,
-    pub(super) params: Params,
-    pub(super) columns: Columns,
+pub(crate) struct Scene {
+    pub(crate) options: Options,
+    pub(crate) params: Params,
+    pub(crate) columns: Columns,
 }
 
 impl Scene {
-    pub(super) fn new(options: Options) -> Self {
+    pub(crate) fn new(options: Options) -> Self {
         let mut scene = Self { options, params: params(options), columns: Columns::default() };
         let mut random = Random(41);
         scene.add_fluid(&mut random);

@@ -12,8 +12,9 @@ use crate::{
     kernel::{Kernel, kernel},
 };
 
-fn chain() -> Vec<&'static Kernel> {
-    CHAIN.iter().map(|name| kernel(name).expect("the chain names kernels")).collect()
+fn chain(scene: &Scene) -> Vec<&'static Kernel> {
+    let all = CHAIN.iter().map(|name| kernel(name).expect("the chain names kernels"));
+    all.filter(|kernel| scene.has_work(kernel)).collect()
 }
 
 fn state() -> Vec<Column> {
@@ -30,8 +31,14 @@ fn stepped(gpu: &Arc<Gpu>, scene: &Scene, steps: u32) -> (Columns, Outcome, u32)
     let lives = |column: &Column| column.life() != Life::Scratch;
     let uploaded: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
     resident.upload(&mut columns, &uploaded, false).unwrap_or_else(|error| fail(error));
-    let mut program = resident.program(&chain()).unwrap_or_else(|error| fail(error));
-    resident.set_time(&Start { left: f32::MAX, fluid_speed: 1.0, fluid_acceleration: 10.0, node_speed: 1.0 });
+    let mut program = resident.program(&chain(scene)).unwrap_or_else(|error| fail(error));
+    resident.set_time(&Start {
+        left: f32::MAX,
+        fluid_speed: 1.0,
+        fluid_acceleration: 10.0,
+        node_speed: 1.0,
+        fluid_pressure: 0.0,
+    });
     let answer = resident.advance(&mut program, steps, None).unwrap_or_else(|error| fail(error));
     resident.download(&mut columns, &state()).unwrap_or_else(|error| fail(error));
     (columns, answer.outcome, answer.steps)
@@ -48,7 +55,9 @@ fn words(columns: &Columns) -> Vec<u32> {
 
 #[test]
 fn the_same_device_gives_the_same_bits() {
-    for options in [FULL, Options { bounded: false, walls: false, ..FULL }] {
+    for options in
+        [FULL, Options { bounded: false, walls: false, ..FULL }, Options { incompressible: true, ..FULL }]
+    {
         let scene = Scene::new(options);
         let (first, outcome, steps) = stepped(gpu(), &scene, 20);
         assert_eq!((outcome, steps), (Outcome::Done, 20));
@@ -81,6 +90,20 @@ fn groups_beyond_the_limit_of_a_dimension_continue_in_the_next() {
     // 13 groups of particles, which are no multiple of anything.
     let scene = Scene::new(Options { fluid: 3100, ..FULL });
     assert!(words(&stepped(gpu(), &scene, 2).0) == words(&stepped(&small, &scene, 2).0));
+}
+
+#[test]
+fn prefix_sums_are_the_same_with_and_without_subgroups() {
+    let adapter = adapters().into_iter().next().expect("there is an adapter");
+    let device = || Gpu::on_adapter(&adapter).unwrap_or_else(|error| panic!("{error}"));
+    let (with, without) = (Arc::new(device()), Arc::new(device().without_subgroups()));
+    let has = adapter.features().contains(wgpu::Features::SUBGROUP);
+    assert_eq!((with.has_subgroups(), without.has_subgroups()), (has, false));
+    // Few pages of cells, and, without a box and with many particles, more than 256 of them.
+    for options in [FULL, Options { fluid: 65_537, bounded: false, walls: false, ..FULL }] {
+        let scene = Scene::new(options);
+        assert!(words(&stepped(&with, &scene, 2).0) == words(&stepped(&without, &scene, 2).0), "{options:?}");
+    }
 }
 
 #[test]

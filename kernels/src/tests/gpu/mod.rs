@@ -1,6 +1,7 @@
 //! Kernels on the GPU against those on the CPU. A machine without an adapter fails here: lavapipe is one.
 
 mod device;
+mod faults;
 mod parity;
 
 use std::sync::{Arc, OnceLock};
@@ -23,8 +24,14 @@ fn gpu() -> &'static Arc<Gpu> {
 }
 
 /// Bounds of the step that allow anything.
-const LIMITS: StepLimits =
-    StepLimits { courant: 0.25, edge: f32::INFINITY, minimum: 1e-9, constant: 1.0, constant_bound: 0 };
+const LIMITS: StepLimits = StepLimits {
+    courant: 0.25,
+    pressure_courant: 0.4,
+    edge: f32::INFINITY,
+    minimum: 1e-9,
+    constant: 1.0,
+    constant_bound: 0,
+};
 
 /// The columns after one kernel on a device.
 fn after_on(gpu: &Arc<Gpu>, kernel: &'static Kernel, before: &Scene) -> Columns {

@@ -21,7 +21,7 @@ use crate::{
 const ULPS: f64 = 4.0;
 
 /// Largest errors over the scale of changes, beyond [`ULPS`], of kernels that need more than the CPU is allowed against
-/// its oracles: they sum over the particles of a node. The CPU adds up the 7000 of the largest scene one after the other,
+/// its oracles: most sum over the particles of a node. The CPU adds up the 7000 of the largest scene one after the other,
 /// where a twin adds up thirty-two parts. They differ by up to 6.2e-6 there, and by no more than the oracle's bounds in
 /// scenes of the usual density. Lists must be equal but for pairs at the very radius.
 const WIDER: &[(&str, f64)] = &[
@@ -29,6 +29,8 @@ const WIDER: &[(&str, f64)] = &[
     ("couple::zero_distance", 1.5e-5),
     ("couple::velocity_filter", 5e-6),
     ("couple::exchange", 5e-6),
+    // Impulses of either sign, added up in f32 over 65 537 particles, of walls that are thin as these are small: 4.9e-5.
+    ("sph::boundary_reaction", 1e-4),
 ];
 
 /// Sizes around those of a vector, of a group and of two lines of groups.
@@ -110,7 +112,7 @@ fn twins_agree_with_the_cpu() {
     let (mut failures, mut worst) = (Vec::new(), vec![0.0_f64; KERNELS.len()]);
     for options in scenes() {
         for (index, kernel) in KERNELS.iter().enumerate() {
-            let before = Scene::new(options).before(kernel.name, &best());
+            let before = Scene::new(options.suiting(kernel)).before(kernel.name, &best());
             if !before.has_work(kernel) {
                 continue;
             }
@@ -142,6 +144,11 @@ fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool {
         Column::NodeVelocity => &mut nodes.velocity,
         Column::NodePredicted => &mut nodes.predicted,
         Column::NodeAcceleration => &mut nodes.acceleration,
+        Column::FluidPredicted => &mut fluid.predicted,
+        Column::FluidBoundary => &mut fluid.boundary,
+        Column::FluidFactors => &mut fluid.factors,
+        Column::FluidCorrection => &mut fluid.correction,
+        Column::FluidPressureRows => &mut fluid.pressure_rows,
         Column::ControlPosition => &mut controls.position,
         Column::ControlVelocity => &mut controls.velocity,
         Column::FluidDensity => {
@@ -158,14 +165,23 @@ fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool {
 #[test]
 fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
     for kernel in KERNELS.iter().filter(|kernel| !kernel.reads.is_empty()) {
-        let before = Scene::new(FULL).before(kernel.name, &best());
+        let before = Scene::new(FULL.suiting(kernel)).before(kernel.name, &best());
         let expected = on_cpu(kernel, &before);
-        let mut altered = before.clone();
-        let planted = kernel.reads.iter().any(|column| scale(&mut altered.columns, *column, 1.001));
-        assert!(planted, "{} reads no numbers", kernel.name);
-        let found = after_on(gpu(), kernel, &altered);
-        let errors = gpu_errors(kernel, &before, &found, &expected);
-        assert!(errors.iter().any(|(_, error)| *error > bound(kernel)), "{}: {errors:?}", kernel.name);
+        let mut planted = 0;
+        for column in kernel.reads.iter().copied() {
+            let mut altered = before.clone();
+            if !scale(&mut altered.columns, column, 1.001)
+                || oracles::CARRIED.contains(&(kernel.name, column))
+            {
+                continue;
+            }
+            planted += 1;
+            let found = after_on(gpu(), kernel, &altered);
+            let errors = gpu_errors(kernel, &before, &found, &expected);
+            let is_noticed = errors.iter().any(|(_, error)| *error > bound(kernel));
+            assert!(is_noticed, "{} does not notice {}: {errors:?}", kernel.name, column.name());
+        }
+        assert!(planted > 0, "{} reads no numbers", kernel.name);
     }
 }
 

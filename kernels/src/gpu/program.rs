@@ -1,0 +1,342 @@
+//! The passes of a step, bound to the buffers of a world.
+
+use std::sync::Arc;
+
+use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
+
+use super::{
+    error::GpuError,
+    pack::BATCH_STRIDE,
+    pipeline::{Pipeline, has_any_group},
+    resident::Resident,
+    twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows, twin},
+};
+use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS};
+
+/// Most repetitions of a step that end when they have converged: the clock counts the rounds of each.
+pub(super) const REPETITIONS: usize = 4;
+/// Rounds that are encoded before it is known how many are needed.
+const FIRST_ROUNDS: u32 = 4;
+/// Threads of a group.
+pub(super) const GROUP: u32 = 256;
+/// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP`].
+pub(super) const SMALL_GROUP: u32 = 64;
+pub(super) const FEW_ROWS: u64 = 65_536;
+/// Pages of cells up to which each adds up those before it, as `scan_pages.wgsl` has it too.
+const FEW_PAGES: u64 = 256;
+
+/// One stage of a step.
+#[derive(Clone, Debug)]
+pub enum Stage {
+    /// A kernel.
+    Run(&'static Kernel),
+    /// Kernels that are repeated until they have converged, which the device finds out on its own.
+    Rounds {
+        /// Most rounds; at least 1.
+        maximum: u32,
+        /// What is repeated.
+        kernels: Vec<&'static Kernel>,
+    },
+}
+
+impl Stage {
+    /// Its kernels, in order.
+    #[must_use]
+    pub fn kernels(&self) -> &[&'static Kernel] {
+        match self {
+            Self::Run(kernel) => std::slice::from_ref(kernel),
+            Self::Rounds { kernels, .. } => kernels,
+        }
+    }
+}
+
+/// A pass bound to its buffers.
+#[derive(Debug)]
+pub(super) struct Dispatch {
+    pub(super) kernel: &'static str,
+    pub(super) pipeline: Arc<Pipeline>,
+    pub(super) bind: BindGroup,
+    pub(super) groups: [u32; 2],
+}
+
+/// A part of a step.
+#[derive(Debug)]
+pub(super) enum Part {
+    Once(Vec<Dispatch>),
+    Rounds(Rounds),
+}
+
+/// A repetition that ends when it has converged. The rounds after that are encoded as well, and leave at once.
+#[derive(Debug)]
+pub(super) struct Rounds {
+    pub(super) maximum: u32,
+    /// Rounds that are encoded: a few more than were needed before. If they do not suffice the device stops, and the
+    /// host hands in more.
+    pub(super) planned: u32,
+    pub(super) round: Vec<Dispatch>,
+    pub(super) end: Vec<Dispatch>,
+}
+
+/// The passes of a step in order, bound to the buffers of a [`Resident`].
+#[derive(Debug)]
+pub struct Program {
+    pub(super) stages: Vec<Stage>,
+    pub(super) begin: Vec<Dispatch>,
+    pub(super) resume: Vec<Dispatch>,
+    pub(super) step: Vec<Part>,
+    pub(super) finish: Vec<Dispatch>,
+    /// A step that is encoded and waits for its turn.
+    pub(super) prepared: Option<CommandBuffer>,
+    /// The buffers that it is bound to.
+    pub(super) bound: u32,
+}
+
+impl Program {
+    /// Passes of a step, as many rounds of repetitions as are encoded at present.
+    #[must_use]
+    pub fn passes(&self) -> usize {
+        let parts = self.parts(0, 0);
+        parts.iter().map(|part| part.len()).sum::<usize>() + self.finish.len()
+    }
+
+    /// Whether one of these kernels runs.
+    pub(super) fn runs(&self, name: &str) -> bool {
+        self.stages.iter().flat_map(Stage::kernels).any(|kernel| kernel.name == name)
+    }
+
+    /// The passes of a step in order, from the repetition `index` on if `index` is above 0: of that one `more` rounds.
+    pub(super) fn parts(&self, index: usize, more: u32) -> Vec<&[Dispatch]> {
+        let mut all: Vec<&[Dispatch]> = Vec::new();
+        let mut seen = 0;
+        for part in &self.step {
+            match part {
+                Part::Once(dispatches) if seen >= index => all.push(dispatches),
+                Part::Once(_) => {}
+                Part::Rounds(rounds) => {
+                    seen += 1;
+                    let count = if seen == index { more } else { rounds.planned };
+                    if seen >= index {
+                        all.extend((0..count).map(|_| &rounds.round[..]));
+                        all.push(&rounds.end);
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    fn repetitions(&mut self) -> impl Iterator<Item = &mut Rounds> {
+        self.step.iter_mut().filter_map(|part| match part {
+            Part::Rounds(rounds) => Some(rounds),
+            Part::Once(_) => None,
+        })
+    }
+
+    /// Plans a few rounds more than were needed, and fewer again if that is far too many.
+    pub(super) fn expect(&mut self, needed: [u32; REPETITIONS]) {
+        let mut grew = false;
+        for (rounds, needed) in self.repetitions().zip(needed).filter(|(_, needed)| *needed > 0) {
+            let enough = (needed + needed / 4 + 1).min(rounds.maximum);
+            grew |= enough > rounds.planned;
+            if enough > rounds.planned || rounds.planned > 2 * enough {
+                rounds.planned = enough;
+            }
+        }
+        if grew {
+            self.prepared = None;
+        }
+    }
+
+    /// Rounds to hand in for a repetition, counted from 1, of which some did not suffice.
+    pub(super) fn more(&mut self, index: usize, done: u32) -> u32 {
+        let rounds = self.repetitions().nth(index - 1);
+        rounds.map_or(1, |rounds| rounds.planned.max(done).min(rounds.maximum.saturating_sub(done)).max(1))
+    }
+}
+
+impl Resident {
+    /// Binds kernels, in the order in which they are to run.
+    ///
+    /// # Errors
+    /// A kernel has no twin, or a pipeline cannot be compiled.
+    pub fn program(&self, kernels: &[&'static Kernel]) -> Result<Program, GpuError> {
+        self.program_of(kernels.iter().map(|kernel| Stage::Run(kernel)).collect())
+    }
+
+    /// Binds stages, in the order in which they are to run.
+    ///
+    /// # Errors
+    /// As [`Self::program`], or there are too many repetitions.
+    pub fn program_of(&self, stages: Vec<Stage>) -> Result<Program, GpuError> {
+        let mut step = Vec::new();
+        let mut before = "";
+        let mut repetitions = 0;
+        let searches = |stage: &Stage| stage.kernels().iter().any(|kernel| kernel.name == "couple::controls");
+        let searches_again = stages.iter().any(searches);
+        for stage in &stages {
+            let mut dispatches = Vec::new();
+            for kernel in stage.kernels() {
+                let passes = twin(kernel.name).ok_or(GpuError::NoTwin { kernel: kernel.name })?;
+                // The search has every pair at hand and sums up the density.
+                let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
+                let is_checked_later = searches_again && kernel.name == "grid::fluid_neighbors";
+                let is_needed = |pass: &&Pass| !(is_done || is_checked_later && **pass == CHECK);
+                for pass in passes.iter().filter(is_needed) {
+                    self.bind(kernel.name, pass, None, &mut dispatches)?;
+                }
+                before = kernel.name;
+            }
+            match stage {
+                Stage::Run(_) => match step.last_mut() {
+                    Some(Part::Once(last)) => last.append(&mut dispatches),
+                    _ => step.push(Part::Once(dispatches)),
+                },
+                Stage::Rounds { maximum, .. } => {
+                    repetitions += 1;
+                    step.push(Part::Rounds(self.rounds(*maximum, repetitions, dispatches)?));
+                }
+            }
+        }
+        let (mut begin, mut resume, mut finish) = (Vec::new(), Vec::new(), Vec::new());
+        self.bind("clock", &BEGIN, None, &mut begin)?;
+        self.bind("clock", &RESUME, None, &mut resume)?;
+        if self.rows.bodies > 0 {
+            self.bind("clock", &BODY_WRENCHES, None, &mut finish)?;
+        }
+        self.bind("clock", &FINISH, None, &mut finish)?;
+        Ok(Program { stages, begin, resume, step, finish, prepared: None, bound: self.replaced })
+    }
+
+    /// A repetition, counted from 1.
+    pub(super) fn rounds(
+        &self,
+        maximum: u32,
+        index: usize,
+        mut round: Vec<Dispatch>,
+    ) -> Result<Rounds, GpuError> {
+        if index > REPETITIONS {
+            let reason = format!("more than {REPETITIONS} repetitions that end when they have converged");
+            return Err(GpuError::Refused { reason });
+        }
+        let maximum = maximum.max(1);
+        let repetition = self.uniform("repetition", [maximum, index as u32, 0, 0])?;
+        let mut end = Vec::new();
+        let own = Some(("repetition", &repetition));
+        self.bind("clock", &END_ROUND, own, &mut round)?;
+        self.bind("clock", &END_ROUNDS, own, &mut end)?;
+        Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
+    }
+
+    /// A buffer of four words that never change.
+    pub(super) fn uniform(&self, name: &'static str, words: [u32; 4]) -> Result<Buffer, GpuError> {
+        self.gpu.guarded(Some((name, 16)), || {
+            self.gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(name),
+                contents: bytemuck::cast_slice(&words),
+                usage: BufferUsages::UNIFORM,
+            })
+        })
+    }
+
+    /// Binds a program anew if its buffers were replaced.
+    pub(super) fn keep_bound(&self, program: &mut Program) -> Result<(), GpuError> {
+        if program.bound != self.replaced {
+            *program = self.program_of(std::mem::take(&mut program.stages))?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn bind(
+        &self,
+        kernel: &'static str,
+        pass: &Pass,
+        own: Option<(&str, &Buffer)>,
+        into: &mut Vec<Dispatch>,
+    ) -> Result<(), GpuError> {
+        let any_group = sorb_shaders::shader(pass.shader).is_some_and(|text| has_any_group(text.source));
+        let times = if pass.rows == Rows::Colors { COLORS } else { 1 };
+        for color in 0..times {
+            let (group, count) = match self.threads(pass.rows, color) {
+                Threads::Groups(count) => (GROUP, count),
+                Threads::Single(rows) => {
+                    let group = if any_group && rows < FEW_ROWS { SMALL_GROUP } else { GROUP };
+                    (group, rows.div_ceil(u64::from(group)))
+                }
+            };
+            let groups = self.lines(count);
+            if groups[0] > 0 {
+                let pipeline = self.gpu.pipeline(pass.shader, pass.entry, group)?;
+                let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color, own))?;
+                into.push(Dispatch { kernel, pipeline, bind, groups });
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn bind_group(
+        &self,
+        pass: &Pass,
+        pipeline: &Pipeline,
+        color: usize,
+        own: Option<(&str, &Buffer)>,
+    ) -> BindGroup {
+        let entries: Vec<_> = pipeline
+            .bindings
+            .iter()
+            .map(|binding| {
+                let name = pass.buffer(binding.name);
+                let own = own.filter(|(own, _)| *own == name).map(|(_, buffer)| buffer);
+                let mut part = own.unwrap_or_else(|| self.buffer(name)).as_entire_buffer_binding();
+                if name == "batch" {
+                    part.offset = color as u64 * BATCH_STRIDE;
+                    part.size = std::num::NonZeroU64::new(16);
+                }
+                wgpu::BindGroupEntry { binding: binding.index, resource: wgpu::BindingResource::Buffer(part) }
+            })
+            .collect();
+        self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(pass.shader),
+            layout: &pipeline.layout,
+            entries: &entries,
+        })
+    }
+
+    /// Threads of a pass, or groups if they come in groups.
+    fn threads(&self, rows: Rows, color: usize) -> Threads {
+        let RowCounts { fluid, nodes, tets, bodies } = self.rows;
+        let threads = |rows: usize| Threads::Single(rows as u64);
+        let groups = Threads::Groups;
+        match rows {
+            Rows::One => groups(1),
+            Rows::Fluid => threads(fluid),
+            Rows::Nodes => threads(nodes),
+            Rows::Tets => threads(tets),
+            Rows::FluidOrNodes => threads(fluid.max(nodes)),
+            Rows::Colors => threads(self.colors[color][1] as usize),
+            Rows::Controls => groups(nodes.div_ceil(8) as u64),
+            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > FEW_PAGES)),
+            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > FEW_PAGES)),
+            Rows::FluidPages => groups(self.grids[0].pages()),
+            Rows::ControlPages => groups(self.grids[1].pages()),
+            Rows::Bodies => groups(bodies as u64),
+        }
+    }
+
+    /// Groups in two dimensions, none larger than the device allows.
+    fn lines(&self, count: u64) -> [u32; 2] {
+        let most = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
+        if count <= most {
+            return [count as u32, 1];
+        }
+        let lines = count.div_ceil(most);
+        [count.div_ceil(lines) as u32, lines as u32]
+    }
+}
+
+/// How many threads a pass has.
+enum Threads {
+    /// One by one: groups are as large as is best.
+    Single(u64),
+    /// In groups.
+    Groups(u64),
+}

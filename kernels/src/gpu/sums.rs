@@ -1,0 +1,151 @@
+//! What measures sum up, on the device: a few hundred bytes come back instead of the state.
+
+use super::{
+    error::GpuError,
+    resident::Resident,
+    transfer::vector,
+    twins::{SUMS, TOTAL},
+};
+use crate::columns::RowCounts;
+use glam::DVec3;
+
+/// Bytes of the sums of one group: five rows of four floats, of which the last has largest values.
+pub(super) const SUM_BYTES: u64 = 80;
+/// What stands for the largest of no values, in `sums.wgsl`.
+const SMALLEST: f32 = -3.0e38;
+
+/// Groups of the largest of the stores that are summed up.
+pub(super) fn sum_groups(rows: RowCounts) -> u64 {
+    rows.fluid.max(rows.nodes).max(rows.tets).div_ceil(256) as u64
+}
+
+/// Sums over the particles, for a mass of one each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FluidSums {
+    /// Sum of the velocities \[m/s\].
+    pub velocity: DVec3,
+    /// Sum of position x velocity \[m^2/s\].
+    pub angular: DVec3,
+    /// Sum of squared speeds \[m^2/s^2\].
+    pub speed_squared: f64,
+    /// Sum of the positions \[m\].
+    pub position: DVec3,
+    /// Particles whose interior value is above one half.
+    pub inside: f64,
+    /// Sum of `max(rho / rho_0 - 1, 0)` \[1\].
+    pub density_error: f64,
+    /// Largest squared speed \[m^2/s^2\].
+    pub largest_speed_squared: f64,
+    /// Largest `max(rho / rho_0 - 1, 0)` \[1\].
+    pub largest_density_error: f64,
+}
+
+/// Sums over the nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeSums {
+    /// Momentum \[kg m/s\].
+    pub momentum: DVec3,
+    /// Angular momentum about the origin \[kg m^2/s\].
+    pub angular: DVec3,
+    /// Twice the kinetic energy \[J\].
+    pub speed_squared: f64,
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Sum of mass times position \[kg m\].
+    pub position: DVec3,
+    /// Sum of volume times saturation \[m^3\].
+    pub saturation: f64,
+    /// Volume of nodes that have a saturation \[m^3\].
+    pub volume: f64,
+    /// Largest squared speed \[m^2/s^2\].
+    pub largest_speed_squared: f64,
+    /// Height of the highest node that is more than half saturated \[m\], if there is one.
+    pub highest_wet: Option<f64>,
+    /// Height of the lowest node \[m\].
+    pub lowest: f64,
+}
+
+/// Sums over the tets.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TetSums {
+    /// Volume \[m^3\].
+    pub volume: f64,
+    /// Energy of the strain, as `pbd::strain` defines it \[J\].
+    pub energy: f64,
+}
+
+/// Sums over all stores; none for a store without rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// Particles.
+    pub fluid: Option<FluidSums>,
+    /// Nodes.
+    pub nodes: Option<NodeSums>,
+    /// Tets.
+    pub tets: Option<TetSums>,
+}
+
+impl Resident {
+    /// Sums up the state after a step: in f32, pairwise within groups of 256 rows and then over the groups, always in the
+    /// same order. `node_mass` are the masses of the nodes \[kg\].
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn sums(&self, node_mass: &[f32]) -> Result<Sums, GpuError> {
+        let mut parts = Vec::new();
+        for (place, pass) in SUMS.iter().enumerate() {
+            let mut dispatches = Vec::new();
+            self.bind("measure", pass, None, &mut dispatches)?;
+            let groups = self.rows_of_sums(place).div_ceil(256) as u32;
+            let summands = self.uniform("summands", [groups, place as u32, 0, 0])?;
+            self.bind("measure", &TOTAL, Some(("summands", &summands)), &mut dispatches)?;
+            parts.push(dispatches);
+        }
+        self.write("node_mass", bytemuck::cast_slice(node_mass));
+        let parts: Vec<_> = parts.iter().map(|part| &part[..]).collect();
+        self.submit(&parts, false, None)?;
+        let words = self.read(&[("totals", 3 * SUM_BYTES)])?.concat();
+        let floats: &[f32] = bytemuck::cast_slice(&words);
+        let [fluid, nodes, tets] =
+            [0, 1, 2].map(|place| Some(&floats[place * 20..][..20]).filter(|_| self.rows_of_sums(place) > 0));
+        Ok(Sums { fluid: fluid.map(fluid_sums), nodes: nodes.map(node_sums), tets: tets.map(tet_sums) })
+    }
+
+    fn rows_of_sums(&self, place: usize) -> usize {
+        [self.rows.fluid, self.rows.nodes, self.rows.tets][place]
+    }
+}
+
+fn fluid_sums(row: &[f32]) -> FluidSums {
+    let float = |index: usize| f64::from(row[index]);
+    FluidSums {
+        velocity: vector(&row[..3]),
+        speed_squared: float(3),
+        angular: vector(&row[4..7]),
+        inside: float(7),
+        position: vector(&row[8..11]),
+        density_error: float(11),
+        largest_speed_squared: float(16),
+        largest_density_error: float(17),
+    }
+}
+
+fn node_sums(row: &[f32]) -> NodeSums {
+    let float = |index: usize| f64::from(row[index]);
+    NodeSums {
+        momentum: vector(&row[..3]),
+        speed_squared: float(3),
+        angular: vector(&row[4..7]),
+        mass: float(7),
+        position: vector(&row[8..11]),
+        saturation: float(11),
+        volume: float(12),
+        largest_speed_squared: float(16),
+        highest_wet: Some(float(17)).filter(|_| row[17] > SMALLEST),
+        lowest: -float(18),
+    }
+}
+
+fn tet_sums(row: &[f32]) -> TetSums {
+    TetSums { volume: f64::from(row[0]), energy: f64::from(row[1]) }
+}

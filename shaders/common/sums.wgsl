@@ -1,0 +1,46 @@
+// Sums and largest values over the threads of a group, always in the same order.
+
+// Four rows of sums and one of largest values.
+struct Sums {
+    a: vec4<f32>,
+    b: vec4<f32>,
+    c: vec4<f32>,
+    d: vec4<f32>,
+    largest: vec4<f32>,
+}
+
+const SMALLEST: f32 = -3.0e38;
+
+var<workgroup> shared_rows: array<vec4<f32>, 256>;
+
+fn no_sums() -> Sums {
+    let zero = vec4<f32>(0.0);
+    return Sums(zero, zero, zero, zero, vec4<f32>(SMALLEST));
+}
+
+// The same for all threads.
+fn group_row(lane: u32, own: vec4<f32>, is_largest: bool) -> vec4<f32> {
+    shared_rows[lane] = own;
+    for (var half = GROUP / 2u; half > 0u; half = half / 2u) {
+        workgroupBarrier();
+        if (lane < half) {
+            let a = shared_rows[lane];
+            let b = shared_rows[lane + half];
+            shared_rows[lane] = select(a + b, max(a, b), is_largest);
+        }
+    }
+    workgroupBarrier();
+    let all = shared_rows[0];
+    workgroupBarrier();
+    return all;
+}
+
+fn group_sums(lane: u32, own: Sums) -> Sums {
+    return Sums(
+        group_row(lane, own.a, false),
+        group_row(lane, own.b, false),
+        group_row(lane, own.c, false),
+        group_row(lane, own.d, false),
+        group_row(lane, own.largest, true),
+    );
+}

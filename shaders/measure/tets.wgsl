@@ -1,0 +1,38 @@
+// What measures sum up over the tets, a group at a time. a: volume, energy of the strain as `strain.wgsl` has it.
+
+@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(1) var<uniform> sponges: Sponges;
+@group(0) @binding(2) var<storage, read> tets: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read> tet_sponge: array<u32>;
+@group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    var own = no_sums();
+    if (row < params.tet_rows) {
+        let sponge = sponges.all[tet_sponge[row]];
+        let tet = tets[row];
+        let p0 = position[tet.x].xyz;
+        let p1 = position[tet.y].xyz;
+        let p2 = position[tet.z].xyz;
+        let p3 = position[tet.w].xyz;
+        let d = (p1 - p0) / sponge.edge;
+        let e = (p2 - p3) / sponge.edge;
+        let f = ((p2 - p0) + (p3 - p1)) / sponge.edge;
+        let ratio = dot(d, cross(e, f));
+        let lengths = vec3<f32>(length(d), length(e), length(f)) - 1.0;
+        let shears = vec3<f32>(dot(d, e), dot(d, f), dot(e, f));
+        let volume = sponge.edge * sponge.edge * sponge.edge / 12.0;
+        let energy = sponge.stretch_modulus * dot(lengths, lengths)
+            + sponge.shear_modulus * dot(shears, shears)
+            + sponge.volume_modulus * (ratio - 1.0) * (ratio - 1.0);
+        own.a = vec4<f32>(volume * ratio, 0.5 * volume * energy, 0.0, 0.0);
+    }
+    write_sums(group_of(group, groups), lane, group_sums(lane, own));
+}

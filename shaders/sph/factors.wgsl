@@ -1,0 +1,63 @@
+// What a pressure solve needs to know of the predicted positions; `factors.rs` has the formulas. The pair factors c_ij are
+// computed where they are needed. Squared displacements are added up by `solve_begin.wgsl`.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read> boundary: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> factors: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> solve_sums: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    let is_row = row < rows;
+    var displacement = 0.0;
+    if (is_row) {
+        let before = position[row];
+        let point = predicted[row].xyz;
+        let moved = point - before.xyz;
+        displacement = dot(moved, moved);
+        let volume = params.particle_mass / params.rest_density;
+        let gradient = params.smoothing.gradient * volume;
+        var own = vec3<f32>(0.0);
+        var others = 0.0;
+        var shapes = 0.0;
+        let end = list[row];
+        var slot = row;
+        for (var k = 0u; k < end; k += 1u) {
+            slot += rows;
+            let apart = point - predicted[list[slot]].xyz;
+            let square = dot(apart, apart);
+            let u = closeness(params.smoothing, square);
+            let c = gradient * (u * u * u);
+            own += c * apart;
+            others += c * c * square;
+            shapes += shape(u);
+        }
+        let wall = boundary[row];
+        own -= wall.xyz;
+        let least = params.lattice_diagonal / 3.0;
+        let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step);
+        let most = params.correction_speed * clock.step / params.spacing;
+        let compression = min(shapes * (params.smoothing.value * volume) + wall.w - 1.0, most);
+        factors[row] = vec4<f32>(own, compression);
+        pressure_rows[row] = vec4<f32>(before.w * params.rest_density, 0.0, diagonal, compression);
+    }
+    let sum = group_row(lane, vec4<f32>(displacement, 0.0, 0.0, 0.0), false);
+    let place = group_of(group, groups);
+    if (lane == 0u && place * GROUP < rows) {
+        solve_sums[place * 2u] = sum;
+    }
+}

@@ -1,0 +1,28 @@
+// Where particles would be at the end of the step without a change of their pressure, kept inside the walls.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> predicted: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    var end = position[row].xyz + clock.step * velocity[row].xyz;
+    if (params.wall_low.w > 0.0) {
+        let margin = params.spacing * 0.05;
+        let low = params.wall_low.xyz + margin;
+        let high = params.wall_high.xyz - margin;
+        end = select(select(end, high, end > high), low, end < low);
+    }
+    predicted[row] = vec4<f32>(end, 0.0);
+}

@@ -1,0 +1,37 @@
+// One round of a pressure solve: acceleration by what the pressure has changed since the beginning of the step.
+//
+//     a_i = dP_i B_i + sum_j c_ij dP_j x_ij
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(4) var<storage, read> factors: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> correction: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let own = predicted[row];
+    let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
+    let end = list[row];
+    var slot = row;
+    var sum = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let there = predicted[list[slot]];
+        let apart = own.xyz - there.xyz;
+        let u = closeness(params.smoothing, dot(apart, apart));
+        sum += (gradient * (u * u * u) * there.w) * apart;
+    }
+    sum += own.w * factors[row].xyz;
+    correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()));
+}

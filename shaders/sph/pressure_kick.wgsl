@@ -1,0 +1,24 @@
+// After a pressure solve: velocity by the change of the pressure, and the pressure for the next step.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> correction: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let v = velocity[row].xyz + clock.step * correction[row].xyz;
+    velocity[row] = vec4<f32>(v, params.particle_mass / params.rest_density);
+    position[row].w = pressure_rows[row].x / params.rest_density;
+}

@@ -1,0 +1,67 @@
+// One round of a pressure solve: the compression that is left, and the sums that `solve_round.wgsl` adds up.
+//
+//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> correction: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read> factors: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> solve_sums: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    let is_row = row < rows;
+    var sums = vec4<f32>(0.0);
+    var pressure_sum = 0.0;
+    if (is_row) {
+        let own = predicted[row].xyz;
+        let point = own - middle();
+        let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
+        let end = list[row];
+        var slot = row;
+        var sum = 0.0;
+        for (var k = 0u; k < end; k += 1u) {
+            slot += rows;
+            let other = list[slot];
+            let apart = own - predicted[other].xyz;
+            let u = closeness(params.smoothing, dot(apart, apart));
+            let there = correction[other];
+            sum += gradient * (u * u * u) * (dot(there.xyz, point) - there.w);
+        }
+        let factor = factors[row];
+        let left = factor.w + (sum - dot(correction[row].xyz, factor.xyz)) * (clock.step * clock.step);
+        let before = pressure_rows[row];
+        let response = before.w - left;
+        var error = left;
+        if (left <= 0.0) {
+            error = min(-left, before.x * before.z);
+        }
+        sums = vec4<f32>(
+            error,
+            before.y * before.y * before.z,
+            before.y * response,
+            response * response / before.z,
+        );
+        pressure_sum = before.x * before.x;
+        pressure_rows[row].w = left;
+    }
+    let all = group_row(lane, sums, false);
+    let pressures = group_row(lane, vec4<f32>(pressure_sum, 0.0, 0.0, 0.0), false);
+    let place = group_of(group, groups);
+    if (lane == 0u && place * GROUP < rows) {
+        solve_sums[place * 2u] = all;
+        solve_sums[place * 2u + 1u] = pressures;
+    }
+}

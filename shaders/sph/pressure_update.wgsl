@@ -1,0 +1,27 @@
+// One round of a pressure solve: a step along the projected gradient.
+//
+//     P_i <- max(0, P_i + alpha r_i / M_i)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> solve: Solve;
+@group(0) @binding(4) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let own = pressure_rows[row];
+    let next = max(own.x + solve.length * own.w / own.z, 0.0);
+    pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
+    predicted[row].w = next - params.rest_density * position[row].w;
+}

@@ -1,0 +1,29 @@
+// Before the first round of a pressure solve: the tolerance, which falls with the mean displacement in the step.
+
+const ERROR_PER_DISPLACEMENT: f32 = 0.02;
+const LEAST_TOLERANCE: f32 = 1.0e-6;
+const FIRST_LENGTH: f32 = 0.6;
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> solve_sums: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> solve: Solve;
+
+@compute @workgroup_size(256)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u) {
+        return;
+    }
+    // Sums of groups that there are not stay zero.
+    let groups = arrayLength(&solve_sums) / 2u;
+    var own = 0.0;
+    for (var k = lane; k < groups; k += 256u) {
+        own += solve_sums[k * 2u].x;
+    }
+    let sum = group_row(lane, vec4<f32>(own, 0.0, 0.0, 0.0), false).x;
+    if (lane == 0u) {
+        let displacement = sqrt(sum / f32(max(params.fluid_rows, 1u))) / params.spacing;
+        let tolerance = max(displacement * ERROR_PER_DISPLACEMENT, LEAST_TOLERANCE);
+        solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u, 0u, 0u);
+    }
+}

@@ -1,0 +1,48 @@
+// After a round of a pressure solve: how far to go in the next one, and whether there is one.
+
+const FIRST_LENGTH: f32 = 0.6;
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> solve_sums: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> solve: Solve;
+@group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
+@group(0) @binding(5) var<storage, read_write> extremes: array<u32, 12>;
+
+@compute @workgroup_size(256)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u) {
+        return;
+    }
+    // Sums of groups that there are not stay zero.
+    let groups = arrayLength(&solve_sums) / 2u;
+    var own = vec4<f32>(0.0);
+    var pressures = 0.0;
+    for (var k = lane; k < groups; k += 256u) {
+        own += solve_sums[k * 2u];
+        pressures += solve_sums[k * 2u + 1u].x;
+    }
+    let sums = group_row(lane, own, false);
+    let pressure_sum = group_row(lane, vec4<f32>(pressures, 0.0, 0.0, 0.0), false).x;
+    if (lane != 0u) {
+        return;
+    }
+    let particles = f32(max(params.fluid_rows, 1u));
+    let rounds = solve.rounds + 1u;
+    solve.rounds = rounds;
+    solve.error = sums.x / particles;
+    solve.pressure = sqrt(pressure_sum / particles);
+    extremes[8] = bitcast<u32>(solve.pressure);
+    let has_converged = solve.error <= solve.tolerance || rounds >= params.solve_rounds;
+    solve.has_converged = select(0u, 1u, has_converged);
+    convergence[0] = select(1u, 0u, has_converged);
+    solve.length = FIRST_LENGTH;
+    let below = select(sums.w, sums.z, rounds % 2u == 0u);
+    let above = select(sums.z, sums.y, rounds % 2u == 0u);
+    if (rounds > 1u && sums.z > 0.0 && below > 0.0) {
+        let ratio = above / below;
+        if (is_finite(ratio)) {
+            solve.length = clamp(ratio, 0.2, 20.0);
+        }
+    }
+}

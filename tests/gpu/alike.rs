@@ -1,0 +1,165 @@
+//! Scenes after 1, 60 and 600 frames.
+
+use sorb::{
+    Offload, World,
+    glam::{DVec3, Vec3},
+    scene::Scene,
+};
+
+use super::{DFSPH, busy, common, difference, world, worst};
+
+/// Largest difference of what is left when single particles have gone ways of their own: where water and sponges are,
+/// how much the sponges hold, and the energies, over those that the scene had to lose.
+fn bulk_difference(a: &World, b: &World, energy: f64) -> (f64, &'static str) {
+    let centre = |world: &World| {
+        let count = world.particle_positions().len().max(1) as f64;
+        world
+            .particle_positions()
+            .iter()
+            .map(|row| DVec3::new(row[0].into(), row[1].into(), row[2].into()))
+            .sum::<DVec3>()
+            / count
+    };
+    let water = (centre(a) - centre(b)).abs();
+    let (a, b) = (a.measures(), b.measures());
+    worst(&[
+        ((a.time - b.time).abs() * 1e3, "time"),
+        ((a.water_mass - b.water_mass).abs() / (a.water_mass + 1e-3), "water mass"),
+        (water.x.max(water.z) / 0.1, "centre of the water"),
+        // Twice the height of the centre, of water at rest.
+        (2.0 * water.y / 0.1, "level"),
+        ((a.absorbed_mass - b.absorbed_mass).abs() / (a.water_mass + 1e-3), "absorbed mass"),
+        ((a.saturation - b.saturation).abs(), "saturation"),
+        ((a.sponge_volume - b.sponge_volume).abs() / (a.sponge_volume + 1e-9), "sponge volume"),
+        ((a.sponge_centre - b.sponge_centre).length() / 0.1, "sponge centre"),
+        ((a.kinetic_energy - b.kinetic_energy).abs() / energy, "kinetic energy"),
+        ((a.potential_energy - b.potential_energy).abs() / energy, "potential energy"),
+        ((a.elastic_energy - b.elastic_energy).abs() / energy, "elastic energy"),
+    ])
+}
+
+/// A scene, how long it runs, and how far apart CPU and GPU may be then.
+#[derive(Clone, Copy)]
+struct Case {
+    scene: &'static str,
+    resolution: f32,
+    /// Changes of the scene: softer and slower, where steps of the preset are too many for a software adapter.
+    keys: &'static [&'static str],
+    frames: u32,
+    /// For [`difference`], after 1 frame, or [`bulk_difference`], after more. Beside it what was found, and how far apart
+    /// two runs on the CPU end of which one starts a micrometre a second faster.
+    tolerance: f64,
+}
+
+impl Case {
+    fn scene(&self) -> Scene {
+        common::with(&busy::scene(self.scene, self.resolution), self.keys)
+    }
+
+    /// How far apart two worlds of the case are.
+    fn difference(&self, a: &World, b: &World) -> (f64, &'static str) {
+        if self.frames == 1 {
+            return difference(&a.measures(), &b.measures());
+        }
+        let start = world(&self.scene(), Offload::Cpu).measures();
+        // What is there to lose: motion, and height of a tenth of a metre.
+        let energy = start.kinetic_energy + start.water_mass * 9.81 * 0.1 + 1e-4;
+        bulk_difference(a, b, energy)
+    }
+
+    #[track_caller]
+    fn run(&self, scene: &Scene, offload: Offload) -> World {
+        let mut world = world(scene, offload);
+        (0..self.frames).for_each(|_| common::frame(&mut world));
+        world
+    }
+}
+
+#[track_caller]
+#[expect(clippy::print_stdout, reason = "how far apart they are is worth reading in a test that passes")]
+fn assert_alike(case: &Case) {
+    let scene = case.scene();
+    let name = case.scene;
+    let (cpu, gpu) = (case.run(&scene, Offload::Cpu), case.run(&scene, Offload::Gpu));
+    assert!(cpu.clock().steps.abs_diff(gpu.clock().steps) <= 2 + cpu.clock().steps / 20, "{name}");
+    assert_eq!(common::unhealthy(&gpu, cpu.particle_ids().len()), None, "{name}");
+    let (found, what) = case.difference(&cpu, &gpu);
+    // The control: gravity that leans by three degrees is noticed.
+    let mut other = scene.clone();
+    other.gravity.x += 0.5;
+    let (control, _) = case.difference(&cpu, &case.run(&other, Offload::Cpu));
+    // Splashing water is chaotic: rounding becomes as large as what it does to the same program.
+    let mut shifted = scene.clone();
+    if let Some(fluid) = &mut shifted.fluid {
+        fluid.blocks.iter_mut().for_each(|block| block.velocity += Vec3::new(1e-6, 1e-6, -1e-6));
+    }
+    let (chaos, _) = case.difference(&cpu, &case.run(&shifted, Offload::Cpu));
+    let Case { frames, tolerance, .. } = case;
+    println!(
+        "{name}, {frames} frames: {found:.1e} of {tolerance:.0e}, {what}; chaos {chaos:.1e}, control {control:.1e}"
+    );
+    assert!(found <= *tolerance, "{name} after {frames} frames: {what} differs by {found:.1e}");
+    assert!(
+        control > *tolerance || scene.bodies.is_empty() && scene.fluid.is_none(),
+        "{name}: {control:.1e}"
+    );
+}
+
+macro_rules! cases {
+    ($($name:ident: $scene:literal, $resolution:literal, $keys:expr, $frames:literal, $tolerance:literal;)*) => {
+        $(#[test]
+        fn $name() {
+            assert_alike(&Case {
+                scene: $scene,
+                resolution: $resolution,
+                keys: $keys,
+                frames: $frames,
+                tolerance: $tolerance,
+            });
+        })*
+    };
+}
+
+/// Ten steps a frame instead of forty, and water that comes to rest.
+const SOFT: &[&str] = &[
+    "fluid.sound_speed=4",
+    "fluid.viscosity=0.5",
+    "sponges.0.stretch_modulus=1000",
+    "sponges.0.shear_modulus=500",
+    "sponges.0.volume_modulus=1000",
+    "sponges.0.entry_pressure=100",
+];
+
+/// A tank that the water fills: a puddle of a few particles in a wide one drifts to and fro for ever.
+const NARROW: &[&str] = &["fluid.sound_speed=4", "fluid.viscosity=0.5", "domain.maximum=[-0.1, 0.2, 0.06]"];
+
+/// The ball touches the sponge and stays there: bodies that never move do not stop a batch of steps.
+const FIXED: &[&str] = &[
+    "bodies.0.kind=\"fixed\"",
+    "bodies.0.linear_velocity=[0.0, 0.0, 0.0]",
+    "bodies.0.position=[0.005, 0.105, 0.003]",
+];
+
+cases! {
+    standing: "standing", 0.5, &[], 1, 1e-4;
+    ball_drop: "ball_drop", 0.5, &[], 1, 1e-4;
+    squish: "squish", 0.5, &[], 1, 1e-4;
+    dam_break: "dam_break", 0.5, &[], 1, 1e-4;
+    wring: "wring", 0.5, &[], 1, 1e-4;
+    water: "water", 0.5, &[], 1, 1e-4;
+    dry: "dry", 0.5, &[], 1, 1e-4;
+    empty: "empty", 0.5, &[], 1, 1e-4;
+    fixed_ball: "ball_drop", 0.5, FIXED, 1, 1e-4;
+    solved_water: "water", 0.5, DFSPH, 1, 1e-4;
+    solved_dam_break: "dam_break", 0.5, DFSPH, 1, 1e-4;
+    solved_ball_drop: "ball_drop", 0.5, DFSPH, 1, 1e-4;
+    a_second_of_solved_water: "water", 0.4, DFSPH, 60, 1e-1;
+    a_second_of_water: "water", 0.3, &[], 60, 1e-1;
+    a_second_of_standing: "standing", 0.3, SOFT, 60, 1e-3;
+    a_second_of_ball_drop: "ball_drop", 0.3, &[], 60, 1e-3;
+    a_second_of_squish: "squish", 0.3, SOFT, 60, 3e-3;
+    a_second_of_dam_break: "dam_break", 0.3, SOFT, 60, 3e-2;
+    ten_seconds_of_water: "water", 0.3, NARROW, 600, 1e-2;
+    ten_seconds_of_standing: "standing", 0.3, SOFT, 600, 1e-2;
+    ten_seconds_of_ball_drop: "ball_drop", 0.2, SOFT, 600, 1e-3;
+}

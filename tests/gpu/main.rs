@@ -1,0 +1,114 @@
+//! Whole scenes on the GPU against the CPU. A machine without an adapter fails here: lavapipe is one.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod alike;
+mod placement;
+mod state;
+
+use std::sync::{Arc, OnceLock};
+
+use common::busy;
+use sorb::{Bound, Measures, Offload, Options, World, WorldError, gpu::Gpu, scene::Scene};
+
+/// The scene as it is.
+const PAPER: &[&str] = &[];
+/// Pressure by a solve.
+const DFSPH: &[&str] = &["fluid.solver=\"dfsph\""];
+
+/// One device for all tests.
+fn gpu() -> Arc<Gpu> {
+    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
+    Arc::clone(GPU.get_or_init(|| {
+        Arc::new(Gpu::new().unwrap_or_else(|error| {
+            panic!("{error}; these tests need one, and do not pass without: install mesa-vulkan-drivers and libvulkan1")
+        }))
+    }))
+}
+
+fn world(scene: &Scene, offload: Offload) -> World {
+    let options = Options { offload, gpu: Some(gpu()), ..Options::default() };
+    World::with_options(scene, &options).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
+}
+
+/// Largest difference of two states: of each measure, over what it can be expected to be.
+fn difference(a: &Measures, b: &Measures) -> (f64, &'static str) {
+    let mass = a.water_mass + 1e-3;
+    let energy = a.kinetic_energy + a.elastic_energy + 1e-4;
+    let momentum = (2.0 * mass * (a.kinetic_energy + 1e-6)).sqrt();
+    worst(&[
+        ((a.time - b.time).abs() * 1e3, "time"),
+        ((a.water_mass - b.water_mass).abs() / mass, "water mass"),
+        ((a.absorbed_mass - b.absorbed_mass).abs() / mass, "absorbed mass"),
+        ((a.saturation - b.saturation).abs(), "saturation"),
+        ((a.sponge_volume - b.sponge_volume).abs() / (a.sponge_volume + 1e-9), "sponge volume"),
+        ((a.sponge_centre - b.sponge_centre).length() / 0.1, "sponge centre"),
+        ((a.linear_momentum - b.linear_momentum).length() / momentum, "momentum"),
+        ((a.kinetic_energy - b.kinetic_energy).abs() / energy, "kinetic energy"),
+        ((a.potential_energy - b.potential_energy).abs() / (mass * 9.81 * 0.1), "potential energy"),
+        ((a.elastic_energy - b.elastic_energy).abs() / energy, "elastic energy"),
+        ((a.mean_density_error - b.mean_density_error).abs(), "density error"),
+    ])
+}
+
+/// The largest, also if one is not a number.
+fn worst(differences: &[(f64, &'static str)]) -> (f64, &'static str) {
+    differences.iter().fold((0.0, "nothing"), |worst, new| if new.0 <= worst.0 { worst } else { *new })
+}
+
+#[test]
+fn a_world_and_its_clone_end_with_the_same_bits() {
+    for (name, keys) in [("water", PAPER), ("ball_drop", PAPER), ("water", DFSPH), ("ball_drop", DFSPH)] {
+        let scene = common::with(&busy::scene(name, 0.5), keys);
+        let mut first = world(&scene, Offload::Gpu);
+        common::frame(&mut first);
+        let mut copy = first.clone();
+        assert_eq!(copy.digest(), first.digest(), "{name}");
+        common::frame(&mut first);
+        common::frame(&mut copy);
+        assert_eq!(copy.digest(), first.digest(), "{name}");
+        let mut again = world(&scene, Offload::Gpu);
+        common::frame(&mut again);
+        common::frame(&mut again);
+        assert_eq!(again.digest(), first.digest(), "{name}");
+    }
+}
+
+#[test]
+fn single_steps_are_as_long_as_on_the_cpu() {
+    for (name, keys, bound) in [("ball_drop", PAPER, None), ("water", DFSPH, Some(Bound::Pressure))] {
+        let scene = common::with(&busy::scene(name, 0.5), keys);
+        let (mut cpu, mut gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
+        let mut bounds = Vec::new();
+        for _ in 0..10 {
+            let fail = |error| panic!("{error}");
+            let (expected, found) = (cpu.step().unwrap_or_else(fail), gpu.step().unwrap_or_else(fail));
+            assert_eq!(expected.bound, found.bound, "{name}");
+            let apart = |a: f32, b: f32| (a / b - 1.0).abs();
+            assert!(apart(expected.step, found.step) < 1e-3, "{name}: {expected:?}, {found:?}");
+            let speeds = (expected.maximum_speed, found.maximum_speed);
+            assert!(apart(speeds.0, speeds.1) < 1e-3, "{name}: {expected:?}, {found:?}");
+            bounds.push(found.bound);
+        }
+        assert!((cpu.clock().time - gpu.clock().time).abs() < 1e-6, "{name}");
+        assert!(bound.is_none_or(|bound| bounds.contains(&bound)), "{name}: {bounds:?}");
+    }
+}
+
+#[test]
+fn a_scene_that_is_too_large_for_the_adapter_is_an_error_with_its_size() {
+    let scene = busy::scene("water", 0.5);
+    let adapter = sorb::gpu::adapters().into_iter().next().expect("there is an adapter");
+    let limits = sorb::gpu::wgpu::Limits {
+        max_storage_buffer_binding_size: 1 << 16,
+        ..sorb::gpu::required_limits(&adapter)
+    };
+    let small = Gpu::with_limits(&adapter, limits).unwrap_or_else(|error| panic!("{error}"));
+    let options = Options { offload: Offload::Gpu, gpu: Some(Arc::new(small)), ..Options::default() };
+    let mut world =
+        World::with_options(&scene, &options).unwrap_or_else(|error: WorldError| panic!("{error}"));
+    let error = world.step().map_err(|error| error.to_string());
+    assert!(error.as_ref().is_err_and(|text| text.contains("bytes on the GPU")), "{error:?}");
+    assert_eq!(world.step().map_err(|error| error.to_string()), error);
+}

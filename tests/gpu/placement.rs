@@ -1,0 +1,154 @@
+//! Which kernels run where, and what the plan says of it.
+
+use sorb::{
+    Offload, Options, World,
+    kernel::KERNELS,
+    scene::Scene,
+    schedule::{Place, Verdict},
+};
+
+use super::{DFSPH, busy, common, difference, gpu, world};
+
+#[test]
+fn every_kernel_can_be_the_first_on_the_gpu() {
+    let scene = busy::scene("ball_drop", 0.5);
+    let mut cpu = world(&scene, Offload::Cpu);
+    common::steps(&mut cpu, 3);
+    let kernels = cpu.plan().lines().iter().filter(|line| line.verdict == Verdict::Runs);
+    for kernel in kernels.map(|line| line.name).filter(|name| *name != "rigid::step") {
+        let mut mixed = world(&scene, Offload::From(kernel));
+        assert!(
+            mixed.plan().lines().iter().any(|line| mixed.plan().place(line.name) == Place::Gpu),
+            "{kernel}"
+        );
+        common::steps(&mut mixed, 3);
+        let (found, what) = difference(&cpu.measures(), &mixed.measures());
+        assert!(found < 1e-4, "from {kernel}: {what} differs by {found:.1e}");
+    }
+}
+
+/// The scene with the ball on the sponge and surface tension, so that every kernel has work but those of the other solve
+/// for the pressure.
+fn everything(keys: &[&str]) -> Scene {
+    let mut scene = busy::scene("ball_drop", 0.5);
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.surface_tension = 0.072;
+    }
+    common::with(&scene, keys)
+}
+
+/// Kernels that run at one place: those that go through the cells, and those that are repeated until they have converged.
+const TOGETHER: [&[&str]; 2] = [
+    &["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"],
+    &["sph::pressure_update", "sph::pressure_acceleration", "sph::pressure_residual"],
+];
+
+/// Kernels of a scene that can be placed on their own.
+fn placed_alone(world: &World) -> Vec<Vec<&'static str>> {
+    let runs = |name: &str| {
+        world.plan().lines().iter().any(|line| line.name == name && line.verdict == Verdict::Runs)
+    };
+    let alone = |name: &&'static str| TOGETHER.iter().all(|group| !group.contains(name));
+    let names = KERNELS.iter().map(|kernel| kernel.name).filter(|name| runs(name));
+    let mut all: Vec<Vec<_>> = names.filter(alone).map(|name| vec![name]).collect();
+    all.extend(TOGETHER.iter().filter(|group| runs(group[0])).map(|group| group.to_vec()));
+    all
+}
+
+#[track_caller]
+fn assert_each_can_be_alone(scene: &Scene, bound: f64) {
+    let mut cpu = world(scene, Offload::Cpu);
+    common::steps(&mut cpu, 3);
+    for names in placed_alone(&cpu) {
+        for (alone, others) in [(Place::Gpu, Place::Cpu), (Place::Cpu, Place::Gpu)] {
+            let mut list: Vec<_> = KERNELS.iter().map(|kernel| (kernel.name, others)).collect();
+            list.extend(names.iter().map(|name| (*name, alone)));
+            let mut mixed = world(scene, Offload::Each(list));
+            assert!(names.iter().all(|name| mixed.plan().place(name) == alone), "{names:?}");
+            common::steps(&mut mixed, 3);
+            let (found, what) = difference(&cpu.measures(), &mixed.measures());
+            assert!(found < bound, "{names:?} on {alone}: {what} differs by {found:.1e}");
+        }
+    }
+}
+
+#[test]
+fn every_kernel_can_be_alone_on_either_side() {
+    assert_each_can_be_alone(&everything(&[]), 1e-4);
+}
+
+#[test]
+fn every_kernel_of_a_pressure_solve_can_be_alone_on_either_side() {
+    assert_each_can_be_alone(&everything(DFSPH), 1e-4);
+}
+
+#[test]
+fn kernels_can_take_turns() {
+    let scene = everything(&[]);
+    let mut cpu = world(&scene, Offload::Cpu);
+    let list = KERNELS.iter().enumerate().map(|(index, kernel)| {
+        let sort = ["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"].contains(&kernel.name);
+        (kernel.name, if sort || index % 2 == 0 { Place::Gpu } else { Place::Cpu })
+    });
+    let mut mixed = world(&scene, Offload::Each(list.collect()));
+    for _ in 0..2 {
+        common::frame(&mut cpu);
+        common::frame(&mut mixed);
+    }
+    let (found, what) = difference(&cpu.measures(), &mixed.measures());
+    assert!(found < 1e-3, "{what} differs by {found:.1e}");
+    // The control: a frame more is another state.
+    common::frame(&mut mixed);
+    assert!(difference(&cpu.measures(), &mixed.measures()).0 > 1e-3);
+}
+
+#[test]
+fn kernels_at_places_where_they_cannot_be_are_refused() {
+    let scene = busy::scene("water", 0.5);
+    let error = |list: Vec<(&'static str, Place)>| {
+        let options = Options { offload: Offload::Each(list), gpu: Some(gpu()), ..Options::default() };
+        World::with_options(&scene, &options).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let sort = ("grid::sort_fluid", Place::Gpu);
+    let refused = error(vec![sort]);
+    assert!(refused.as_ref().is_err_and(|text| text.contains("grid::fluid_neighbors=cpu")), "{refused:?}");
+    assert_eq!(error(vec![sort, ("grid::fluid_neighbors", Place::Gpu)]), Ok(()));
+    let solved = common::with(&scene, DFSPH);
+    let options = |list| Options { offload: Offload::Each(list), gpu: Some(gpu()), ..Options::default() };
+    let apart =
+        World::with_options(&solved, &options(vec![("sph::pressure_update", Place::Gpu)])).map(|_| ());
+    let apart = apart.map_err(|error| error.to_string());
+    assert!(
+        apart.as_ref().is_err_and(|text| text.contains("sph::pressure_residual=cpu")
+            || text.contains("sph::pressure_acceleration=cpu")),
+        "{apart:?}"
+    );
+    let unknown = error(vec![("sph::nothing", Place::Gpu)]);
+    assert!(unknown.as_ref().is_err_and(|text| text.contains("sph::nothing")), "{unknown:?}");
+}
+
+#[test]
+fn plans_say_where_and_why_and_what_travels() {
+    let scene = busy::scene("ball_drop", 0.5);
+    let all = world(&scene, Offload::Gpu).plan().to_string();
+    for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 144 bytes"] {
+        assert!(all.contains(part), "{part} is not in {all}");
+    }
+    let mixed = world(&scene, Offload::From("sph::forces")).plan().to_string();
+    for part in ["cpu   sph::density", "gpu   sph::forces", "send ", "fetch "] {
+        assert!(mixed.contains(part), "{part} is not in {mixed}");
+    }
+    let list = vec![("pbd::strain", Place::Gpu), ("pbd::contact", Place::Cpu)];
+    let each = world(&scene, Offload::Each(list)).plan().to_string();
+    for part in [
+        "gpu   1 x pbd::strain",
+        "cpu   1 x pbd::contact",
+        "send  nodes.position, nodes.predicted: ",
+        "fetch nodes.predicted: ",
+    ] {
+        assert!(each.contains(part), "{part} is not in {each}");
+    }
+    let few = world(&scene, Offload::Auto).plan().to_string();
+    assert!(few.contains("backend cpu, of auto") && few.contains("worth a GPU"), "{few}");
+    assert!(!world(&scene, Offload::Cpu).plan().to_string().contains("backend"));
+}
