@@ -325,7 +325,12 @@ fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
         let size = sponge.size() - inset * 2.0;
         let fraction = f64::from(sponge.porosity * sponge.saturation);
         let pitch = (volume / fraction).cbrt() as f32;
-        let counts = filling(size.to_array().map(|size| size / pitch));
+        let wanted = size.to_array().map(|size| size / pitch);
+        let counts = match fluid.solver {
+            // A few too many yield slowly to an equation of state.
+            scene::FluidSolver::Wcsph => wanted.map(|count| count.round().max(1.0) as u32),
+            scene::FluidSolver::Dfsph => filling(wanted),
+        };
         let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
         let first_of = |other: &scene::Sponge, point: Vec3| other.saturation > 0.0 && holds(other, point);
         let keep = |point: Vec3| {
@@ -343,7 +348,7 @@ fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
 }
 
 /// Whole numbers of particles along the axes, next to the given ones: as many particles as possible, but no more than
-/// fit. One too many in a row would be pressed out at the first step.
+/// fit. A solve for the pressure presses out one too many in a row at the first step.
 fn filling(wanted: [f32; 3]) -> [u32; 3] {
     let most = wanted.iter().product::<f32>() * 1.001;
     let corner = |bits: u32| {

@@ -1,6 +1,6 @@
 // One round of a pressure solve: a step along the projected gradient.
 //
-//     P_i <- max(0, P_i + alpha r_i / M_i)
+//     P_i <- min(max(0, P_i + alpha r_i / M_i), (10 u)^2)
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -21,7 +21,8 @@ fn main(
         return;
     }
     let own = pressure_rows[row];
-    let next = max(own.x + solve.length * own.w / own.z, 0.0);
+    let speed = 10.0 * params.correction_speed;
+    let next = min(max(own.x + solve.length * own.w / own.z, 0.0), speed * speed);
     pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
     predicted[row].w = next - params.rest_density * position[row].w;
 }

@@ -3,7 +3,7 @@
 use sorb::{
     Offload, World,
     glam::{DVec3, Vec3},
-    scene::Scene,
+    scene::{FluidSolver, Scene},
 };
 
 use super::{DFSPH, busy, common, difference, world, worst};
@@ -52,8 +52,13 @@ struct Case {
 }
 
 impl Case {
+    /// With the equation of state, unless the keys say otherwise.
     fn scene(&self) -> Scene {
-        common::with(&busy::scene(self.scene, self.resolution), self.keys)
+        let mut scene = busy::scene(self.scene, self.resolution);
+        if let Some(fluid) = &mut scene.fluid {
+            fluid.solver = FluidSolver::Wcsph;
+        }
+        common::with(&scene, self.keys)
     }
 
     /// How far apart two worlds of the case are.

@@ -46,6 +46,8 @@ pub struct Setting {
     pub quick: bool,
     /// Plants the case's fault, which must push it out of its bounds.
     pub fault: bool,
+    /// Changes of keys of every scene, as `KEY=VALUE`; see [`Scene::set`].
+    pub changes: Vec<String>,
     /// What to run on.
     pub options: Options,
 }
@@ -80,12 +82,16 @@ impl Setting {
         (f64::from(full) * self.resolution).round().max(2.0) as u32
     }
 
-    /// The world of a scene, with the solvers of the setting.
+    /// The world of a scene, with the solvers and changes of the setting.
     ///
     /// # Errors
     /// The scene is bad, or the machine lacks what the options ask for.
     pub fn world(&self, scene: &Scene) -> Result<World, Failure> {
-        Ok(World::with_options(&self.solvers.applied(scene)?, &self.options)?)
+        let mut scene = self.solvers.applied(scene)?;
+        if !self.changes.is_empty() {
+            scene = scene.with_overrides(self.changes.iter().map(String::as_str))?;
+        }
+        Ok(World::with_options(&scene, &self.options)?)
     }
 }
 

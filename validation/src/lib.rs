@@ -13,6 +13,7 @@ pub mod fem;
 mod known;
 mod level;
 pub mod norms;
+pub mod precision;
 pub mod references;
 mod run;
 mod solver;

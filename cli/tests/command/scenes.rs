@@ -94,7 +94,7 @@ fn plan_says_what_is_skipped_and_why() {
     let phases = json["phases"].as_array().expect("an array");
     let skipped =
         |name: &str| phases.iter().find(|phase| phase["name"] == name).map(|phase| phase["skipped"].clone());
-    assert_eq!(skipped("sph::density"), Some(Value::Bool(false)));
+    assert_eq!(skipped("sph::forces"), Some(Value::Bool(false)));
     assert_eq!(skipped("pbd::strain"), Some(Value::Bool(true)));
 }
 

@@ -153,28 +153,29 @@ impl Gpu {
             let text = format!("{reason:?}: {message}");
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
         });
-        let mut gpu = Self {
+        Self {
             report: AdapterReport::new(adapter),
             limits: device.limits(),
-            has_subgroups: device.features().contains(Features::SUBGROUP),
+            has_subgroups: false,
             device,
             queue,
             lost,
             pipelines: Mutex::default(),
-        };
-        gpu.has_subgroups = gpu.has_subgroups && gpu.subgroups_are_runs();
-        gpu
+        }
     }
 
-    /// The same device without subgroup operations: for a test, and for a driver that gets them wrong.
+    /// The same device with prefix sums by subgroup operations, if it has them and its subgroups are runs of threads.
+    ///
+    /// Not the default: on an H200 sorts went wrong with them. WGSL does not promise that the threads of a subgroup are
+    /// together again after a branch, and the sums of those that are not leave out the others.
     #[must_use]
-    pub fn without_subgroups(mut self) -> Self {
-        self.has_subgroups = false;
+    pub fn with_subgroups(mut self) -> Self {
+        self.has_subgroups = self.device.features().contains(Features::SUBGROUP) && self.subgroups_are_runs();
         self.pipelines = Mutex::default();
         self
     }
 
-    /// Whether prefix sums use subgroup operations: if the device has them, and its subgroups are runs of threads.
+    /// Whether prefix sums use subgroup operations.
     #[must_use]
     pub fn has_subgroups(&self) -> bool {
         self.has_subgroups

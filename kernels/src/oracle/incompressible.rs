@@ -41,7 +41,7 @@ pub(super) fn predict(params: &Params, columns: &mut Columns) {
 fn profile(params: &Params, distance: f64) -> (f64, f64) {
     let Some(solve) = &params.fluid.incompressible else { return (0.0, 0.0) };
     let (range, share) = (f64::from(solve.boundary_range), f64::from(solve.boundary_share));
-    let depth = (1.0 - distance / range).clamp(0.0, 2.0);
+    let depth = (1.0 - distance / range).clamp(0.0, 1.25);
     (share * depth.powi(6), 6.0 * share / range * depth.powi(5))
 }
 
@@ -171,11 +171,13 @@ fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
 
 pub(super) fn pressure_update(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let most = 100.0 * f64::from(solve.correction_speed).powi(2);
     let length = f64::from(fluid.pressure_solve.length());
     let density = f64::from(params.fluid.rest_density);
     for i in 0..columns.rows.fluid {
         let [pressure, _, diagonal, compression] = fluid.pressure_rows[i].map(f64::from);
-        let next = (pressure + length * compression / diagonal).max(0.0);
+        let next = (pressure + length * compression / diagonal).clamp(0.0, most);
         fluid.pressure_rows[i][0] = next as f32;
         fluid.pressure_rows[i][1] = (next - pressure) as f32;
         fluid.predicted[i][3] = (next - density * f64::from(fluid.position[i][3])) as f32;

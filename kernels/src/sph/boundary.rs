@@ -83,6 +83,9 @@ pub(super) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usiz
     (0..bodies.len()).filter(|body| is_near(&bodies[*body])).collect()
 }
 
+/// Depth `1 - y / R` beyond which share and slope do not grow: a particle that a body has swallowed is pushed out, not shot.
+const DEEPEST: f32 = 1.25;
+
 /// The share of a surface as a function of the distance from it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
@@ -97,13 +100,13 @@ impl Profile {
         Some(Self { range, share })
     }
 
-    /// Share, and its slope into the surface, at a distance; below one range under the surface as there.
+    /// Share, and its slope into the surface, at a distance; deep under the surface as a quarter of the range below it.
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, distance: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         let depth = lanes::splat(simd, 1.0) - distance * (1.0 / self.range);
         let depth = lanes::positive(simd, depth);
-        let two = lanes::splat(simd, 2.0);
-        let depth = lanes::select(depth.simd_gt(two), two, depth);
+        let deepest = lanes::splat(simd, DEEPEST);
+        let depth = lanes::select(depth.simd_gt(deepest), deepest, depth);
         let square = depth * depth;
         let fifth = square * square * depth;
         (fifth * depth * self.share, fifth * (6.0 * self.share / self.range))

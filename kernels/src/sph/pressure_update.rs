@@ -1,8 +1,11 @@
 //! One round of a pressure solve: a step along the projected gradient.
 //!
 //! ```text
-//! P_i <- max(0, P_i + alpha r_i / M_i)
+//! P_i <- min(max(0, P_i + alpha r_i / M_i), c^2)
 //! ```
+//!
+//! Water that has nowhere to go gives way at a pressure of `rho_0 c^2`, with c ten times the fastest speed that is expected:
+//! the pressure that keeps its density would be infinite.
 //!
 //! with `alpha` from `sph::pressure_residual`. Leaves the change since the beginning of the step beside the predicted
 //! position, where neighbours read it.
@@ -23,10 +26,12 @@ pub static KERNEL: Kernel = Kernel {
     cpu,
 };
 
+/// Speed of sound over the fastest speed that is expected.
+const SPEEDS: f32 = 10.0;
+
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    if params.fluid.incompressible.is_none() {
-        return;
-    }
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let most = SPEEDS * solve.correction_speed * (SPEEDS * solve.correction_speed);
     let count = columns.rows.fluid;
     let Fluid { position, predicted, pressure_rows, pressure_solve, .. } = &mut columns.fluid;
     let (length, density) = (pressure_solve.length(), params.fluid.rest_density);
@@ -35,6 +40,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let [pressure, _, diagonal, compression] = *row;
             let next = pressure + length * compression / diagonal;
             let next = if next > 0.0 { next } else { 0.0 };
+            let next = if next < most { next } else { most };
             row[0] = next;
             row[1] = next - pressure;
             predicted[3] = next - density * position[3];

@@ -29,7 +29,7 @@ const BOUNDS: &[(&str, f64)] = &[
     ("sph::boundary_pressure", 4e-6),
     ("sph::kick", 1e-6),
     ("sph::predict", 1e-6),
-    ("sph::boundary", 4e-6),
+    ("sph::boundary", 2e-5),
     ("sph::factors", 4e-6),
     ("sph::pressure_update", 4e-6),
     ("sph::pressure_acceleration", 4e-6),

@@ -68,6 +68,10 @@ fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, F
         spacing,
         0.5,
     )];
+    // The lightest slab is less deep than a spacing, and the heaviest one goes under.
+    if !(0.2..0.8).contains(&density) {
+        return Ok(figures);
+    }
     let settled = mean(heave.iter().rev().take(30).map(|sample| sample.1));
     let crossings = upward_crossings(&heave, settled);
     // The first fall is not part of a swing: the water beneath settles as well.

@@ -38,10 +38,11 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     }
     let measures = world.measures();
     let speed = (GRAVITY * DEPTH).sqrt();
-    let pressure = pressure_error(&world);
+    let (single, layers) = pressure_errors(&world, spacing);
     let level = surface(&world, spacing)?;
     Ok(vec![
-        Figure::error("pressure, L2 over the deepest", "1", pressure, 0.02),
+        Figure::error("pressure of particles, L2 over the deepest", "1", single, 0.02),
+        Figure::error("pressure of layers, L2 over the deepest", "1", layers, 0.02),
         Figure::over("level, error over spacings", "m", (DEPTH, level), spacing, 0.5),
         Figure::error("fastest particle over sqrt(g H)", "1", measures.maximum_speed / speed, 1e-3),
         Figure::error("mean density error", "1", measures.mean_density_error, 5e-4),
@@ -63,15 +64,23 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
         .with_fluid(fluid)
 }
 
-/// Root mean square over the particles of the error of the pressure, over that at the floor.
-fn pressure_error(world: &World) -> f64 {
-    let density = f64::from(world.params().fluid.rest_density);
-    let errors = world
-        .particle_positions()
-        .iter()
-        .zip(world.particle_pressures())
-        .map(|(row, pressure)| f64::from(pressure) - density * GRAVITY * (DEPTH - f64::from(row[1])));
-    root_mean_square(errors) / (density * GRAVITY * DEPTH)
+/// Root mean square error of the pressure over that at the floor, of the particles and of layers a spacing thick.
+///
+/// What the second lacks of the first is noise between neighbours.
+fn pressure_errors(world: &World, spacing: f64) -> (f64, f64) {
+    let weight = f64::from(world.params().fluid.rest_density) * GRAVITY;
+    let mut layers: Vec<Vec<f64>> = Vec::new();
+    for (row, pressure) in world.particle_positions().iter().zip(world.particle_pressures()) {
+        let height = f64::from(row[1]);
+        #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
+        #[expect(clippy::cast_sign_loss, reason = "below the floor is the lowest layer")]
+        let layer = (height / spacing).max(0.0) as usize;
+        layers.resize_with(layers.len().max(layer + 1), Vec::new);
+        layers[layer].push(f64::from(pressure) - weight * (DEPTH - height));
+    }
+    let single = root_mean_square(layers.iter().flatten().copied());
+    let means = layers.iter().filter(|layer| !layer.is_empty()).map(|layer| mean(layer.iter().copied()));
+    (single / (weight * DEPTH), root_mean_square(means) / (weight * DEPTH))
 }
 
 /// Mean height of the surface, two spacings and more away from the walls.

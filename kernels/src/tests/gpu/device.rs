@@ -96,7 +96,7 @@ fn groups_beyond_the_limit_of_a_dimension_continue_in_the_next() {
 fn prefix_sums_are_the_same_with_and_without_subgroups() {
     let adapter = adapters().into_iter().next().expect("there is an adapter");
     let device = || Gpu::on_adapter(&adapter).unwrap_or_else(|error| panic!("{error}"));
-    let (with, without) = (Arc::new(device()), Arc::new(device().without_subgroups()));
+    let (with, without) = (Arc::new(device().with_subgroups()), Arc::new(device()));
     let has = adapter.features().contains(wgpu::Features::SUBGROUP);
     assert_eq!((with.has_subgroups(), without.has_subgroups()), (has, false));
     // Few pages of cells, and, without a box and with many particles, more than 256 of them.
