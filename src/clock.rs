@@ -104,6 +104,9 @@ pub struct Clock {
 /// (docs/pressure-solve.md).
 const PRESSURE_COURANT: f32 = 0.4;
 
+/// Step over the time in which water that is sucked in crosses a spacing.
+const SUCTION_COURANT: f32 = 0.8;
+
 /// Bounds that do not change from step to step.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps {
@@ -123,6 +126,13 @@ impl Steps {
             let capillary = fluid.rest_density * h * h * h / (2.0 * PI * fluid.surface_tension);
             bounds.push((0.25 * capillary.sqrt(), Bound::SurfaceTension));
             for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
+                if params.solid.is_some() {
+                    // Water enters at this speed; nodes bear the suction together with what they hold.
+                    let pressure = sponge.entry_pressure * (1.0 + sponge.saturation_gain);
+                    let speed = (2.0 * pressure / fluid.rest_density).sqrt();
+                    bounds.push((SUCTION_COURANT * fluid.spacing / speed, Bound::Suction));
+                    continue;
+                }
                 // The springs of one node add up to 14 p V / H^2 for a kernel that is full of water.
                 let radius = params.coupling.support_radius;
                 let pressure = sponge.entry_pressure * (1.0 + sponge.saturation_gain) * sponge.reaction;

@@ -71,7 +71,18 @@ fn params(scene: &Scene) -> Params {
         fluid: fluid_params(scene),
         sponges: scene.sponges.iter().map(|sponge| sponge_params(scene, sponge)).collect(),
         coupling: Wendland::new(if radius > 0.0 { radius } else { 1.0 }),
+        solid: solid(scene),
     }
+}
+
+/// Support radius of the volume of the material, over the edge of a cell: the least at which the nodes blend into one
+/// body (its share varies by a tenth between them). A smaller one makes wells, a larger one blurs the faces.
+const SOLID_RADIUS: f32 = 1.2;
+
+fn solid(scene: &Scene) -> Option<Wendland> {
+    let edge = scene.sponges.iter().map(|sponge| sponge.edge).fold(0.0, f32::max);
+    let is_porous = edge > 0.0 && scene.coupling() == scene::Coupling::Porous;
+    is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }
 
 fn fluid_params(scene: &Scene) -> FluidParams {
@@ -257,7 +268,7 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     nodes.position.clone_from(&lattice.position);
     nodes.volume.clone_from(&lattice.node_volume);
     nodes.sponge.clone_from(&lattice.node_sponge);
-    nodes.suction = lattice.node_surface.iter().map(|surface| if *surface { 0.0 } else { 1.0 }).collect();
+    nodes.suction = suction(scene, params, lattice);
     nodes.velocity = lattice
         .node_sponge
         .iter()
@@ -290,6 +301,20 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     nodes.topology = topology(lattice);
     nodes.stars = Stars::new(&nodes.topology, &lattice.position, &lattice.node_sponge);
     debug_assert_eq!(params.sponges.len(), scene.sponges.len());
+}
+
+/// Whether nodes suck: 1 or 0. Those of the surface do not, so that no coat of water forms around the sponge; as porous
+/// media only those of the outermost layer, which have at most half the volume of a node inside.
+fn suction(scene: &Scene, params: &Params, lattice: &Lattice) -> Vec<f32> {
+    let sucks = |node: usize| {
+        if params.solid.is_none() {
+            return !lattice.node_surface[node];
+        }
+        let edge = scene.sponges[lattice.node_sponge[node] as usize].edge;
+        // A cell has two nodes.
+        lattice.node_volume[node] > 0.51 * 0.5 * edge.powi(3)
+    };
+    (0..lattice.node_count()).map(|node| if sucks(node) { 1.0 } else { 0.0 }).collect()
 }
 
 fn topology(lattice: &Lattice) -> Topology {

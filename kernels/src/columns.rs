@@ -232,6 +232,12 @@ columns! {
         NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         NodeSaturation = saturation: Vec<f32>, "1", Scratch;
+        /// Where the drag of the fluid would take the node; w: mass of the fluid that takes it there \[kg\].
+        NodePull = pull: Vec<[f32; 4]>, "m", Scratch;
+        /// Impulse of the drag of the fluid in this step; w: unused.
+        NodeDrag = drag: Vec<[f32; 4]>, "N s", Scratch;
+        /// Moment of that impulse about the node: it acts where the particles are; w: unused.
+        NodeDragMoment = drag_moment: Vec<[f32; 4]>, "N m s", Scratch;
         /// Extremes over chunks of nodes, for the time step.
         NodeExtremes = extremes: Extremes, "m/s", Scratch;
     }
@@ -251,6 +257,8 @@ columns! {
         ControlFluid = fluid: Neighbors, "1", Scratch;
         /// For every entry of those lists, node volume times kernel.
         ControlFluidWeights = fluid_weights: ListValues, "1", Scratch;
+        /// Where the node is expected at the end of the step; w: volume of its material, without pores \[m^3\].
+        ControlSolid = solid: Vec<[f32; 4]>, "m", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         ControlSaturation = saturation: Vec<f32>, "1", Scratch;
         /// Control pressure times volume: negative, so that it sucks.

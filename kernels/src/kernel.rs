@@ -30,6 +30,8 @@ pub enum Need {
     EquationOfState,
     /// Pressure by a solve that keeps the density.
     Incompressible,
+    /// Sponges as porous media: their material displaces fluid.
+    Porous,
 }
 
 impl Need {
@@ -48,6 +50,7 @@ impl Need {
             Self::SurfaceTension => "surface tension is zero",
             Self::EquationOfState => "pressure is solved for",
             Self::Incompressible => "pressure by an equation of state",
+            Self::Porous => "coupling of the paper",
         }
     }
 }
@@ -107,6 +110,14 @@ pub static KERNELS: &[&Kernel] = &[
     &couple::drag::KERNEL,
     &couple::velocity_filter::KERNEL,
     &couple::exchange::KERNEL,
+    &couple::solid_pressure::KERNEL,
+    &couple::solid_share::KERNEL,
+    &couple::solid_reaction::KERNEL,
+    &couple::node_velocity::KERNEL,
+    &couple::drag_impulse::KERNEL,
+    &couple::drag_target::KERNEL,
+    &couple::drag_reaction::KERNEL,
+    &couple::drag_kick::KERNEL,
 ];
 
 /// The kernel of that name.

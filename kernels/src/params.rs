@@ -21,6 +21,8 @@ pub struct Params {
     pub sponges: Vec<SpongeParams>,
     /// Smoothing between nodes and particles; its support is the suction radius.
     pub coupling: Wendland,
+    /// Smoothing of the volume of the sponges' material, where that displaces fluid: none with the paper's coupling.
+    pub solid: Option<Wendland>,
 }
 
 impl Params {

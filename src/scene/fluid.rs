@@ -27,6 +27,9 @@ pub struct Fluid {
     pub density_tolerance: f32,
     /// Most rounds of the `dfsph` solve in a step. Range 1 to 1000; default 50.
     pub rounds: u32,
+    /// How water and sponges meet; default: `porous` with the solvers `dfsph` and `vbd`, else `paper`.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub coupling: Option<Coupling>,
     /// Pressure as a function of density; default `tait`. For `wcsph`.
     pub equation_of_state: EquationOfState,
     /// Speed of sound of the model. Range 0.1 to 2000 m/s; default derived, see [`Scene::default_sound_speed`].
@@ -58,6 +61,7 @@ impl Default for Fluid {
             solver: FluidSolver::Dfsph,
             density_tolerance: 1e-3,
             rounds: 50,
+            coupling: None,
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,
             viscosity: 0.001,
@@ -87,6 +91,18 @@ pub enum FluidSolver {
     /// By a solve that keeps the density at rest density: few long steps \[BK17\].
     #[default]
     Dfsph,
+}
+
+/// How water and sponges meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Coupling {
+    /// The model of the paper: suction, and drag after the sponge has moved; its material takes no room.
+    Paper,
+    /// Porous media: the material of the sponge displaces water, and drag, elasticity and contact are one solve. Needs
+    /// the solvers `dfsph` of the water and `vbd` of every sponge.
+    Porous,
 }
 
 /// Pressure as a function of density.
@@ -142,6 +158,20 @@ impl FluidBlock {
 }
 
 impl Scene {
+    /// How water and sponges meet: [`Fluid::coupling`], or what the solvers allow.
+    #[must_use]
+    pub fn coupling(&self) -> Coupling {
+        let chosen = self.fluid.as_ref().and_then(|fluid| fluid.coupling);
+        let allowed = if self.allows_porous() { Coupling::Porous } else { Coupling::Paper };
+        chosen.unwrap_or(allowed)
+    }
+
+    /// Whether all solvers are those that [`Coupling::Porous`] needs.
+    pub(super) fn allows_porous(&self) -> bool {
+        self.fluid.as_ref().is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
+            && self.sponges.iter().all(|sponge| sponge.solver == super::Solver::Vbd)
+    }
+
     /// Speed of sound used where [`Fluid::sound_speed`] is absent \[m/s\]: 10 times the fastest speed that water is
     /// expected to reach from its fall through the scene, its start, or the pull of the sponges; at least 5.
     ///

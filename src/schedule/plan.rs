@@ -30,6 +30,8 @@ pub struct Content {
     pub surface_tension: bool,
     /// Most solver iterations that a sponge asks for.
     pub iterations: u32,
+    /// Sponges as porous media.
+    pub porous: bool,
     /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
     pub rounds: u32,
 }

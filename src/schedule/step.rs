@@ -115,6 +115,63 @@ pub static STEP: &[Phase] = &[
     Host(&RIGID),
 ];
 
+/// The step with sponges as porous media: pressure and suction first, then elasticity, drag and contact as one solve, so
+/// that the sponge bears what the water does to it, and drag does not weaken suction but not pressure (docs/porous.md).
+pub static POROUS_STEP: &[Phase] = &[
+    Run(&grid::sort_fluid::KERNEL),
+    Run(&grid::fluid_neighbors::KERNEL),
+    Run(&sph::density::KERNEL),
+    Run(&couple::controls::KERNEL),
+    Run(&couple::saturation::KERNEL),
+    Run(&couple::interior::KERNEL),
+    Run(&pbd::gravity::KERNEL),
+    Run(&couple::zero_distance::KERNEL),
+    Run(&sph::forces::KERNEL),
+    Run(&sph::surface_tension::KERNEL),
+    Run(&couple::suction::KERNEL),
+    Run(&sph::boundary_pressure::KERNEL),
+    Run(&couple::solid_pressure::KERNEL),
+    Run(&sph::kick::KERNEL),
+    Run(&sph::predict::KERNEL),
+    Run(&sph::boundary::KERNEL),
+    Run(&couple::solid_share::KERNEL),
+    Run(&sph::factors::KERNEL),
+    Repeat {
+        times: Times::UntilConverged,
+        phases: &[
+            Run(&sph::pressure_update::KERNEL),
+            Run(&sph::pressure_acceleration::KERNEL),
+            Run(&sph::pressure_residual::KERNEL),
+        ],
+    },
+    Run(&sph::pressure_kick::KERNEL),
+    Run(&sph::boundary_reaction::KERNEL),
+    Run(&couple::solid_reaction::KERNEL),
+    Run(&pbd::predict::KERNEL),
+    Run(&pbd::guess::KERNEL),
+    Repeat {
+        times: Times::SolverIterations,
+        phases: &[
+            Run(&couple::node_velocity::KERNEL),
+            Run(&couple::drag_impulse::KERNEL),
+            Run(&couple::drag_target::KERNEL),
+            Run(&pbd::vbd::KERNEL),
+        ],
+    },
+    Run(&couple::node_velocity::KERNEL),
+    Run(&couple::drag_impulse::KERNEL),
+    Run(&couple::drag_target::KERNEL),
+    Run(&couple::drag_reaction::KERNEL),
+    Run(&pbd::reaction::KERNEL),
+    Run(&pbd::momentum::KERNEL),
+    Run(&couple::node_velocity::KERNEL),
+    Run(&couple::drag_impulse::KERNEL),
+    Run(&couple::drag_kick::KERNEL),
+    Run(&pbd::velocity::KERNEL),
+    Run(&sph::advect::KERNEL),
+    Host(&RIGID),
+];
+
 /// What the scene must contain for a host phase to have work.
 pub(super) const RIGID_NEEDS: &str = "no bodies";
 
@@ -133,5 +190,6 @@ pub(super) fn is_met(need: Need, content: super::Content) -> bool {
         Need::SurfaceTension => content.surface_tension,
         Need::EquationOfState => content.rounds == 0,
         Need::Incompressible => content.rounds > 0,
+        Need::Porous => content.porous,
     }
 }

@@ -11,15 +11,16 @@ use sorb_kernels::{
     couple,
     cpu::Cpu,
     grid,
+    kernel::Kernel,
     params::{Params, Solver},
-    sph,
+    pbd, sph,
 };
 
 use crate::{
     clock::{Bound, Clock, Steps, within},
     rigid::{RigidEngine, RigidError},
     scene::Scene,
-    schedule::{Content, Offload, Plan, PlanLine, Runner, STEP, Verdict},
+    schedule::{Content, Offload, POROUS_STEP, Plan, PlanLine, Runner, STEP, Verdict},
     setup::Setup,
     sponge::Lattice,
     stores::Stores,
@@ -140,10 +141,12 @@ impl World {
             walls: params.walls.is_some(),
             bodies: columns.rows.bodies > 0,
             surface_tension: params.fluid.surface_tension > 0.0,
+            porous: params.solid.is_some(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };
-        let plan = Plan::new(STEP, content, &options.observed)?;
+        let phases = if content.porous { POROUS_STEP } else { STEP };
+        let plan = Plan::new(phases, content, &options.observed)?;
         let steps = Steps::new(scene, &params);
         #[cfg(not(feature = "gpu"))]
         if options.offload.wants_gpu() {
@@ -189,14 +192,18 @@ impl World {
             &couple::saturation::KERNEL,
             &couple::interior::KERNEL,
         ];
-        let Self { cpu, params, stores, plan, .. } = self;
-        let columns = &mut stores.host;
         for kernel in phases {
-            let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
-            if plan.lines().iter().any(runs) {
-                cpu.enter(|| (kernel.cpu)(cpu, params, columns));
+            if self.runs(kernel) {
+                let Self { cpu, params, stores, .. } = self;
+                cpu.enter(|| (kernel.cpu)(cpu, params, &mut stores.host));
             }
         }
+    }
+
+    /// Whether a kernel is part of a step.
+    fn runs(&self, kernel: &Kernel) -> bool {
+        let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
+        self.plan.lines().iter().any(runs)
     }
 
     /// Columns with the density, and the share of walls and bodies, at the present positions: a solve for the pressure needs
@@ -211,7 +218,15 @@ impl World {
             &sph::predict::KERNEL,
             &sph::boundary::KERNEL,
         ];
-        self.cpu.enter(|| phases.iter().for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
+        let solid = [
+            &couple::controls::KERNEL,
+            &pbd::gravity::KERNEL,
+            &couple::solid_pressure::KERNEL,
+            &couple::solid_share::KERNEL,
+        ];
+        let solid = if self.runs(&couple::solid_share::KERNEL) { &solid[..] } else { &[] };
+        let phases = phases.iter().chain(solid);
+        self.cpu.enter(|| phases.for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
         columns
     }
 

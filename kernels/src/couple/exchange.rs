@@ -7,7 +7,7 @@
 //! Both sides use the same `J_i`, so that momentum is kept at any number of sweeps of the filter.
 
 use crate::{
-    columns::{Column::*, Columns},
+    columns::{Column::*, Columns, Fluid},
     cpu::Cpu,
     kernel::{Kernel, Need},
     lanes::{self, LANES, with_lanes},
@@ -36,7 +36,7 @@ pub static KERNEL: Kernel = Kernel {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (fluid, controls, nodes) = (&mut columns.fluid, &mut columns.controls, &mut columns.nodes);
-    let (unfiltered, drag, interior) = (&controls.unfiltered, &fluid.drag, &fluid.interior);
+    let (unfiltered, drag) = (&controls.unfiltered, &fluid.drag);
     cpu.for_chunks(&mut controls.velocity[..], |first, velocity| {
         let (lists, weights) = (controls.fluid.chunk(first), controls.fluid_weights.chunk(first));
         with_lanes!(cpu, simd => {
@@ -47,15 +47,21 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             }
         });
     });
+    kick(cpu, params, fluid);
+    for (node, velocity) in controls.node.iter().zip(&controls.velocity) {
+        let v = &mut nodes.velocity[*node as usize];
+        (v[0], v[1], v[2]) = (velocity[0], velocity[1], velocity[2]);
+    }
+}
+
+/// Takes the impulses from the particles.
+pub(super) fn kick(cpu: &Cpu, params: &Params, fluid: &mut Fluid) {
+    let Fluid { velocity, drag, interior, .. } = fluid;
     let inverse_mass = 1.0 / params.fluid.particle_mass;
-    cpu.for_chunks(&mut fluid.velocity[..], |first, velocity| {
+    cpu.for_chunks(&mut velocity[..], |first, velocity| {
         for ((v, drag), chi) in velocity.iter_mut().zip(&drag[first..]).zip(&interior[first..]) {
             let scale = chi * inverse_mass;
             (0..3).for_each(|axis| v[axis] -= drag[axis] * scale);
         }
     });
-    for (node, velocity) in controls.node.iter().zip(&controls.velocity) {
-        let v = &mut nodes.velocity[*node as usize];
-        (v[0], v[1], v[2]) = (velocity[0], velocity[1], velocity[2]);
-    }
 }

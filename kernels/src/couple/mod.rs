@@ -3,9 +3,17 @@
 pub mod control_velocity;
 pub mod controls;
 pub mod drag;
+pub mod drag_impulse;
+pub mod drag_kick;
+pub mod drag_reaction;
+pub mod drag_target;
 pub mod exchange;
 pub mod interior;
+pub mod node_velocity;
 pub mod saturation;
+pub mod solid_pressure;
+pub mod solid_reaction;
+pub mod solid_share;
 pub mod suction;
 pub mod velocity_filter;
 #[cfg(feature = "gpu")]

@@ -12,15 +12,15 @@ use crate::{
 };
 
 /// Particles, controls and the kernel between them.
-struct Pairs {
-    particles: Vec<DVec3>,
-    controls: Vec<DVec3>,
+pub(super) struct Pairs {
+    pub(super) particles: Vec<DVec3>,
+    pub(super) controls: Vec<DVec3>,
     volume: Vec<f64>,
     radius: f32,
 }
 
 impl Pairs {
-    fn new(params: &Params, columns: &Columns) -> Self {
+    pub(super) fn new(params: &Params, columns: &Columns) -> Self {
         let controls = &columns.controls.position;
         Self {
             particles: vectors(&columns.fluid.position, columns.rows.fluid),
@@ -31,7 +31,7 @@ impl Pairs {
     }
 
     /// `V_a W_ia`.
-    fn weight(&self, particle: usize, control: usize) -> f64 {
+    pub(super) fn weight(&self, particle: usize, control: usize) -> f64 {
         let distance = self.particles[particle].distance(self.controls[control]);
         self.volume[control] * smoothing(self.radius, distance)
     }
@@ -63,7 +63,7 @@ fn list_values(
 }
 
 /// The sponge of a control row.
-fn sponge<'a>(params: &'a Params, columns: &Columns, control: usize) -> &'a SpongeParams {
+pub(super) fn sponge<'a>(params: &'a Params, columns: &Columns, control: usize) -> &'a SpongeParams {
     let node = columns.controls.node[control] as usize;
     &params.sponges[columns.nodes.sponge[node] as usize]
 }
@@ -166,7 +166,7 @@ pub(super) fn zero_distance(params: &Params, columns: &mut Columns) {
 }
 
 /// 1 / chi, or 0 where a particle feels no drag.
-fn weight_inside(columns: &Columns, particle: usize) -> f64 {
+pub(super) fn weight_inside(columns: &Columns, particle: usize) -> f64 {
     let chi = f64::from(columns.fluid.interior[particle]);
     if chi > 1.0e-3 { 1.0 / chi } else { 0.0 }
 }
@@ -232,6 +232,11 @@ pub(super) fn exchange(params: &Params, columns: &mut Columns) {
         let node = columns.controls.node[control] as usize;
         columns.nodes.velocity[node] = row(new, f64::from(columns.nodes.velocity[node][3]));
     }
+    kick(params, columns);
+}
+
+/// Takes the impulses of the drag from the particles.
+pub(super) fn kick(params: &Params, columns: &mut Columns) {
     for particle in 0..columns.rows.fluid {
         let chi = f64::from(columns.fluid.interior[particle]);
         let lost = chi * vector(columns.fluid.drag[particle]) / f64::from(params.fluid.particle_mass);

@@ -13,6 +13,8 @@ pub(super) fn guess(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let h = f64::from(params.step);
     nodes.target = nodes.predicted.clone();
+    let none = vec![[0.0; 4]; nodes.predicted.len()];
+    (nodes.pull, nodes.drag, nodes.drag_moment) = (none.clone(), none.clone(), none);
     for node in 0..columns.rows.nodes {
         let y = nodes.predicted[node];
         let share = f64::from(nodes.velocity[node][3]);
@@ -97,8 +99,11 @@ fn least(
     let (force, stiffness) = local(params, nodes.sponge[node], places, before, tets);
     let h = f64::from(params.step);
     let inertia = 1.0 / (f64::from(nodes.predicted[node][3]) * h * h);
-    let stiffness = stiffness + DMat3::IDENTITY * inertia;
-    let pull = force + inertia * (vector(nodes.target[node]) - places[node]);
+    let drag = f64::from(nodes.pull[node][3]) / (h * h);
+    let stiffness = stiffness + DMat3::IDENTITY * (inertia + drag);
+    let pull = force
+        + inertia * (vector(nodes.target[node]) - places[node])
+        + drag * (vector(nodes.pull[node]) - places[node]);
     (places[node] + stiffness.inverse() * pull, stiffness)
 }
 
@@ -254,7 +259,10 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
         }
         let own: Vec<usize> =
             (0..columns.rows.nodes).filter(|node| nodes.sponge[*node] as usize == index).collect();
-        let weight = |node: usize| f64::from(nodes.reaction[node][3]).abs();
+        let weight = |node: usize| match f64::from(nodes.reaction[node][3]) {
+            weight if weight > 0.0 => weight + f64::from(nodes.pull[node][3]),
+            weight => -weight,
+        };
         let mass: f64 = own.iter().map(|node| weight(*node)).sum();
         let centre =
             own.iter().map(|node| weight(*node) * vector(nodes.position[*node])).sum::<DVec3>() / mass;
@@ -264,9 +272,10 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
             let w = f64::from(nodes.predicted[node][3]);
             let gained = vector(nodes.predicted[node]) - vector(nodes.target[node]);
             let own = if w > 0.0 { gained / (w * h) } else { DVec3::ZERO };
-            let own = vector(nodes.reaction[node]) - own;
+            let of_fluid = |row: [f32; 4]| if w > 0.0 { vector(row) } else { DVec3::ZERO };
+            let own = vector(nodes.reaction[node]) + of_fluid(nodes.drag[node]) - own;
             lacking += own;
-            moment += arm.cross(own);
+            moment += arm.cross(own) + of_fluid(nodes.drag_moment[node]);
             inertia += weight(node) * (DMat3::IDENTITY * arm.length_squared() - outer(arm, arm));
         }
         let turn = inertia.inverse() * moment;

@@ -14,6 +14,7 @@ mod descent;
 mod grid;
 mod incompressible;
 mod pbd;
+mod porous;
 mod shapes;
 mod sph;
 
@@ -61,6 +62,14 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "couple::drag" => couple::drag,
         "couple::velocity_filter" => couple::velocity_filter,
         "couple::exchange" => couple::exchange,
+        "couple::solid_pressure" => porous::solid_pressure,
+        "couple::solid_share" => porous::solid_share,
+        "couple::solid_reaction" => porous::solid_reaction,
+        "couple::node_velocity" => porous::node_velocity,
+        "couple::drag_impulse" => porous::drag_impulse,
+        "couple::drag_target" => porous::drag_target,
+        "couple::drag_reaction" => porous::drag_reaction,
+        "couple::drag_kick" => porous::drag_kick,
         _ => return None,
     };
     Some(found)

@@ -7,6 +7,8 @@
 //! The target z is where the node would go without elastic forces. The first guess leaves out the share of the external
 //! acceleration a that the node did not follow in the last step, because something held it: `s = 1` in free fall,
 //! `s = 0` at rest. What is at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
+//!
+//! Fluid may pull the nodes as well (`couple::drag_target`); until it does, nothing does.
 
 use crate::{
     columns::{Column::*, Columns, Nodes},
@@ -20,13 +22,18 @@ pub static KERNEL: Kernel = Kernel {
     name: "pbd::guess",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
     reads: &[NodeVelocity, NodeAcceleration, NodeSponge, NodePredicted],
-    writes: &[NodePredicted, NodeTarget],
+    writes: &[NodePredicted, NodeTarget, NodePull, NodeDrag, NodeDragMoment],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { velocity, acceleration, sponge, predicted, target, .. } = &mut columns.nodes;
+    let Nodes { velocity, acceleration, sponge, predicted, target, pull, drag, drag_moment, .. } =
+        &mut columns.nodes;
     target.resize(predicted.len(), [0.0; 4]);
+    for of_fluid in [pull, drag, drag_moment] {
+        of_fluid.clear();
+        of_fluid.resize(predicted.len(), [0.0; 4]);
+    }
     let square = params.step * params.step;
     cpu.for_chunks((&mut predicted[..], &mut target[..]), |first, (predicted, target)| {
         for (row, (y, z)) in predicted.iter_mut().zip(target).enumerate() {

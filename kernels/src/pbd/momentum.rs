@@ -4,15 +4,16 @@
 //! do. Every sponge receives the rigid motion that makes up for it:
 //!
 //! ```text
-//! dP = sum J - sum m (v' - v*),   v' = (y - x) / h,   v* = (z - x) / h
-//! dL = the same of the moments x x J and x x m (v' - v*)
+//! dP = sum (J + D) - sum m (v' - v*),   v' = (y - x) / h,   v* = (z - x) / h
+//! dL = the same of the moments x x (J + D) + M and x x m (v' - v*)
 //! y += h (u + w x (x - c)),   u = dP / M,   w = I^-1 (dL - c x dP)
 //! ```
 //!
-//! with the impulses J from outside. Moments are taken at the places x of the beginning of the step, at which
+//! with the impulses J from outside and D of the fluid's drag, whose moments about the nodes are M. Moments are taken at the places x of the beginning of the step, at which
 //! `sum x x m v` is the angular momentum of the new velocities whatever the new places are. Nodes that touch something or
 //! are held do not take part; M, I and the centre c count them with the mass `h^2 k` that resists like their stiffness k,
-//! so that a sponge that stands on something is not shaken. A free sponge keeps both momenta to rounding.
+//! so that a sponge that stands on something is not shaken. Free nodes move with the mass of the fluid that their drag
+//! takes along. A free sponge keeps both momenta to rounding.
 //!
 //! The share of the external acceleration that a node followed is kept for the next `pbd::guess`.
 
@@ -39,17 +40,32 @@ pub static KERNEL: Kernel = Kernel {
         NodeReaction,
         NodePredicted,
         NodeAcceleration,
+        NodePull,
+        NodeDrag,
+        NodeDragMoment,
     ],
     writes: &[NodeVelocity, NodePredicted],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, velocity, acceleration, stars, sponge, target, reaction, predicted, .. } =
-        &mut columns.nodes;
+    let Nodes {
+        position,
+        velocity,
+        acceleration,
+        stars,
+        sponge,
+        target,
+        reaction,
+        predicted,
+        pull,
+        drag,
+        drag_moment,
+        ..
+    } = &mut columns.nodes;
     let rate = 1.0 / f64::from(params.step);
     let mut sums: Vec<Sums> = vec![Sums::default(); stars.pieces.len()];
-    let rows = Rows { position, predicted, target, reaction };
+    let rows = Rows { position, predicted, target, reaction, pull, drag, drag_moment };
     cpu.for_chunks_of(1, &mut sums[..], |first, sums| {
         for (sum, Piece { sponge, rows: range }) in sums.iter_mut().zip(&stars.pieces[first..]) {
             if params.solver(*sponge) == Some(Solver::Vbd) {
@@ -102,6 +118,9 @@ struct Rows<'a> {
     predicted: &'a [[f32; 4]],
     target: &'a [[f32; 4]],
     reaction: &'a [[f32; 4]],
+    pull: &'a [[f32; 4]],
+    drag: &'a [[f32; 4]],
+    drag_moment: &'a [[f32; 4]],
 }
 
 /// Sums over nodes.
@@ -129,7 +148,10 @@ impl Sums {
     fn add(&mut self, rows: &Rows<'_>, node: usize, rate: f64) {
         let vector = |row: [f32; 4]| DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
         let x = vector(rows.position[node]);
-        let weight = f64::from(rows.reaction[node][3]);
+        let mut weight = f64::from(rows.reaction[node][3]);
+        if weight > 0.0 {
+            weight += f64::from(rows.pull[node][3]);
+        }
         let mass = weight.abs();
         self.mass[0] += weight.max(0.0);
         self.mass[1] += mass;
@@ -138,7 +160,12 @@ impl Sums {
         let inverse = f64::from(rows.predicted[node][3]);
         let own = if inverse > 0.0 { rate / inverse } else { 0.0 };
         let gained = (vector(rows.predicted[node]) - vector(rows.target[node])) * own;
-        let lacking = vector(rows.reaction[node]) - gained;
+        let mut lacking = vector(rows.reaction[node]) - gained;
+        // What the fluid gives to a held node goes to its body.
+        if inverse > 0.0 {
+            lacking += vector(rows.drag[node]);
+            self.angular_momentum += vector(rows.drag_moment[node]);
+        }
         self.momentum += lacking;
         self.angular_momentum += x.cross(lacking);
     }

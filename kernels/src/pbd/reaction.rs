@@ -27,20 +27,20 @@ const MARGIN: f32 = 1.0e-2;
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::reaction",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates, BodyNodeWrenches],
+    reads: &[NodePosition, NodePredicted, NodeTarget, NodePull, NodeStars, NodeSponge, BodyStates, BodyNodeWrenches],
     writes: &[NodeReaction, BodyNodeWrenches],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, sponge, stars, reaction, .. } = &mut columns.nodes;
+    let Nodes { position, predicted, target, pull, sponge, stars, reaction, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.node_wrenches.0;
     reaction.clear();
     reaction.resize(position.len(), [0.0; 4]);
     for color in 0..4 {
         let rows = stars.rows(color);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
+        let task = Task { cpu, params, bodies, position, predicted, target, pull, sponge, stars };
         // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
@@ -62,6 +62,7 @@ struct Task<'a> {
     position: &'a [[f32; 4]],
     predicted: &'a [[f32; 4]],
     target: &'a [[f32; 4]],
+    pull: &'a [[f32; 4]],
     sponge: &'a [u32],
     stars: &'a Stars,
 }
@@ -120,7 +121,8 @@ impl Task<'_> {
         let places = (self.predicted, self.position);
         let step = self.params.step;
         let (elastic, stiffness) = local(simd, (group, &self.stars.shape), material, places, (x, old));
-        let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, w), step);
+        let pull = lanes::gather_rows(simd, self.pull, &group.own);
+        let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, w), pull, step);
         let mut contact = quadratic.contact((point, old), (material.friction, near));
         let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));
         let force = choose(free, pushed, times(negative(elastic), counts));

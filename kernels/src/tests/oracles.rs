@@ -56,6 +56,14 @@ const BOUNDS: &[(&str, f64)] = &[
     ("couple::drag", 2e-6),
     ("couple::velocity_filter", 2e-6),
     ("couple::exchange", 2e-6),
+    ("couple::solid_pressure", 4e-6),
+    ("couple::solid_share", 4e-6),
+    ("couple::solid_reaction", 4e-6),
+    ("couple::node_velocity", 4e-6),
+    ("couple::drag_impulse", 4e-6),
+    ("couple::drag_target", 4e-6),
+    ("couple::drag_reaction", 4e-6),
+    ("couple::drag_kick", 4e-6),
 ];
 
 /// The bound of a kernel; twins on a GPU are held to it as well.

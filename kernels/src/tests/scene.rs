@@ -5,7 +5,7 @@ use glam::{EulerRot, Quat, Vec3};
 use super::lattice::{Block, Lattice};
 use crate::{
     body::{Body, BodyKind, BodyState, Shape},
-    columns::{Columns, FAR_ROW, RowCounts, padded},
+    columns::{Column, Columns, FAR_ROW, RowCounts, padded},
     cpu::Cpu,
     grid::cells::Domain,
     kernel::{KERNELS, Kernel, Need, kernel},
@@ -30,14 +30,18 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::controls",
     "couple::saturation",
     "couple::interior",
+    "pbd::gravity",
+    "couple::zero_distance",
     "sph::forces",
     "sph::surface_tension",
     "sph::repulsion",
     "sph::boundary_pressure",
     "couple::suction",
+    "couple::solid_pressure",
     "sph::kick",
     "sph::predict",
     "sph::boundary",
+    "couple::solid_share",
     "sph::factors",
     "sph::pressure_update",
     "sph::pressure_acceleration",
@@ -47,16 +51,20 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::pressure_residual",
     "sph::pressure_kick",
     "sph::boundary_reaction",
-    "pbd::gravity",
-    "couple::zero_distance",
+    "couple::solid_reaction",
     "pbd::predict",
     "pbd::guess",
+    "couple::node_velocity",
+    "couple::drag_impulse",
+    "couple::drag_target",
+    "couple::drag_reaction",
     "pbd::strain",
     "pbd::xpbd_neo_hookean",
     "pbd::vbd",
     "pbd::contact",
     "pbd::reaction",
     "pbd::momentum",
+    "couple::drag_kick",
     "pbd::velocity",
     "couple::control_velocity",
     "couple::drag",
@@ -77,6 +85,7 @@ pub(crate) struct Options {
     pub(crate) bounded: bool,
     pub(crate) equation_of_state: EquationOfState,
     pub(crate) incompressible: bool,
+    pub(crate) porous: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -88,12 +97,15 @@ pub(crate) const FULL: Options = Options {
     bounded: true,
     equation_of_state: EquationOfState::Tait,
     incompressible: false,
+    porous: false,
 };
 
 impl Options {
     /// The same, with the pressure that the kernel is there for.
     pub(super) fn suiting(self, kernel: &Kernel) -> Self {
-        Self { incompressible: kernel.needs.contains(&Need::Incompressible), ..self }
+        // What fluid does to vertex block descent, it does with sponges as porous media.
+        let porous = kernel.needs.contains(&Need::Porous) || kernel.reads.contains(&Column::NodePull);
+        Self { incompressible: porous || kernel.needs.contains(&Need::Incompressible), porous, ..self }
     }
 
     /// Sites per site of the coarse block, along each axis.
@@ -180,6 +192,7 @@ impl Scene {
             Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
             Need::EquationOfState => !self.options.incompressible,
             Need::Incompressible => self.options.incompressible,
+            Need::Porous => self.options.porous,
         })
     }
 
@@ -298,6 +311,7 @@ fn params(options: Options) -> Params {
         },
         sponges: if options.sponges { sponges() } else { Vec::new() },
         coupling: Wendland::new(0.015),
+        solid: options.porous.then(|| Wendland::new(0.012)),
     }
 }
 

@@ -1,0 +1,70 @@
+//! Impulse that every particle loses to the sponge, at the velocities that its nodes have so far.
+//!
+//! ```text
+//! u_i = sum_a w_ia u_a,   w_ia = V_a W_ia / chi_i             velocity of the sponge at the particle
+//! k_i = m h beta_i / (1 + h beta_i)                          linear drag, implicit in the particle
+//! J_i = k_i (v_i - u_i)
+//! ```
+//!
+//! `couple::drag_target` makes of it where the nodes are taken, `couple::drag_kick` what the particles lose.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, with_lanes},
+    params::Params,
+    vector::{minus, times},
+};
+
+use super::drag::weight_inside;
+
+/// `couple::drag_impulse`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::drag_impulse",
+    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    reads: &[
+        FluidVelocity,
+        FluidControls,
+        FluidControlWeights,
+        FluidInterior,
+        FluidDragRate,
+        ControlVelocity,
+    ],
+    writes: &[FluidDrag],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Fluid { velocity, controls: lists, control_weights, interior, drag_rate, drag, .. } =
+        &mut columns.fluid;
+    let control_velocity = &columns.controls.velocity;
+    let (step, mass) = (params.step, params.fluid.particle_mass);
+    drag.resize(interior.len(), [0.0; 4]);
+    cpu.for_chunks(&mut drag[..], |first, drag| {
+        let (lists, weights) = (lists.chunk(first), control_weights.chunk(first));
+        with_lanes!(cpu, simd => {
+            let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+            for row in (0..drag.len()).step_by(LANES) {
+                let group = lists.group(row);
+                if group.is_empty() {
+                    drag[row..row + LANES].fill([0.0; 4]);
+                    continue;
+                }
+                let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
+                let mut sum = [zero; 3];
+                for (entry, weight) in group.iter().zip(&weights[lists.range(row)]) {
+                    let [ux, uy, uz, _] = lanes::gather_rows(simd, control_velocity, entry);
+                    let weight = lanes::load(simd, weight, 0);
+                    sum = [sum[0] + weight * ux, sum[1] + weight * uy, sum[2] + weight * uz];
+                }
+                let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
+                let rate = lanes::load(simd, drag_rate, first + row) * step;
+                // The column holds impulses and masses over chi.
+                let strength = rate / (one + rate) * mass * inverse;
+                let [jx, jy, jz] = times(minus([vx, vy, vz], times(sum, inverse)), strength);
+                lanes::store_rows(drag, row, [jx, jy, jz, strength]);
+            }
+        });
+    });
+}

@@ -1,0 +1,61 @@
+//! What the nodes receive of the impulses that the particles lose, and its moments.
+//!
+//! ```text
+//! D_a = sum_i w_ia J_i,   M_a = sum_i w_ia (x_i - x_a) x J_i
+//! ```
+//!
+//! A few sweeps do not give a sponge these impulses yet, and never their moments: the drag acts at the particle, and its
+//! nodes lie around that somehow. `pbd::momentum` adds what is lacking.
+
+use crate::{
+    columns::{Column::*, Columns, Controls},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, with_lanes},
+    params::Params,
+    vector::{cross, minus, plus, splat, times},
+};
+
+/// `couple::drag_reaction`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::drag_reaction",
+    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    reads: &[FluidPosition, FluidDrag, ControlNode, ControlPosition, ControlFluid, ControlFluidWeights],
+    writes: &[NodeDrag, NodeDragMoment],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
+    let (particles, drag) = (&columns.fluid.position, &columns.fluid.drag);
+    let Controls { node, position, fluid: lists, fluid_weights, .. } = &columns.controls;
+    let nodes = &mut columns.nodes;
+    let mut impulses = vec![[0.0_f32; 4]; position.len()];
+    let mut moments = impulses.clone();
+    cpu.for_chunks((&mut impulses[..], &mut moments[..]), |first, (impulses, moments)| {
+        let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
+        with_lanes!(cpu, simd => {
+            let zero = lanes::splat(simd, 0.0);
+            for row in (0..impulses.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+                let mut impulse = splat(simd, [0.0; 3]);
+                let mut moment = impulse;
+                for (entry, weight) in lists.group(row).iter().zip(&weights[lists.range(row)]) {
+                    let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
+                    let [jx, jy, jz, _] = lanes::gather_rows(simd, drag, entry);
+                    let own = times([jx, jy, jz], lanes::load(simd, weight, 0));
+                    impulse = plus(impulse, own);
+                    moment = plus(moment, cross(minus([xi, yi, zi], [x, y, z]), own));
+                }
+                lanes::store_rows(impulses, row, [impulse[0], impulse[1], impulse[2], zero]);
+                lanes::store_rows(moments, row, [moment[0], moment[1], moment[2], zero]);
+            }
+        });
+    });
+    for (rows, sums) in [(&mut nodes.drag, &impulses), (&mut nodes.drag_moment, &moments)] {
+        rows.clear();
+        rows.resize(nodes.position.len(), [0.0; 4]);
+        for (node, sum) in node.iter().zip(sums) {
+            rows[*node as usize] = *sum;
+        }
+    }
+}

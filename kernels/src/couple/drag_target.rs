@@ -1,0 +1,83 @@
+//! Where the drag of the fluid would take the nodes, for a sweep of vertex block descent.
+//!
+//! Elasticity, inertia and drag are one minimum, in which the drag is the energy
+//!
+//! ```text
+//! E_d(x) = sum_i k_i / 2 |v_i - sum_a w_ia (x_a - x_a(before)) / h|^2
+//! ```
+//!
+//! Its matrix couples all nodes around a particle. Their weights add up to one, so that the diagonal matrix of the sums
+//! of its rows is above it: a sweep with that in its place,
+//!
+//! ```text
+//! k_a = sum_i w_ia k_i,   t_a = x_a(before) + h (u_a + sum_i w_ia J_i / k_a),   E_a(x) = k_a / (2 h^2) |x - t_a|^2
+//! ```
+//!
+//! never raises the energy, ends at the same minimum, and is exact at once where all move alike.
+
+use crate::{
+    columns::{Column::*, Columns, Controls},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    params::Params,
+};
+
+/// `couple::drag_target`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::drag_target",
+    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    reads: &[FluidDrag, ControlNode, ControlVelocity, ControlFluid, ControlFluidWeights, NodePosition],
+    writes: &[NodePull],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let drag = &columns.fluid.drag;
+    let Controls { node, velocity, fluid: lists, fluid_weights, .. } = &columns.controls;
+    let (step, nodes) = (params.step, &mut columns.nodes);
+    // By how much a node is moved, and by what mass.
+    let mut moved = vec![[0.0_f32; 4]; velocity.len()];
+    cpu.for_chunks(&mut moved[..], |first, moved| {
+        let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
+        with_lanes!(cpu, simd => {
+            let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+            for row in (0..moved.len()).step_by(LANES) {
+                let [jx, jy, jz, mass] = received(simd, drag, lists.group(row), &weights[lists.range(row)]);
+                let is_pulled = mass.simd_gt(lanes::splat(simd, LEAST));
+                let inverse = select(is_pulled, one / select(is_pulled, mass, one), zero);
+                let [ux, uy, uz, _] = lanes::load_rows(simd, velocity, first + row);
+                let step = lanes::splat(simd, step);
+                let [x, y, z] = [ux + jx * inverse, uy + jy * inverse, uz + jz * inverse];
+                lanes::store_rows(moved, row, [x * step, y * step, z * step, select(is_pulled, mass, zero)]);
+            }
+        });
+    });
+    nodes.pull.clear();
+    nodes.pull.resize(nodes.position.len(), [0.0; 4]);
+    for (node, moved) in node.iter().zip(&moved) {
+        let node = *node as usize;
+        let [x, y, z, _] = nodes.position[node];
+        nodes.pull[node] = [x + moved[0], y + moved[1], z + moved[2], moved[3]];
+    }
+}
+
+/// Mass below which nothing is pulled \[kg\]: far below that of any particle, and its inverse is a number.
+const LEAST: f32 = 1.0e-20;
+
+/// Sum over the particles of eight controls of `V_a W_ia` times the rows of the drag.
+#[inline(always)]
+pub(super) fn received<S: Simd>(
+    simd: S,
+    drag: &[[f32; 4]],
+    lists: &[[u32; LANES]],
+    weights: &[[f32; LANES]],
+) -> [f32x8<S>; 4] {
+    let mut sum = [lanes::splat(simd, 0.0); 4];
+    for (entry, weight) in lists.iter().zip(weights) {
+        let [jx, jy, jz, mass] = lanes::gather_rows(simd, drag, entry);
+        let weight = lanes::load(simd, weight, 0);
+        sum = [sum[0] + weight * jx, sum[1] + weight * jy, sum[2] + weight * jz, sum[3] + weight * mass];
+    }
+    sum
+}

@@ -1,0 +1,35 @@
+//! Velocities of the nodes as the elastic solve has them so far, in the order of the controls.
+//!
+//! ```text
+//! u_a = (y_a - x_a) / h
+//! ```
+
+use crate::{
+    columns::{Column::*, Columns, padded},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `couple::node_velocity`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::node_velocity",
+    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    reads: &[ControlNode, NodePosition, NodePredicted],
+    writes: &[ControlVelocity],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let (controls, nodes) = (&mut columns.controls, &columns.nodes);
+    let (node, velocity) = (&controls.node, &mut controls.velocity);
+    velocity.clear();
+    velocity.resize(padded(node.len()), [0.0; 4]);
+    let rate = 1.0 / params.step;
+    cpu.for_chunks(&mut velocity[..node.len()], |first, velocity| {
+        for (velocity, node) in velocity.iter_mut().zip(&node[first..]) {
+            let (x, y) = (nodes.position[*node as usize], nodes.predicted[*node as usize]);
+            (0..3).for_each(|axis| velocity[axis] = (y[axis] - x[axis]) * rate);
+        }
+    });
+}

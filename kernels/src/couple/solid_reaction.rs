@@ -1,0 +1,74 @@
+//! What the pressure of the particles gives to the nodes: the exact opposite of what it takes from the particles.
+//!
+//! ```text
+//! a_a += sum_i m_i (P_i grad lambda_ia at the beginning + dP_i grad lambda_ia where both are expected) / m_a
+//! ```
+//!
+//! It is Archimedes' force on the material, the pressure of pores that are squeezed, and part of what the elastic solve
+//! that follows has to bear.
+
+use crate::{
+    columns::{Column::*, Columns},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, with_lanes},
+    params::Params,
+    vector::times,
+};
+
+/// `couple::solid_reaction`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::solid_reaction",
+    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    reads: &[
+        FluidPosition,
+        FluidPredicted,
+        ControlNode,
+        ControlPosition,
+        ControlSolid,
+        ControlFluid,
+        NodePosition,
+        NodeAcceleration,
+    ],
+    writes: &[NodeAcceleration],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(smoothing) = &params.solid else { return };
+    let (particles, predicted) = (&columns.fluid.position, &columns.fluid.predicted);
+    let (controls, nodes) = (&columns.controls, &mut columns.nodes);
+    let (mass, rest_density) = (params.fluid.particle_mass, params.fluid.rest_density);
+    let mut force = vec![[0.0_f32; 4]; controls.position.len()];
+    cpu.for_chunks(&mut force[..], |first, force| {
+        let lists = controls.fluid.chunk(first);
+        with_lanes!(cpu, simd => {
+            let kernel = smoothing.lanes(simd);
+            let zero = lanes::splat(simd, 0.0);
+            for row in (0..force.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, &controls.position, first + row);
+                let [ex, ey, ez, volume] = lanes::load_rows(simd, &controls.solid, first + row);
+                let mut sum = [zero; 3];
+                for entry in lists.group(row) {
+                    let [xi, yi, zi, pressure] = lanes::gather_rows(simd, particles, entry);
+                    let (dx, dy, dz) = (x - xi, y - yi, z - zi);
+                    let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
+                    let push = pressure * rest_density * (u * u * u);
+                    sum = [sum[0] + push * dx, sum[1] + push * dy, sum[2] + push * dz];
+                    let [xi, yi, zi, change] = lanes::gather_rows(simd, predicted, entry);
+                    let (dx, dy, dz) = (ex - xi, ey - yi, ez - zi);
+                    let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
+                    let push = change * (u * u * u);
+                    sum = [sum[0] + push * dx, sum[1] + push * dy, sum[2] + push * dz];
+                }
+                let sum = times(sum, volume * kernel.gradient_scale() * mass);
+                lanes::store_rows(force, row, [sum[0], sum[1], sum[2], zero]);
+            }
+        });
+    });
+    for (node, force) in controls.node.iter().zip(&force) {
+        let node = *node as usize;
+        let inverse_mass = nodes.position[node][3];
+        (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * inverse_mass);
+    }
+}

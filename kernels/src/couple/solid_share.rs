@@ -1,0 +1,58 @@
+//! Share of the sponge's material in the volume around a particle, where both are expected at the end of the step.
+//!
+//! ```text
+//! lambda_i += sum_a V_s W(x*_i - x*_a),   V_s = (1 - phi) V_a
+//! ```
+//!
+//! added to the share of walls and bodies (`sph::boundary`), so that the solve for the pressure does not tell them apart.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, with_lanes},
+    params::Params,
+};
+
+/// `couple::solid_share`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::solid_share",
+    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    reads: &[FluidPredicted, FluidControls, FluidBoundary, ControlSolid],
+    writes: &[FluidBoundary],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(smoothing) = &params.solid else { return };
+    let Fluid { predicted, controls: lists, boundary, .. } = &mut columns.fluid;
+    let solid = &columns.controls.solid;
+    cpu.for_chunks(&mut boundary[..], |first, boundary| {
+        let lists = lists.chunk(first);
+        with_lanes!(cpu, simd => {
+            let kernel = smoothing.lanes(simd);
+            let (value, gradient) = (kernel.value_scale(), kernel.gradient_scale());
+            for row in (0..boundary.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, predicted, first + row);
+                let mut slope = [lanes::splat(simd, 0.0); 3];
+                let mut share = lanes::splat(simd, 0.0);
+                for entry in lists.group(row) {
+                    let [xa, ya, za, volume] = lanes::gather_rows(simd, solid, entry);
+                    let (dx, dy, dz) = (x - xa, y - ya, z - za);
+                    let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
+                    let c = volume * (u * u * u);
+                    slope = [slope[0] + c * dx, slope[1] + c * dy, slope[2] + c * dz];
+                    share += volume * kernel.shape(u);
+                }
+                let [gx, gy, gz, before] = lanes::load_rows(simd, boundary, row);
+                let total = [
+                    gx - slope[0] * gradient,
+                    gy - slope[1] * gradient,
+                    gz - slope[2] * gradient,
+                    before + share * value,
+                ];
+                lanes::store_rows(boundary, row, total);
+            }
+        });
+    });
+}

@@ -1,0 +1,145 @@
+//! Sponges as porous media, particle by node.
+
+use glam::DVec3;
+
+use super::{
+    couple::{Pairs, sponge, weight_inside},
+    gradient, row, smoothing, vector,
+};
+use crate::{columns::Columns, params::Params};
+
+/// Support radius of the volume of the material.
+fn solid_radius(params: &Params) -> f32 {
+    params.solid.map_or(1.0, |solid| solid.support_radius)
+}
+
+pub(super) fn solid_pressure(params: &Params, columns: &mut Columns) {
+    let h = f64::from(params.step);
+    columns.controls.solid = vec![[0.0; 4]; columns.nodes.position.len()];
+    for control in 0..columns.rows.nodes {
+        let (nodes, node) = (&columns.nodes, columns.controls.node[control] as usize);
+        let (x, v) = (nodes.position[node], nodes.velocity[node]);
+        let share = if x[3] > 0.0 { f64::from(v[3]) } else { 0.0 };
+        let end = vector(x) + h * vector(v) + h * h * share * vector(nodes.acceleration[node]);
+        let solid = 1.0 - f64::from(sponge(params, columns, control).porosity);
+        columns.controls.solid[control] = row(end, solid * f64::from(nodes.volume[node]));
+    }
+    let pairs = Pairs::new(params, columns);
+    for particle in 0..columns.rows.fluid {
+        let slope: DVec3 = (0..columns.rows.nodes)
+            .map(|control| {
+                let apart = pairs.particles[particle] - pairs.controls[control];
+                f64::from(columns.controls.solid[control][3]) * gradient(solid_radius(params), apart)
+            })
+            .sum();
+        let over_density =
+            f64::from(columns.fluid.position[particle][3]) * f64::from(params.fluid.rest_density);
+        let old = columns.fluid.acceleration[particle];
+        columns.fluid.acceleration[particle] = row(vector(old) - over_density * slope, f64::from(old[3]));
+    }
+}
+
+pub(super) fn solid_share(params: &Params, columns: &mut Columns) {
+    for particle in 0..columns.rows.fluid {
+        let old = columns.fluid.boundary[particle];
+        let (mut slope, mut share) = (vector(old), f64::from(old[3]));
+        for control in 0..columns.rows.nodes {
+            let solid = columns.controls.solid[control];
+            let apart = vector(columns.fluid.predicted[particle]) - vector(solid);
+            slope += f64::from(solid[3]) * gradient(solid_radius(params), apart);
+            share += f64::from(solid[3]) * smoothing(solid_radius(params), apart.length());
+        }
+        columns.fluid.boundary[particle] = row(slope, share);
+    }
+}
+
+pub(super) fn solid_reaction(params: &Params, columns: &mut Columns) {
+    let pairs = Pairs::new(params, columns);
+    let (mass, density) = (f64::from(params.fluid.particle_mass), f64::from(params.fluid.rest_density));
+    for control in 0..columns.rows.nodes {
+        let solid = columns.controls.solid[control];
+        let mut force = DVec3::ZERO;
+        for particle in 0..columns.rows.fluid {
+            let before = pairs.particles[particle] - pairs.controls[control];
+            let pressure = f64::from(columns.fluid.position[particle][3]) * density;
+            force += pressure * gradient(solid_radius(params), before);
+            let predicted = columns.fluid.predicted[particle];
+            let after = vector(predicted) - vector(solid);
+            force += f64::from(predicted[3]) * gradient(solid_radius(params), after);
+        }
+        let node = columns.controls.node[control] as usize;
+        let inverse_mass = f64::from(columns.nodes.position[node][3]);
+        let gained = force * mass * f64::from(solid[3]) * inverse_mass;
+        let old = columns.nodes.acceleration[node];
+        columns.nodes.acceleration[node] = row(vector(old) + gained, f64::from(old[3]));
+    }
+}
+
+pub(super) fn node_velocity(params: &Params, columns: &mut Columns) {
+    columns.controls.velocity = vec![[0.0; 4]; columns.nodes.position.len()];
+    for control in 0..columns.rows.nodes {
+        let node = columns.controls.node[control] as usize;
+        let moved = vector(columns.nodes.predicted[node]) - vector(columns.nodes.position[node]);
+        columns.controls.velocity[control] = row(moved / f64::from(params.step), 0.0);
+    }
+}
+
+pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
+    let pairs = Pairs::new(params, columns);
+    columns.fluid.drag = vec![[0.0; 4]; columns.fluid.position.len()];
+    for particle in 0..columns.rows.fluid {
+        let inverse = weight_inside(columns, particle);
+        let sponge: DVec3 = (0..columns.rows.nodes)
+            .map(|control| {
+                pairs.weight(particle, control) * inverse * vector(columns.controls.velocity[control])
+            })
+            .sum();
+        let rate = f64::from(params.step) * f64::from(columns.fluid.drag_rate[particle]);
+        let mass = f64::from(params.fluid.particle_mass) * rate / (1.0 + rate);
+        let apart = vector(columns.fluid.velocity[particle]) - sponge;
+        // The column holds impulses and masses over the interior value.
+        columns.fluid.drag[particle] = row(mass * inverse * apart, mass * inverse);
+    }
+}
+
+pub(super) fn drag_target(params: &Params, columns: &mut Columns) {
+    let pairs = Pairs::new(params, columns);
+    columns.nodes.pull = vec![[0.0; 4]; columns.nodes.position.len()];
+    for control in 0..columns.rows.nodes {
+        let (mut impulse, mut mass) = (DVec3::ZERO, 0.0);
+        for particle in 0..columns.rows.fluid {
+            let weight = pairs.weight(particle, control);
+            impulse += weight * vector(columns.fluid.drag[particle]);
+            mass += weight * f64::from(columns.fluid.drag[particle][3]);
+        }
+        let node = columns.controls.node[control] as usize;
+        let place = vector(columns.nodes.position[node]);
+        columns.nodes.pull[node] = if mass > 1.0e-20 {
+            let velocity = vector(columns.controls.velocity[control]) + impulse / mass;
+            row(place + f64::from(params.step) * velocity, mass)
+        } else {
+            row(place, 0.0)
+        };
+    }
+}
+
+pub(super) fn drag_reaction(params: &Params, columns: &mut Columns) {
+    let pairs = Pairs::new(params, columns);
+    let none = vec![[0.0; 4]; columns.nodes.position.len()];
+    (columns.nodes.drag, columns.nodes.drag_moment) = (none.clone(), none);
+    for control in 0..columns.rows.nodes {
+        let (mut impulse, mut moment) = (DVec3::ZERO, DVec3::ZERO);
+        for particle in 0..columns.rows.fluid {
+            let own = pairs.weight(particle, control) * vector(columns.fluid.drag[particle]);
+            impulse += own;
+            moment += (pairs.particles[particle] - pairs.controls[control]).cross(own);
+        }
+        let node = columns.controls.node[control] as usize;
+        columns.nodes.drag[node] = row(impulse, 0.0);
+        columns.nodes.drag_moment[node] = row(moment, 0.0);
+    }
+}
+
+pub(super) fn drag_kick(params: &Params, columns: &mut Columns) {
+    super::couple::kick(params, columns);
+}
