@@ -41,7 +41,7 @@ const BOUNDS: &[(&str, f64)] = &[
     ("pbd::predict", 4e-6),
     ("pbd::guess", 4e-6),
     ("pbd::strain", 5e-4),
-    ("pbd::xpbd_neo_hookean", 7e-3),
+    ("pbd::xpbd_neo_hookean", 1.5e-4),
     ("pbd::vbd", 5e-4),
     ("pbd::reaction", 1e-3),
     ("pbd::momentum", 5e-4),
