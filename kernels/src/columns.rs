@@ -221,7 +221,9 @@ columns! {
         NodeTopology = topology: Topology, "1", Constant;
         /// Neighbours and tets of every node.
         NodeStars = stars: Stars, "1", Constant;
-        /// Where the node would go without elastic forces; w: unused.
+        /// Where the node would go without elastic forces and drag; w: its mass \[kg\], 0 for a held node.
+        NodeFree = free: Vec<[f32; 4]>, "m", Scratch;
+        /// Where inertia and the drag of the fluid draw the node; w: the mass with which they do \[kg\].
         NodeTarget = target: Vec<[f32; 4]>, "m", Scratch;
         /// What walls, bodies and grips gave to the node in this step; w: its mass if it is free to move, else minus the
         /// mass that would resist like what holds it \[kg\].
@@ -232,9 +234,7 @@ columns! {
         NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         NodeSaturation = saturation: Vec<f32>, "1", Scratch;
-        /// Where the drag of the fluid would take the node; w: mass of the fluid that takes it there \[kg\].
-        NodePull = pull: Vec<[f32; 4]>, "m", Scratch;
-        /// Impulse of the drag of the fluid in this step; w: unused.
+        /// Impulse of the drag of the fluid in this step; w: mass of the fluid that the node takes along \[kg\].
         NodeDrag = drag: Vec<[f32; 4]>, "N s", Scratch;
         /// Moment of that impulse about the node: it acts where the particles are; w: unused.
         NodeDragMoment = drag_moment: Vec<[f32; 4]>, "N m s", Scratch;

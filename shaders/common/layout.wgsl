@@ -46,6 +46,8 @@ struct Params {
     unused_1: u32,
     smoothing: Smoothing,
     coupling: Smoothing,
+    // Of the volume of the sponges' material.
+    solid: Smoothing,
     // The solve for the pressure, as `Incompressible`.
     solve_tolerance: f32,
     solve_rounds: u32,

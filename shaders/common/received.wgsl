@@ -1,17 +1,17 @@
 // Sum over the particles of a control of V_a W_ia times the drag row; all threads of the control take part.
-fn received_impulse(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> vec3<f32> {
+fn received_drag(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> vec4<f32> {
     let scale = own.w * params.coupling.value;
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
         end = list[first];
     }
-    var sum = vec3<f32>(0.0);
+    var sum = vec4<f32>(0.0);
     for (var k = lane & 31u; k < end; k += 32u) {
         let other = list[first + 1u + k];
         let apart = own.xyz - position[other].xyz;
         let weight = scale * shape(closeness(params.coupling, dot(apart, apart)));
-        sum += drag[other].xyz * weight;
+        sum += drag[other] * weight;
     }
-    return control_sum(lane, vec4<f32>(sum, 0.0)).xyz;
+    return control_sum(lane, sum);
 }

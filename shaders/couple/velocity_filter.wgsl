@@ -21,7 +21,7 @@ fn main(
     let row = control_row(group, groups, lane);
     let is_row = row < params.node_rows;
     let own = control_position[min(row, params.node_rows - 1u)];
-    let received = received_impulse(own, row, is_row, lane);
+    let received = received_drag(own, row, is_row, lane).xyz;
     if (!is_row || (lane & 31u) != 0u) {
         return;
     }

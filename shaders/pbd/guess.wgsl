@@ -7,7 +7,10 @@
 @group(0) @binding(4) var<storage, read> acceleration: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
 @group(0) @binding(6) var<storage, read_write> predicted: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> goal: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> free: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> goal: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> drag: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> drag_moment: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -20,7 +23,14 @@ fn main(
         return;
     }
     let y = predicted[row];
-    goal[row] = y;
+    var mass = 0.0;
+    if (y.w > 0.0) {
+        mass = 1.0 / y.w;
+    }
+    free[row] = vec4<f32>(y.xyz, mass);
+    goal[row] = vec4<f32>(y.xyz, mass);
+    drag[row] = vec4<f32>(0.0);
+    drag_moment[row] = vec4<f32>(0.0);
     if (y.w > 0.0 && sponges.all[node_sponge[row]].solver == VBD) {
         let lacking = clock.step * clock.step * (1.0 - velocity[row].w);
         predicted[row] = vec4<f32>(y.xyz - acceleration[row].xyz * lacking, y.w);

@@ -6,9 +6,11 @@
 @group(0) @binding(2) var<storage, read> ranges: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> goal: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> free: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> reaction: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> motions: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> drag_moment: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> motions: array<vec4<f32>>;
 
 struct Sums {
     // First moment, and mass.
@@ -25,19 +27,24 @@ var<workgroup> sums: array<Sums, 128>;
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
     let x = position[row].xyz - origin;
-    let weight = reaction[row].w;
+    var weight = reaction[row].w;
+    if (weight > 0.0) {
+        weight += drag[row].w;
+    }
     let mass = abs(weight);
     let y = predicted[row];
     var lacking = reaction[row].xyz;
+    var moment = vec3<f32>(0.0);
     if (y.w > 0.0) {
-        lacking -= (y.xyz - goal[row].xyz) * (clock.inverse_step / y.w);
+        lacking += drag[row].xyz - (y.xyz - free[row].xyz) * (clock.inverse_step / y.w);
+        moment = drag_moment[row].xyz;
     }
     return Sums(
         vec4<f32>(x, 1.0) * mass,
         vec4<f32>(x * x * mass, max(weight, 0.0)),
         vec3<f32>(x.x * x.y, x.x * x.z, x.y * x.z) * mass,
         lacking,
-        cross(x, lacking),
+        moment + cross(x, lacking),
     );
 }
 

@@ -61,7 +61,7 @@ fn main(
         local = local_energy(row, x.xyz, old, sponge, clock.step);
     }
     if (near) {
-        quadratic = least(local, x.xyz, goal[row].xyz, x.w, clock.step);
+        quadratic = least(local, x.xyz, goal[row], clock.step);
     }
     var point = quadratic.point;
     var force = vec3<f32>(0.0);

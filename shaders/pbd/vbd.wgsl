@@ -36,7 +36,7 @@ fn main(
     }
     let old = position[row].xyz;
     let local = local_energy(row, x.xyz, old, sponge, clock.step);
-    let quadratic = least(local, x.xyz, goal[row].xyz, x.w, clock.step);
+    let quadratic = least(local, x.xyz, goal[row], clock.step);
     var point = quadratic.point;
     for (var index = 0u; index < params.body_rows; index += 1u) {
         point += push_by_body(bodies[index], quadratic, point, old, clock.step).change;

@@ -51,10 +51,10 @@ impl SpongeShape {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Solver {
     /// Vertex block descent: a material of `young_modulus`, `poisson_ratio` and `damping`, stable at any step.
+    #[default]
     Vbd,
     /// Strain based dynamics, the model of the paper: `stretch_modulus`, `shear_modulus`, `volume_modulus` and
     /// `damping_time`.
-    #[default]
     Sbd,
     /// Two coupled Neo-Hookean constraints per tet: the material of `vbd`, at short steps of one sweep.
     XpbdNeoHookean,
@@ -111,7 +111,7 @@ pub struct Sponge {
     ///
     /// At 1 momentum is conserved and a sponge standing in water stays where it is.
     pub reaction: f32,
-    /// How elasticity is solved: `sbd` (default), `vbd` or `xpbd_neo_hookean`.
+    /// How elasticity is solved: `vbd` (default), `sbd` or `xpbd_neo_hookean`.
     pub solver: Solver,
     /// Young's modulus of the sponge with its pores: stress over strain of a bar that is pulled. Range 10 to 1e9 Pa;
     /// default 20000. Of `vbd` and `xpbd_neo_hookean`, like the next two.
@@ -133,7 +133,7 @@ pub struct Sponge {
     pub volume_modulus: f32,
     /// Time in which internal vibration of `sbd` fades. Range 0 to 10 s; default 5e-4.
     pub damping_time: f32,
-    /// Solver sweeps per step. Range 1 to 64; default 1.
+    /// Solver sweeps per step. Range 1 to 64; default 4.
     ///
     /// `vbd`: more sweeps follow fast motion better, 4 are a good number; what is at rest is exact at any. `sbd`:
     /// more sweeps are stiffer under load, and 1 is the number of the paper. `xpbd_neo_hookean` takes one, whatever this
@@ -161,7 +161,7 @@ impl Default for Sponge {
             suction_radius: 1.5,
             saturation_gain: 1.0,
             reaction: 1.0,
-            solver: Solver::Sbd,
+            solver: Solver::Vbd,
             young_modulus: 2e4,
             poisson_ratio: 0.2,
             damping: 0.0,
@@ -169,7 +169,7 @@ impl Default for Sponge {
             shear_modulus: 1e4,
             volume_modulus: 2e4,
             damping_time: 0.0005,
-            iterations: 1,
+            iterations: 4,
             friction: 0.5,
             saturation: 0.0,
         }

@@ -7,7 +7,7 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Sponge, SpongeShape, VERSION,
+    Coupling, Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Sponge, SpongeShape, VERSION,
 };
 
 /// Range of `edge / spacing`: outside it either water slips between the nodes or nodes find no water.
@@ -160,6 +160,10 @@ pub(super) fn inside(
 }
 
 fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
+    if fluid.coupling == Some(Coupling::Porous) && !scene.allows_porous() {
+        let rule = "needs `fluid.solver` = \"dfsph\", and `solver` = \"vbd\" of every sponge";
+        problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));
+    }
     // Corners are written in decimals, which f32 rounds: a thousandth of the spacing forgives that.
     let slack = 1e-3 * fluid.spacing;
     for (index, block) in fluid.blocks.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! What the nodes receive of the impulses that the particles lose, and its moments.
 //!
 //! ```text
-//! D_a = sum_i w_ia J_i,   M_a = sum_i w_ia (x_i - x_a) x J_i
+//! D_a = sum_i w_ia J_i,   k_a = sum_i w_ia k_i,   M_a = sum_i w_ia (x_i - x_a) x J_i
 //! ```
 //!
 //! A few sweeps do not give a sponge these impulses yet, and never their moments: the drag acts at the particle, and its
@@ -38,15 +38,17 @@ fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
             for row in (0..impulses.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let mut impulse = splat(simd, [0.0; 3]);
-                let mut moment = impulse;
+                let (mut moment, mut mass) = (impulse, zero);
                 for (entry, weight) in lists.group(row).iter().zip(&weights[lists.range(row)]) {
                     let [xi, yi, zi, _] = lanes::gather_rows(simd, particles, entry);
-                    let [jx, jy, jz, _] = lanes::gather_rows(simd, drag, entry);
-                    let own = times([jx, jy, jz], lanes::load(simd, weight, 0));
+                    let [jx, jy, jz, drawn] = lanes::gather_rows(simd, drag, entry);
+                    let weight = lanes::load(simd, weight, 0);
+                    let own = times([jx, jy, jz], weight);
+                    mass += weight * drawn;
                     impulse = plus(impulse, own);
                     moment = plus(moment, cross(minus([xi, yi, zi], [x, y, z]), own));
                 }
-                lanes::store_rows(impulses, row, [impulse[0], impulse[1], impulse[2], zero]);
+                lanes::store_rows(impulses, row, [impulse[0], impulse[1], impulse[2], mass]);
                 lanes::store_rows(moments, row, [moment[0], moment[1], moment[2], zero]);
             }
         });

@@ -13,7 +13,8 @@
 //! k_a = sum_i w_ia k_i,   t_a = x_a(before) + h (u_a + sum_i w_ia J_i / k_a),   E_a(x) = k_a / (2 h^2) |x - t_a|^2
 //! ```
 //!
-//! never raises the energy, ends at the same minimum, and is exact at once where all move alike.
+//! never raises the energy, ends at the same minimum, and is exact at once where all move alike. Together with the inertia,
+//! m_a / (2 h^2) |x - z_a|^2, it is one mass m_a + k_a that is drawn to the mean of both targets.
 
 use crate::{
     columns::{Column::*, Columns, Controls},
@@ -27,14 +28,22 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::drag_target",
     needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[FluidDrag, ControlNode, ControlVelocity, ControlFluid, ControlFluidWeights, NodePosition],
-    writes: &[NodePull],
+    reads: &[
+        FluidDrag,
+        ControlNode,
+        ControlPosition,
+        ControlVelocity,
+        ControlFluid,
+        ControlFluidWeights,
+        NodeFree,
+    ],
+    writes: &[NodeTarget],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let drag = &columns.fluid.drag;
-    let Controls { node, velocity, fluid: lists, fluid_weights, .. } = &columns.controls;
+    let Controls { node, position, velocity, fluid: lists, fluid_weights, .. } = &columns.controls;
     let (step, nodes) = (params.step, &mut columns.nodes);
     // By how much a node is moved, and by what mass.
     let mut moved = vec![[0.0_f32; 4]; velocity.len()];
@@ -53,12 +62,15 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             }
         });
     });
-    nodes.pull.clear();
-    nodes.pull.resize(nodes.position.len(), [0.0; 4]);
-    for (node, moved) in node.iter().zip(&moved) {
-        let node = *node as usize;
-        let [x, y, z, _] = nodes.position[node];
-        nodes.pull[node] = [x + moved[0], y + moved[1], z + moved[2], moved[3]];
+    for ((node, place), moved) in node.iter().zip(position).zip(&moved) {
+        let (free, target) = (nodes.free[*node as usize], &mut nodes.target[*node as usize]);
+        *target = free;
+        let mass = free[3] + moved[3];
+        if free[3] > 0.0 {
+            let share = moved[3] / mass;
+            (0..3).for_each(|axis| target[axis] += (place[axis] + moved[axis] - free[axis]) * share);
+            target[3] = mass;
+        }
     }
 }
 

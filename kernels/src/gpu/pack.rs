@@ -93,7 +93,8 @@ pub(super) fn params(
         .words(&[limits.constant_bound])
         .words(&capacities)
         .words(&[0, 0]);
-    for smoothing in [&fluid.smoothing, &params.coupling] {
+    let solid = params.solid.unwrap_or(params.coupling);
+    for smoothing in [&fluid.smoothing, &params.coupling, &solid] {
         bytes.floats(&smoothing_factors(smoothing));
     }
     match &fluid.incompressible {

@@ -155,7 +155,7 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 240, uniform),
+            ("params", 272, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),
@@ -193,7 +193,10 @@ impl Resident {
             ("node_velocity", nodes * 16, plain),
             ("node_acceleration", nodes * 16, plain),
             ("node_predicted", nodes * 16, plain),
+            ("node_free", nodes * 16, plain),
             ("node_target", nodes * 16, plain),
+            ("node_drag", nodes * 16, plain),
+            ("node_drag_moment", nodes * 16, plain),
             ("node_reaction", nodes * 16, plain),
             ("node_stars", nodes * STAR_WORDS as u64 * 4, plain),
             ("sponge_ranges", self.params.sponges.len() as u64 * 32, plain),
@@ -210,6 +213,7 @@ impl Resident {
             ("control_position", controls * 16, plain),
             ("control_velocity", controls * 16, plain),
             ("control_unfiltered", controls * 16, plain),
+            ("control_solid", controls * 16, plain),
             ("control_saturation", controls * 4, plain),
             ("control_suction", controls * 4, plain),
             ("control_cells", controls * 4, plain),

@@ -123,6 +123,8 @@ const FROM_CONTROLS: Names = &[
     ("interior", "fluid_interior"),
     ("drag_rate", "fluid_drag_rate"),
     ("drag", "fluid_drag"),
+    ("predicted", "fluid_predicted"),
+    ("boundary", "fluid_boundary"),
     ("list", "fluid_controls"),
 ];
 
@@ -132,6 +134,9 @@ const FROM_FLUID: Names = &[
     ("interior", "fluid_interior"),
     ("drag", "fluid_drag"),
     ("unfiltered", "control_unfiltered"),
+    ("predicted", "fluid_predicted"),
+    ("free", "node_free"),
+    ("goal", "node_target"),
     ("list", "control_fluid"),
 ];
 
@@ -142,7 +147,10 @@ const NODES: Names = &[
     ("grip", "node_grip"),
     ("grip_offset", "node_grip_offset"),
     ("predicted", "node_predicted"),
+    ("free", "node_free"),
     ("goal", "node_target"),
+    ("drag", "node_drag"),
+    ("drag_moment", "node_drag_moment"),
     ("reaction", "node_reaction"),
     ("stars", "node_stars"),
     ("ranges", "sponge_ranges"),
@@ -263,6 +271,20 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
             pass("couple::exchange_fluid", Rows::Fluid, FROM_CONTROLS),
         ],
     ),
+    (
+        "couple::solid_pressure",
+        &[
+            pass("couple::expect_solid", Rows::Nodes, FROM_FLUID),
+            pass("couple::solid_pressure", Rows::Fluid, FROM_CONTROLS),
+        ],
+    ),
+    ("couple::solid_share", &[pass("couple::solid_share", Rows::Fluid, FROM_CONTROLS)]),
+    ("couple::solid_reaction", &[pass("couple::solid_reaction", Rows::Controls, FROM_FLUID)]),
+    ("couple::node_velocity", &[pass("couple::node_velocity", Rows::Nodes, FROM_FLUID)]),
+    ("couple::drag_impulse", &[pass("couple::drag_impulse", Rows::Fluid, FROM_CONTROLS)]),
+    ("couple::drag_target", &[pass("couple::drag_target", Rows::Controls, FROM_FLUID)]),
+    ("couple::drag_reaction", &[pass("couple::drag_reaction", Rows::Controls, FROM_FLUID)]),
+    ("couple::drag_kick", &[pass("couple::exchange_fluid", Rows::Fluid, FROM_CONTROLS)]),
 ];
 
 /// The passes of a kernel, if it has a twin.

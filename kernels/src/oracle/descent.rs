@@ -13,8 +13,12 @@ pub(super) fn guess(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let h = f64::from(params.step);
     nodes.target = nodes.predicted.clone();
+    for node in &mut nodes.target {
+        node[3] = if node[3] > 0.0 { 1.0 / node[3] } else { 0.0 };
+    }
+    nodes.free = nodes.target.clone();
     let none = vec![[0.0; 4]; nodes.predicted.len()];
-    (nodes.pull, nodes.drag, nodes.drag_moment) = (none.clone(), none.clone(), none);
+    (nodes.drag, nodes.drag_moment) = (none.clone(), none);
     for node in 0..columns.rows.nodes {
         let y = nodes.predicted[node];
         let share = f64::from(nodes.velocity[node][3]);
@@ -98,12 +102,9 @@ fn least(
 ) -> (DVec3, DMat3) {
     let (force, stiffness) = local(params, nodes.sponge[node], places, before, tets);
     let h = f64::from(params.step);
-    let inertia = 1.0 / (f64::from(nodes.predicted[node][3]) * h * h);
-    let drag = f64::from(nodes.pull[node][3]) / (h * h);
-    let stiffness = stiffness + DMat3::IDENTITY * (inertia + drag);
-    let pull = force
-        + inertia * (vector(nodes.target[node]) - places[node])
-        + drag * (vector(nodes.pull[node]) - places[node]);
+    let inertia = f64::from(nodes.target[node][3]) / (h * h);
+    let stiffness = stiffness + DMat3::IDENTITY * inertia;
+    let pull = force + inertia * (vector(nodes.target[node]) - places[node]);
     (places[node] + stiffness.inverse() * pull, stiffness)
 }
 
@@ -260,7 +261,7 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
         let own: Vec<usize> =
             (0..columns.rows.nodes).filter(|node| nodes.sponge[*node] as usize == index).collect();
         let weight = |node: usize| match f64::from(nodes.reaction[node][3]) {
-            weight if weight > 0.0 => weight + f64::from(nodes.pull[node][3]),
+            weight if weight > 0.0 => weight + f64::from(nodes.drag[node][3]),
             weight => -weight,
         };
         let mass: f64 = own.iter().map(|node| weight(*node)).sum();
@@ -270,7 +271,7 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
         for node in own.iter().copied() {
             let arm = vector(nodes.position[node]) - centre;
             let w = f64::from(nodes.predicted[node][3]);
-            let gained = vector(nodes.predicted[node]) - vector(nodes.target[node]);
+            let gained = vector(nodes.predicted[node]) - vector(nodes.free[node]);
             let own = if w > 0.0 { gained / (w * h) } else { DVec3::ZERO };
             let of_fluid = |row: [f32; 4]| if w > 0.0 { vector(row) } else { DVec3::ZERO };
             let own = vector(nodes.reaction[node]) + of_fluid(nodes.drag[node]) - own;

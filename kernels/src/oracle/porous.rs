@@ -104,7 +104,6 @@ pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
 
 pub(super) fn drag_target(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
-    columns.nodes.pull = vec![[0.0; 4]; columns.nodes.position.len()];
     for control in 0..columns.rows.nodes {
         let (mut impulse, mut mass) = (DVec3::ZERO, 0.0);
         for particle in 0..columns.rows.fluid {
@@ -113,13 +112,15 @@ pub(super) fn drag_target(params: &Params, columns: &mut Columns) {
             mass += weight * f64::from(columns.fluid.drag[particle][3]);
         }
         let node = columns.controls.node[control] as usize;
-        let place = vector(columns.nodes.position[node]);
-        columns.nodes.pull[node] = if mass > 1.0e-20 {
+        let free = columns.nodes.free[node];
+        let (mut target, mut drawn) = (vector(free), f64::from(free[3]));
+        if drawn > 0.0 && mass > 1.0e-20 {
             let velocity = vector(columns.controls.velocity[control]) + impulse / mass;
-            row(place + f64::from(params.step) * velocity, mass)
-        } else {
-            row(place, 0.0)
-        };
+            let by_fluid = pairs.controls[control] + f64::from(params.step) * velocity;
+            target = (drawn * target + mass * by_fluid) / (drawn + mass);
+            drawn += mass;
+        }
+        columns.nodes.target[node] = row(target, drawn);
     }
 }
 
@@ -128,14 +129,15 @@ pub(super) fn drag_reaction(params: &Params, columns: &mut Columns) {
     let none = vec![[0.0; 4]; columns.nodes.position.len()];
     (columns.nodes.drag, columns.nodes.drag_moment) = (none.clone(), none);
     for control in 0..columns.rows.nodes {
-        let (mut impulse, mut moment) = (DVec3::ZERO, DVec3::ZERO);
+        let (mut impulse, mut moment, mut mass) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for particle in 0..columns.rows.fluid {
+            mass += pairs.weight(particle, control) * f64::from(columns.fluid.drag[particle][3]);
             let own = pairs.weight(particle, control) * vector(columns.fluid.drag[particle]);
             impulse += own;
             moment += (pairs.particles[particle] - pairs.controls[control]).cross(own);
         }
         let node = columns.controls.node[control] as usize;
-        columns.nodes.drag[node] = row(impulse, 0.0);
+        columns.nodes.drag[node] = row(impulse, mass);
         columns.nodes.drag_moment[node] = row(moment, 0.0);
     }
 }

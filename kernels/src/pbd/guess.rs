@@ -8,7 +8,7 @@
 //! acceleration a that the node did not follow in the last step, because something held it: `s = 1` in free fall,
 //! `s = 0` at rest. What is at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
 //!
-//! Fluid may pull the nodes as well (`couple::drag_target`); until it does, nothing does.
+//! Fluid may draw the nodes as well: then `couple::drag_target` moves the target, by its mass.
 
 use crate::{
     columns::{Column::*, Columns, Nodes},
@@ -22,27 +22,27 @@ pub static KERNEL: Kernel = Kernel {
     name: "pbd::guess",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
     reads: &[NodeVelocity, NodeAcceleration, NodeSponge, NodePredicted],
-    writes: &[NodePredicted, NodeTarget, NodePull, NodeDrag, NodeDragMoment],
+    writes: &[NodePredicted, NodeFree, NodeTarget, NodeDrag, NodeDragMoment],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { velocity, acceleration, sponge, predicted, target, pull, drag, drag_moment, .. } =
+    let Nodes { velocity, acceleration, sponge, predicted, free, target, drag, drag_moment, .. } =
         &mut columns.nodes;
     target.resize(predicted.len(), [0.0; 4]);
-    for of_fluid in [pull, drag, drag_moment] {
+    for of_fluid in [drag, drag_moment] {
         of_fluid.clear();
         of_fluid.resize(predicted.len(), [0.0; 4]);
     }
     let square = params.step * params.step;
     cpu.for_chunks((&mut predicted[..], &mut target[..]), |first, (predicted, target)| {
         for (row, (y, z)) in predicted.iter_mut().zip(target).enumerate() {
-            *z = *y;
+            *z = [y[0], y[1], y[2], if y[3] > 0.0 { 1.0 / y[3] } else { 0.0 }];
             let node = first + row;
             if y[3] > 0.0 && params.solver(sponge[node]) == Some(Solver::Vbd) {
                 let lacking = square * (1.0 - velocity[node][3]);
                 (0..3).for_each(|axis| y[axis] -= lacking * acceleration[node][axis]);
             }
         }
-    });
+    });    free.clone_from(target);
 }

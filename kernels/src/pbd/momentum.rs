@@ -36,11 +36,10 @@ pub static KERNEL: Kernel = Kernel {
         NodeVelocity,
         NodeStars,
         NodeSponge,
-        NodeTarget,
+        NodeFree,
         NodeReaction,
         NodePredicted,
         NodeAcceleration,
-        NodePull,
         NodeDrag,
         NodeDragMoment,
     ],
@@ -55,17 +54,16 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         acceleration,
         stars,
         sponge,
-        target,
+        free,
         reaction,
         predicted,
-        pull,
         drag,
         drag_moment,
         ..
     } = &mut columns.nodes;
     let rate = 1.0 / f64::from(params.step);
     let mut sums: Vec<Sums> = vec![Sums::default(); stars.pieces.len()];
-    let rows = Rows { position, predicted, target, reaction, pull, drag, drag_moment };
+    let rows = Rows { position, predicted, free, reaction, drag, drag_moment };
     cpu.for_chunks_of(1, &mut sums[..], |first, sums| {
         for (sum, Piece { sponge, rows: range }) in sums.iter_mut().zip(&stars.pieces[first..]) {
             if params.solver(*sponge) == Some(Solver::Vbd) {
@@ -116,9 +114,8 @@ fn followed(x: [f32; 4], y: [f32; 4], v: [f32; 4], a: [f32; 4], step: f32) -> f3
 struct Rows<'a> {
     position: &'a [[f32; 4]],
     predicted: &'a [[f32; 4]],
-    target: &'a [[f32; 4]],
+    free: &'a [[f32; 4]],
     reaction: &'a [[f32; 4]],
-    pull: &'a [[f32; 4]],
     drag: &'a [[f32; 4]],
     drag_moment: &'a [[f32; 4]],
 }
@@ -150,7 +147,7 @@ impl Sums {
         let x = vector(rows.position[node]);
         let mut weight = f64::from(rows.reaction[node][3]);
         if weight > 0.0 {
-            weight += f64::from(rows.pull[node][3]);
+            weight += f64::from(rows.drag[node][3]);
         }
         let mass = weight.abs();
         self.mass[0] += weight.max(0.0);
@@ -159,7 +156,7 @@ impl Sums {
         self.second += DMat3::from_cols(x * (x.x * mass), x * (x.y * mass), x * (x.z * mass));
         let inverse = f64::from(rows.predicted[node][3]);
         let own = if inverse > 0.0 { rate / inverse } else { 0.0 };
-        let gained = (vector(rows.predicted[node]) - vector(rows.target[node])) * own;
+        let gained = (vector(rows.predicted[node]) - vector(rows.free[node])) * own;
         let mut lacking = vector(rows.reaction[node]) - gained;
         // What the fluid gives to a held node goes to its body.
         if inverse > 0.0 {

@@ -27,20 +27,20 @@ const MARGIN: f32 = 1.0e-2;
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::reaction",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodePosition, NodePredicted, NodeTarget, NodePull, NodeStars, NodeSponge, BodyStates, BodyNodeWrenches],
+    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates, BodyNodeWrenches],
     writes: &[NodeReaction, BodyNodeWrenches],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, pull, sponge, stars, reaction, .. } = &mut columns.nodes;
+    let Nodes { position, predicted, target, sponge, stars, reaction, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.node_wrenches.0;
     reaction.clear();
     reaction.resize(position.len(), [0.0; 4]);
     for color in 0..4 {
         let rows = stars.rows(color);
-        let task = Task { cpu, params, bodies, position, predicted, target, pull, sponge, stars };
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
         // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
@@ -62,7 +62,6 @@ struct Task<'a> {
     position: &'a [[f32; 4]],
     predicted: &'a [[f32; 4]],
     target: &'a [[f32; 4]],
-    pull: &'a [[f32; 4]],
     sponge: &'a [u32],
     stars: &'a Stars,
 }
@@ -116,13 +115,12 @@ impl Task<'_> {
             return [zero, zero, zero, mass * own];
         }
         let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
-        let [tx, ty, tz, _] = lanes::gather_rows(simd, self.target, &group.own);
+        let [tx, ty, tz, drawn] = lanes::gather_rows(simd, self.target, &group.own);
         let (old, target) = ([ox, oy, oz], [tx, ty, tz]);
         let places = (self.predicted, self.position);
         let step = self.params.step;
         let (elastic, stiffness) = local(simd, (group, &self.stars.shape), material, places, (x, old));
-        let pull = lanes::gather_rows(simd, self.pull, &group.own);
-        let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, w), pull, step);
+        let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, drawn), step);
         let mut contact = quadratic.contact((point, old), (material.friction, near));
         let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));
         let force = choose(free, pushed, times(negative(elastic), counts));

@@ -4,8 +4,8 @@
 //! E(x) = m / (2 h^2) |x - z|^2 + sum over tets of V psi(F) + damping,   x <- x + (m / h^2 + H)^-1 (m / h^2 (z - x) - dE/dx)
 //! ```
 //!
-//! with the target z and the energy of `descent.rs`; where there is fluid, with its drag as a further mass that is drawn to a
-//! target of its own (`couple::drag_target`). Four vertex colours: the neighbours of a node have another one, so
+//! with the target z and the energy of `descent.rs`; where there is fluid, target and mass include its drag
+//! (`couple::drag_target`). Four vertex colours: the neighbours of a node have another one, so
 //! nodes of a colour can move at the same time. Contact and friction are solved together with the elasticity of the node,
 //! in `obstacles.rs`. What a sweep does never raises the total energy without contact; it is stable at any step.
 //!
@@ -31,20 +31,20 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::vbd",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodePosition, NodePredicted, NodeTarget, NodePull, NodeStars, NodeSponge, BodyStates],
+    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates],
     writes: &[NodePredicted],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, pull, sponge, stars, .. } = &mut columns.nodes;
+    let Nodes { position, predicted, target, sponge, stars, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let mut moved = Vec::new();
     for color in 0..4 {
         let rows = stars.rows(color);
         moved.clear();
         moved.resize(rows.len(), [0.0; 4]);
-        let task = Task { cpu, params, bodies, position, predicted, target, pull, sponge, stars };
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
         cpu.for_chunks(&mut moved[..], |first, moved| {
             with_lanes!(cpu, simd => task.chunk(simd, color, first, moved));
         });
@@ -59,7 +59,6 @@ struct Task<'a> {
     position: &'a [[f32; 4]],
     predicted: &'a [[f32; 4]],
     target: &'a [[f32; 4]],
-    pull: &'a [[f32; 4]],
     sponge: &'a [u32],
     stars: &'a Stars,
 }
@@ -89,14 +88,13 @@ impl Task<'_> {
     ) -> [f32x8<S>; 4] {
         let [x, y, z, w] = lanes::gather_rows(simd, self.predicted, &group.own);
         let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
-        let [tx, ty, tz, _] = lanes::gather_rows(simd, self.target, &group.own);
+        let [tx, ty, tz, mass] = lanes::gather_rows(simd, self.target, &group.own);
         let (x, old, target) = ([x, y, z], [ox, oy, oz], [tx, ty, tz]);
         let zero = lanes::splat(simd, 0.0);
         let moves = w.simd_gt(zero) & material.own.simd_gt(zero);
         let places = (self.predicted, self.position);
         let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
-        let pull = lanes::gather_rows(simd, self.pull, &group.own);
-        let (point, quadratic) = least(simd, energy, (x, target, w), pull, self.params.step);
+        let (point, quadratic) = least(simd, energy, (x, target, mass), self.params.step);
         let own = select(moves, lanes::splat(simd, 1.0), zero);
         let mut contact = quadratic.contact((point, old), (material.friction, own));
         obstacles.push(&mut contact, None);
@@ -105,23 +103,20 @@ impl Task<'_> {
     }
 }
 
-/// Where an energy is least without obstacles, and its second derivative; with inertia, and the pull of the fluid.
+/// Where an energy is least without obstacles, and its second derivative; with what draws it to its target.
 #[inline(always)]
 pub(super) fn least<S: Simd>(
     simd: S,
     (force, mut stiffness): (Vec3x8<S>, Symmetric<S>),
-    (x, target, w): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),
-    [px, py, pz, fluid]: [f32x8<S>; 4],
+    (x, target, mass): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),
     step: f32,
 ) -> (Vec3x8<S>, Quadratic<S>) {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let inertia = one / (select(w.simd_gt(zero), w, one) * lanes::splat(simd, step * step));
-    let drag = fluid * (1.0 / (step * step));
+    let inertia = select(mass.simd_gt(zero), mass, one) / lanes::splat(simd, step * step);
     for diagonal in &mut stiffness[..3] {
-        *diagonal = *diagonal + inertia + drag;
+        *diagonal += inertia;
     }
     let inverse = inverse(simd, &stiffness);
     let pull = plus(force, times(minus(target, x), inertia));
-    let pull = plus(pull, times(minus([px, py, pz], x), drag));
     (plus(x, product(&inverse, pull)), Quadratic { stiffness, inverse })
 }

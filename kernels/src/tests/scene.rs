@@ -104,7 +104,7 @@ impl Options {
     /// The same, with the pressure that the kernel is there for.
     pub(super) fn suiting(self, kernel: &Kernel) -> Self {
         // What fluid does to vertex block descent, it does with sponges as porous media.
-        let porous = kernel.needs.contains(&Need::Porous) || kernel.reads.contains(&Column::NodePull);
+        let porous = kernel.needs.contains(&Need::Porous) || kernel.reads.iter().any(|column| matches!(column, Column::NodeFree | Column::NodeTarget));
         Self { incompressible: porous || kernel.needs.contains(&Need::Incompressible), porous, ..self }
     }
 

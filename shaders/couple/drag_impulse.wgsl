@@ -1,0 +1,47 @@
+// Impulse that every particle loses to the sponge, at the velocities that its nodes have so far; `drag_impulse.rs` has the
+// formulas.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> interior: array<f32>;
+@group(0) @binding(5) var<storage, read> drag_rate: array<f32>;
+@group(0) @binding(6) var<storage, read> list: array<u32>;
+@group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> control_velocity: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> drag: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let end = list[row];
+    if (end == 0u) {
+        drag[row] = vec4<f32>(0.0);
+        return;
+    }
+    let point = position[row].xyz;
+    var slot = row;
+    var sum = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let there = control_position[other];
+        let apart = point - there.xyz;
+        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        sum += weight * control_velocity[other].xyz;
+    }
+    let inverse = weight_inside(interior[row]);
+    let rate = drag_rate[row] * clock.step;
+    // The column holds impulses and masses over chi.
+    let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
+    drag[row] = vec4<f32>((velocity[row].xyz - sum * inverse) * strength, strength);
+}

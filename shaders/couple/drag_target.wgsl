@@ -1,0 +1,44 @@
+// Where inertia and the drag of the fluid draw the nodes, for a sweep of vertex block descent; `drag_target.rs` has the
+// formulas.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_velocity: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> control_node: array<u32>;
+@group(0) @binding(7) var<storage, read> list: array<u32>;
+@group(0) @binding(8) var<storage, read> free: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> goal: array<vec4<f32>>;
+
+// Mass below which nothing is drawn.
+const LEAST: f32 = 1.0e-20;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let own = control_position[min(row, params.node_rows - 1u)];
+    let received = received_drag(own, row, is_row, lane);
+    if (!is_row || (lane & 31u) != 0u) {
+        return;
+    }
+    let node = control_node[row];
+    let start = free[node];
+    var end = start;
+    if (start.w > 0.0 && received.w > LEAST) {
+        let velocity = control_velocity[row].xyz + received.xyz / received.w;
+        let mass = start.w + received.w;
+        let by_fluid = own.xyz + velocity * clock.step;
+        end = vec4<f32>(start.xyz + (by_fluid - start.xyz) * (received.w / mass), mass);
+    }
+    goal[node] = end;
+}

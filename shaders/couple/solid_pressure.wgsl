@@ -1,0 +1,38 @@
+// Pressure of the particles against the material of the sponge, at the beginning of the step.
+//
+//     a_i -= P_i grad lambda_i
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_solid: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> list: array<u32>;
+@group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let own = position[row];
+    let end = list[row];
+    var slot = row;
+    var sum = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let apart = own.xyz - control_position[other].xyz;
+        let u = closeness(params.solid, dot(apart, apart));
+        sum += (control_solid[other].w * (u * u * u)) * apart;
+    }
+    let before = acceleration[row];
+    let scale = params.solid.gradient * params.rest_density * own.w;
+    acceleration[row] = vec4<f32>(before.xyz + sum * scale, before.w);
+}

@@ -1,0 +1,37 @@
+// Share of the sponge's material in the volume around a particle, where both are expected at the end of the step.
+//
+//     lambda_i += sum_a V_s W(x*_i - x*_a)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> control_solid: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read_write> boundary: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = predicted[row].xyz;
+    let end = list[row];
+    var slot = row;
+    var sum = vec4<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let solid = control_solid[list[slot]];
+        let apart = point - solid.xyz;
+        let u = closeness(params.solid, dot(apart, apart));
+        sum += solid.w * vec4<f32>(apart * (u * u * u), shape(u));
+    }
+    let before = boundary[row];
+    let slope = sum.xyz * params.solid.gradient;
+    boundary[row] = vec4<f32>(before.xyz - slope, before.w + sum.w * params.solid.value);
+}
