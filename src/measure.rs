@@ -17,7 +17,8 @@ pub struct Measures {
     pub water_mass: f64,
     /// Mass of the water inside sponges \[kg\].
     pub absorbed_mass: f64,
-    /// Pore volume filled with water over pore volume, mean over the nodes \[1\].
+    /// Pore volume filled with water over pore volume at rest \[1\]: the mean over the nodes; as porous media the mass of the water
+    /// inside over what fits in.
     pub saturation: f64,
     /// Height of the highest node that is more than half saturated above the lowest node \[m\].
     pub wicking_height: f64,
@@ -104,7 +105,7 @@ impl Measures {
     fn add_sponges(&mut self, world: &World) {
         let (lattice, scene) = (world.lattice(), world.scene());
         let gravity = scene.gravity.as_dvec3();
-        let (mut mass, mut volume, mut lowest) = (0.0, 0.0, f64::INFINITY);
+        let (mut mass, mut volume, mut pores, mut lowest) = (0.0, 0.0, 0.0, f64::INFINITY);
         for (node, position) in world.node_positions().iter().enumerate() {
             let sponge = &scene.sponges[lattice.node_sponge[node] as usize];
             let node_volume = f64::from(lattice.node_volume[node]);
@@ -112,6 +113,7 @@ impl Measures {
             let position = vector(position);
             self.add_point(node_mass, position, vector(&world.node_velocities()[node]), gravity);
             self.sponge_centre += position * node_mass;
+            pores += node_volume * f64::from(sponge.porosity);
             mass += node_mass;
             lowest = lowest.min(position.y);
             if let Some(saturation) = world.node_saturations().get(node) {
@@ -127,6 +129,10 @@ impl Measures {
         }
         if volume > 0.0 {
             self.saturation /= volume;
+        }
+        if world.params().solid.is_some() && pores > 0.0 {
+            // Around nodes at a face there is water outside as well.
+            self.saturation = self.absorbed_mass / (pores * f64::from(world.params().fluid.rest_density));
         }
         self.wicking_height = (self.wicking_height - lowest).max(0.0);
         self.add_tets(world);

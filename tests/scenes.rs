@@ -299,6 +299,37 @@ fn wring() {
 }
 
 #[test]
+fn life() {
+    let scene = common::preset("life", RESOLUTION);
+    let run = Run::of(&scene, 8.0);
+    let mut claims = run.claims();
+    let height = |time: f64| run.at(time).measures.sponge_centre.y;
+    // It is in the air for 0.05 s, floats, and sinks as it drinks; the ball is down from 4 s to 4.5 s.
+    let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(3.0)));
+    claims.claim(late > 1.3 * early, format!("absorbed: {early:.4} kg at 0.1 s, {late:.4} kg at 3 s"));
+    claims.claim(height(3.0) > 0.3 * height(0.0), format!("lies on the floor: {:.4} m", height(3.0)));
+    let (low, high) = run.range(2.5..3.0, |sample| sample.measures.sponge_centre.y);
+    claims.claim(high - low < 0.002, format!("moves by {:.5} m while it floats", high - low));
+    let squeezed = absorbed(run.at(4.4));
+    claims.claim(squeezed < 0.85 * late, format!("absorbed: {late:.4} kg at 3 s, {squeezed:.4} kg squeezed"));
+    let (full, small) = (volume(run.at(3.0)), volume(run.at(4.4)));
+    claims.claim(small < 0.85 * full, format!("volume: {full:.3e} m^3, squeezed {small:.3e} m^3"));
+    let again = run.mean(7.5..8.0, absorbed);
+    claims.claim(again > 0.9 * late, format!("absorbed: {late:.4} kg at 3 s, {again:.4} kg in the end"));
+    let sideways = |sample: &Sample| {
+        let drift = sample.measures.sponge_centre - run.start.sponge_centre;
+        (drift.x * drift.x + drift.z * drift.z).sqrt()
+    };
+    let (_, drift) = run.range(0.0..8.0, sideways);
+    claims.claim(drift < 0.005, format!("drifts {drift:.5} m sideways"));
+    // What does not drink floats higher, and gives nothing back.
+    let tight = Run::of(&common::with(&scene, &["sponges[0].entry_pressure=0"]), 3.0);
+    let without = absorbed(tight.at(3.0));
+    claims.claim(without < 0.9 * late, format!("absorbed: {without:.4} kg at 3 s without suction"));
+    run.finish(claims);
+}
+
+#[test]
 fn water() {
     let run = Run::of(&common::preset("water", RESOLUTION), 2.0);
     let mut claims = run.claims();

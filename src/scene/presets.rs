@@ -30,6 +30,7 @@ const PRESETS: &[Preset] = presets! {
     "squish": "Two plates squeeze a saturated sponge and let it recover";
     "dam_break": "A breaking dam drags a sponge along";
     "wring": "Two grips wring a saturated sponge bar";
+    "life": "Dropped dry into water, squeezed by a ball, let go";
     "water": "Control: the breaking dam without the sponge";
     "dry": "Control: the ball and the sponge without water";
     "empty": "Control: nothing at all";

@@ -5,21 +5,36 @@
 
 use sorb::{
     glam::Vec3,
-    scene::{self, FluidSolver, Motion, Scene},
+    scene::{self, FluidSolver, Motion, Scene, Solver},
 };
 
 /// All presets, in the order of the documentation.
-pub(crate) const SCENES: [&str; 8] =
-    ["standing", "ball_drop", "squish", "dam_break", "wring", "water", "dry", "empty"];
+pub(crate) const SCENES: [&str; 9] =
+    ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "water", "dry", "empty"];
 
-/// A preset at a resolution, in the middle of things; with `_wcsph` behind its name, with the equation of state.
+/// The models of the paper, with moduli that are about as stiff.
+pub(crate) fn as_in_the_paper(scene: &mut Scene) {
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.solver = FluidSolver::Wcsph;
+    }
+    for sponge in &mut scene.sponges {
+        let modulus = sponge.young_modulus;
+        sponge.solver = Solver::Sbd;
+        (sponge.stretch_modulus, sponge.volume_modulus) = (modulus, modulus);
+        sponge.shear_modulus = 0.5 * modulus;
+        // Without water one sweep a step gains energy under a heavy ball.
+        sponge.iterations = if scene.fluid.is_some() { 1 } else { 8 };
+    }
+}
+
+/// A preset at a resolution, in the middle of things; with `_paper` behind its name, with the models of the paper.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
-    let (name, wcsph) = name.strip_suffix("_wcsph").map_or((name, false), |name| (name, true));
+    let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
     let mut scene = scene::preset(name)
         .and_then(|scene| scene.scaled(resolution))
         .unwrap_or_else(|error| panic!("{name}: {error}"));
-    if let Some(fluid) = scene.fluid.as_mut().filter(|_| wcsph) {
-        fluid.solver = FluidSolver::Wcsph;
+    if paper {
+        as_in_the_paper(&mut scene);
     }
     match name {
         "ball_drop" | "dry" => {
@@ -33,6 +48,12 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
                 let velocity = Vec3::new(-0.5 * side, 0.0, 0.0);
                 body.motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
             }
+        }
+        "life" => {
+            scene.sponges[0].position.y = 0.012;
+            scene.bodies[0].position.y = scene.sponges[0].maximum().y + 0.031;
+            let velocity = Vec3::new(0.0, -0.5, 0.0);
+            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
         }
         "wring" => {
             for (body, rate) in scene.bodies.iter_mut().zip([20.0, -20.0]) {

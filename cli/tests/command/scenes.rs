@@ -4,7 +4,8 @@ use serde_json::Value;
 
 use crate::support::{Scratch, sorb};
 
-const NAMES: [&str; 8] = ["standing", "ball_drop", "squish", "dam_break", "wring", "water", "dry", "empty"];
+const NAMES: [&str; 9] =
+    ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "water", "dry", "empty"];
 
 #[test]
 fn scenes_lists_all_eight() {

@@ -21,13 +21,13 @@ use crate::{
     cpu::Cpu,
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::Params,
+    params::{Params, Solver},
 };
 
 /// `couple::drag_target`.
 pub static KERNEL: Kernel = Kernel {
     name: "couple::drag_target",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
+    needs: &[Need::Fluid, Need::Solver(Solver::Vbd), Need::Incompressible, Need::Porous],
     reads: &[
         FluidDrag,
         ControlNode,
@@ -62,9 +62,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             }
         });
     });
+    nodes.target.clone_from(&nodes.free);
     for ((node, place), moved) in node.iter().zip(position).zip(&moved) {
         let (free, target) = (nodes.free[*node as usize], &mut nodes.target[*node as usize]);
-        *target = free;
         let mass = free[3] + moved[3];
         if free[3] > 0.0 {
             let share = moved[3] / mass;

@@ -36,6 +36,11 @@ impl Pairs {
         self.volume[control] * smoothing(self.radius, distance)
     }
 
+    /// Whether one is in the list of the other.
+    pub(super) fn are_near(&self, particle: usize, control: usize) -> bool {
+        self.particles[particle].distance(self.controls[control]) < f64::from(self.radius)
+    }
+
     /// Gradient of `W_ia` at the particle.
     fn gradient(&self, particle: usize, control: usize) -> DVec3 {
         gradient(self.radius, self.particles[particle] - self.controls[control])

@@ -39,11 +39,13 @@ pub(super) fn solid_pressure(params: &Params, columns: &mut Columns) {
     }
 }
 
+/// Whatever moves into reach within the step is not seen: lists are those of its beginning.
 pub(super) fn solid_share(params: &Params, columns: &mut Columns) {
+    let pairs = Pairs::new(params, columns);
     for particle in 0..columns.rows.fluid {
         let old = columns.fluid.boundary[particle];
         let (mut slope, mut share) = (vector(old), f64::from(old[3]));
-        for control in 0..columns.rows.nodes {
+        for control in (0..columns.rows.nodes).filter(|control| pairs.are_near(particle, *control)) {
             let solid = columns.controls.solid[control];
             let apart = vector(columns.fluid.predicted[particle]) - vector(solid);
             slope += f64::from(solid[3]) * gradient(solid_radius(params), apart);
@@ -59,7 +61,7 @@ pub(super) fn solid_reaction(params: &Params, columns: &mut Columns) {
     for control in 0..columns.rows.nodes {
         let solid = columns.controls.solid[control];
         let mut force = DVec3::ZERO;
-        for particle in 0..columns.rows.fluid {
+        for particle in (0..columns.rows.fluid).filter(|particle| pairs.are_near(*particle, control)) {
             let before = pairs.particles[particle] - pairs.controls[control];
             let pressure = f64::from(columns.fluid.position[particle][3]) * density;
             force += pressure * gradient(solid_radius(params), before);

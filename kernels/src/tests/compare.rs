@@ -54,6 +54,9 @@ pub(super) fn errors_of(
             Column::NodePredicted => Some(Column::NodePosition),
             // A sweep that changes next to nothing has converged.
             Column::FluidDrag => None,
+            // Small displacements of large coordinates.
+            Column::NodeTarget if kernel.reads.contains(&Column::NodeFree) => Some(Column::NodeFree),
+            Column::ControlSolid => Some(Column::ControlPosition),
             column => kernel.reads.contains(column).then_some(*column),
         };
         let base = base.map(|column| content(column, params, before, true));
@@ -151,12 +154,16 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::ControlPosition => rows(&controls.position, &by_node),
         Column::ControlVelocity => rows(&controls.velocity, &by_node),
         Column::ControlUnfiltered => rows(&controls.unfiltered, &by_node),
+        Column::ControlSolid => rows(&controls.solid, &by_node),
         Column::ControlSaturation => values(&controls.saturation, &by_node),
         Column::ControlSuction => values(&controls.suction, &by_node),
         Column::NodePosition => rows(&nodes.position, &all_nodes),
         Column::NodeVelocity => rows(&nodes.velocity, &all_nodes),
         Column::NodePredicted => rows(&nodes.predicted, &all_nodes),
+        Column::NodeFree => rows(&nodes.free, &all_nodes),
         Column::NodeTarget => rows(&nodes.target, &all_nodes),
+        Column::NodeDrag => rows(&nodes.drag, &all_nodes),
+        Column::NodeDragMoment => rows(&nodes.drag_moment, &all_nodes),
         Column::NodeReaction => rows(&nodes.reaction, &all_nodes),
         Column::NodeAcceleration => rows(&nodes.acceleration, &all_nodes),
         Column::NodeSaturation => values(&nodes.saturation, &all_nodes),

@@ -104,7 +104,9 @@ impl Options {
     /// The same, with the pressure that the kernel is there for.
     pub(super) fn suiting(self, kernel: &Kernel) -> Self {
         // What fluid does to vertex block descent, it does with sponges as porous media.
-        let porous = kernel.needs.contains(&Need::Porous) || kernel.reads.iter().any(|column| matches!(column, Column::NodeFree | Column::NodeTarget));
+        let of_fluid = |column: &Column| matches!(column, Column::NodeFree | Column::NodeTarget);
+        let touched = || kernel.reads.iter().chain(kernel.writes).any(of_fluid);
+        let porous = kernel.needs.contains(&Need::Porous) || touched();
         Self { incompressible: porous || kernel.needs.contains(&Need::Incompressible), porous, ..self }
     }
 
@@ -240,7 +242,8 @@ impl Scene {
             let [x, y, z] = lattice.position[node].map(&mut jittered);
             nodes.position.push([x, y, z, 1.0 / (60.0 * volume)]);
             let mut speed = || 0.6 * (random.unit() - 0.5);
-            nodes.velocity.push([speed(), speed(), speed(), 0.0]);
+            // w: a node that something holds, but not all of it.
+            nodes.velocity.push([speed(), speed(), speed(), 0.25]);
             nodes.volume.push(volume);
             nodes.suction.push(if lattice.tets_at[node] == 24 { 1.0 } else { 0.0 });
         }
