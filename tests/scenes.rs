@@ -300,7 +300,8 @@ fn wring() {
 
 #[test]
 fn life() {
-    let scene = common::preset("life", RESOLUTION);
+    // At half of it the sponge would be two cells high.
+    let scene = common::preset("life", 0.75);
     let run = Run::of(&scene, 8.0);
     let mut claims = run.claims();
     let height = |time: f64| run.at(time).measures.sponge_centre.y;
