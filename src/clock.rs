@@ -6,9 +6,9 @@ use sorb_kernels::params::{Params, Solver};
 
 use crate::scene::{Scene, Time};
 
-/// Time in which an elastic wave crosses a cell that a step of `xpbd_neo_hookean` may take: a cantilever then sags by what
-/// it should within a per cent.
-const NEO_HOOKEAN: f32 = 0.5;
+/// Part of the time in which an elastic wave crosses a cell that a step of `xpbd_neo_hookean` may take: a cantilever without
+/// damping then sags by what it should within two per cent (`tests/sponge.rs`).
+const NEO_HOOKEAN: f32 = 0.25;
 
 /// The same of `vbd`, which is stable at any step; beyond, vibrations fade more by the length of the step than by
 /// anything else.

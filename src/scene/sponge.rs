@@ -123,7 +123,8 @@ pub struct Sponge {
     /// Viscous stress over elastic stress per strain rate. Range 0 to 10 s; default 0.
     ///
     /// A vibration of angular frequency `w` fades at the rate `damping * w * w / 2`. The solver itself damps as much as
-    /// about a step's length here does.
+    /// about a step's length here does. `xpbd_neo_hookean` becomes soft where this is long compared with the time in which
+    /// an elastic wave crosses a cell, `edge * sqrt(density / young_modulus)`.
     pub damping: f32,
     /// Stiffness of `sbd` against stretching. Range 10 to 1e9 Pa; default 20000.
     pub stretch_modulus: f32,

@@ -178,6 +178,9 @@ impl World {
         world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
         world.clock.fluid_acceleration = scene.gravity.length();
         world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
+        if world.params.fluid.incompressible.is_some() {
+            world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], scene.gravity);
+        }
         world.look();
         Ok(world)
     }
@@ -365,6 +368,15 @@ fn default_threads() -> usize {
 
 fn fastest(velocities: &[[f32; 4]]) -> f32 {
     velocities.iter().map(|v| Vec3::new(v[0], v[1], v[2]).length()).fold(0.0, f32::max)
+}
+
+/// Root of the mean square of the pressure over density in a column at rest that is as deep as the fluid \[m^2/s^2\]: what a
+/// first step can meet, before any pressure was solved for.
+fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
+    let depths = positions.iter().map(|p| gravity.dot(Vec3::new(p[0], p[1], p[2])));
+    let (low, high) =
+        depths.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)));
+    (high - low).max(0.0) / 3.0_f32.sqrt()
 }
 
 /// What fluid and sponges gave to every body in this step.
