@@ -10,9 +10,12 @@ use crate::scene::{Scene, Time};
 /// damping then sags by what it should within two per cent (`tests/sponge.rs`).
 const NEO_HOOKEAN: f32 = 0.25;
 
-/// The same of `vbd`, which is stable at any step; beyond, vibrations fade more by the length of the step than by
-/// anything else.
-const DESCENT: f32 = 4.0;
+/// The same of `vbd`, which is stable at any step: four sweeps then take a cantilever through its lowest vibration within
+/// two per cent of the frequency. At twice that they need ten (docs/performance.md).
+const DESCENT: f32 = 2.0;
+
+/// The same in water, which makes a sponge twenty times as heavy and its waves four times as slow.
+const WET_DESCENT: f32 = 4.0;
 
 /// What limited a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,7 +153,10 @@ impl Steps {
                     (0.25 * crossing(modulus), Bound::Elasticity)
                 }
                 Solver::XpbdNeoHookean => (NEO_HOOKEAN * crossing(scene.young_modulus), Bound::Elasticity),
-                Solver::Vbd => (DESCENT * crossing(scene.young_modulus), Bound::Elasticity),
+                Solver::Vbd => {
+                    let part = if params.solid.is_some() { WET_DESCENT } else { DESCENT };
+                    (part * crossing(scene.young_modulus), Bound::Elasticity)
+                }
             });
         }
         let constant = smallest(&bounds);

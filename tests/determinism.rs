@@ -31,23 +31,27 @@ fn levels() -> impl Iterator<Item = SimdLevel> {
 }
 
 /// The scene must be worth the comparison: what can touch, touches.
-fn assert_is_busy(world: &World) {
+fn assert_is_busy(world: &World, is_pushed: bool) {
     let name = &world.scene().name;
     if !world.particle_ids().is_empty() && !world.node_positions().is_empty() {
         assert!(common::water_is_inside(world), "{name}: no water in the sponge");
     }
     // Grips hold nodes, and receive nothing from them.
     if world.scene().bodies.iter().any(|body| !body.grip) {
-        assert!(common::bodies_are_pushed(world), "{name}: nothing touches the bodies");
+        assert!(is_pushed, "{name}: nothing touches the bodies");
     }
 }
 
 fn matrix(name: &str) {
     let scene = busy::scene(name, RESOLUTION);
     let mut first = with(&scene, 1, SimdLevel::Fallback);
-    common::steps(&mut first, STEPS);
+    let mut is_pushed = false;
+    for _ in 0..STEPS {
+        common::steps(&mut first, 1);
+        is_pushed |= common::bodies_are_pushed(&first);
+    }
     let expected = first.digest();
-    assert_is_busy(&first);
+    assert_is_busy(&first, is_pushed);
     for simd in levels() {
         for threads in [1, 2, 3, 8] {
             let digest = digest_after(with(&scene, threads, simd), STEPS);

@@ -9,7 +9,7 @@ use sorb::{
     cpu::Cpu,
     kernel::{Kernel, Need},
     params::{Params, Solver},
-    schedule::{Content, Phase, Plan, Runner, STEP, Verdict},
+    schedule::{Content, POROUS_STEP, Phase, Plan, Runner, STEP, Verdict},
 };
 
 fn plan(name: &str) -> Plan {
@@ -37,7 +37,7 @@ macro_rules! plans {
         })+
     };
 }
-plans! { standing ball_drop squish dam_break wring water dry empty }
+plans! { standing ball_drop squish dam_break wring life water dry empty }
 
 #[test]
 fn a_scene_without_sponge_runs_no_phase_of_it() {
@@ -53,7 +53,7 @@ fn a_scene_without_sponge_runs_no_phase_of_it() {
 fn a_scene_without_water_runs_no_phase_of_it() {
     let plan = plan("dry");
     let names = running(&plan);
-    assert!(names.contains(&"pbd::strain") && names.contains(&"rigid::step"), "{names:?}");
+    assert!(names.contains(&"pbd::vbd") && names.contains(&"rigid::step"), "{names:?}");
     for family in ["grid::", "sph::", "couple::"] {
         assert!(!names.iter().any(|name| name.starts_with(family)), "{family} in {names:?}");
     }
@@ -69,10 +69,11 @@ fn nothing_runs_where_nothing_is() {
 
 #[test]
 fn every_phase_of_the_step_has_a_line_with_a_reason_if_it_is_skipped() {
-    let lines = plan("ball_drop").lines().len();
+    let (porous, other) = (plan("ball_drop").lines().len(), plan("empty").lines().len());
     for name in common::busy::SCENES {
         let plan = plan(name);
-        assert_eq!(plan.lines().len(), lines, "{name}");
+        let is_porous = !["water", "dry", "empty"].contains(&name);
+        assert_eq!(plan.lines().len(), if is_porous { porous } else { other }, "{name}");
         for line in plan.lines() {
             if let Verdict::Skipped(reason) = line.verdict {
                 assert!(!reason.is_empty(), "{name}: {}", line.name);
@@ -134,6 +135,7 @@ const WET: Content = Content {
     bodies: false,
     surface_tension: false,
     iterations: 0,
+    porous: false,
     rounds: 0,
 };
 
@@ -176,11 +178,16 @@ fn the_step_itself_is_consistent_for_every_content() {
     for bits in 0..512_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
         let solvers = [0, 1, 2].map(|k| (bits >> (5 + k) & 1 == 1).then_some(SOLVERS[k]));
-        let rounds = bits >> 8;
+        let (rounds, iterations, porous) = (bits >> 8, 1, false);
         let content =
-            Content { fluid, sponge, solvers, walls, bodies, surface_tension, iterations: 1, rounds };
+            Content { fluid, sponge, solvers, walls, bodies, surface_tension, iterations, porous, rounds };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
+        }
+        let solvers = [None, Some(Solver::Vbd), None];
+        let porous = Content { sponge: true, solvers, porous: true, rounds: 1, ..content };
+        if let Err(error) = Plan::new(POROUS_STEP, porous, NOTHING_OBSERVED) {
+            panic!("{porous:?}: {error}");
         }
     }
 }
@@ -189,12 +196,12 @@ fn the_step_itself_is_consistent_for_every_content() {
 fn a_plan_counts_repetitions_from_the_scene() {
     let scene = common::with(&common::preset("dry", 0.5), &["sponges[0].iterations=7"]);
     let world = common::world(&scene);
-    let strain = world.plan().lines().iter().find(|line| line.name == "pbd::strain");
-    assert_eq!(strain.and_then(|line| line.repeat).map(|(_, times)| times), Some(7));
+    let sweep = world.plan().lines().iter().find(|line| line.name == "pbd::vbd");
+    assert_eq!(sweep.and_then(|line| line.repeat).map(|(_, times)| times), Some(7));
     let mut world = world;
     common::steps(&mut world, 3);
     let calls = |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
-    assert_eq!((calls("pbd::strain"), calls("pbd::predict")), (Some(21), Some(3)));
+    assert_eq!((calls("pbd::vbd"), calls("pbd::predict")), (Some(21), Some(3)));
     assert_eq!(calls("sph::density"), None, "a skipped phase is not timed");
 }
 

@@ -88,13 +88,14 @@ mod tests {
     #[test]
     fn the_skin_of_a_soaked_sponge_looks_wet_up_to_its_edges() {
         let world = |overrides: &[&str]| {
-            let scene = scene::preset("squish").and_then(|scene| scene.scaled(0.5));
+            let scene = scene::preset("squish");
             let scene = scene.and_then(|scene| scene.with_overrides(overrides.iter().copied()));
             World::new(&scene.unwrap_or_else(|error| panic!("{error}")))
                 .unwrap_or_else(|error| panic!("{error}"))
         };
         let lowest = |wetness: &[f32]| wetness.iter().copied().fold(1.0, f32::min);
-        let mut soaked = world(&[]);
+        // Strong enough to hold the water up to its top.
+        let mut soaked = world(&["sponges.sponge.entry_pressure=1500"]);
         for _ in 0..6 {
             soaked.advance_frame().unwrap_or_else(|error| panic!("{error}"));
         }

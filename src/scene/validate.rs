@@ -7,7 +7,8 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Coupling, Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Sponge, SpongeShape, VERSION,
+    Coupling, Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Sponge, SpongeShape,
+    VERSION,
 };
 
 /// Range of `edge / spacing`: outside it either water slips between the nodes or nodes find no water.

@@ -115,6 +115,10 @@ pub static STEP: &[Phase] = &[
     Host(&RIGID),
 ];
 
+/// How often the momenta of sponges are balanced: the drag answers to the rigid motion that a sponge is given, at places that lie
+/// around its nodes somehow.
+const BALANCES: u32 = 3;
+
 /// The step with sponges as porous media: pressure and suction first, then elasticity, drag and contact as one solve, so
 /// that the sponge bears what the water does to it, and drag does not weaken suction but not pressure (docs/porous.md).
 pub static POROUS_STEP: &[Phase] = &[
@@ -144,9 +148,10 @@ pub static POROUS_STEP: &[Phase] = &[
             Run(&sph::pressure_residual::KERNEL),
         ],
     },
+    // While the position still has the pressure of the step before beside it.
+    Run(&couple::solid_reaction::KERNEL),
     Run(&sph::pressure_kick::KERNEL),
     Run(&sph::boundary_reaction::KERNEL),
-    Run(&couple::solid_reaction::KERNEL),
     Run(&pbd::predict::KERNEL),
     Run(&pbd::guess::KERNEL),
     Repeat {
@@ -161,9 +166,16 @@ pub static POROUS_STEP: &[Phase] = &[
     Run(&couple::node_velocity::KERNEL),
     Run(&couple::drag_impulse::KERNEL),
     Run(&couple::drag_target::KERNEL),
-    Run(&couple::drag_reaction::KERNEL),
     Run(&pbd::reaction::KERNEL),
-    Run(&pbd::momentum::KERNEL),
+    Repeat {
+        times: Times::Fixed(BALANCES),
+        phases: &[
+            Run(&couple::node_velocity::KERNEL),
+            Run(&couple::drag_impulse::KERNEL),
+            Run(&couple::drag_reaction::KERNEL),
+            Run(&pbd::momentum::KERNEL),
+        ],
+    },
     Run(&couple::node_velocity::KERNEL),
     Run(&couple::drag_impulse::KERNEL),
     Run(&couple::drag_kick::KERNEL),

@@ -4,6 +4,7 @@
 #![allow(dead_code, reason = "benches and tests use a part of it each")]
 
 use sorb::{
+    body::BodyKind,
     glam::Vec3,
     scene::{self, FluidSolver, Motion, Scene, Solver},
 };
@@ -17,8 +18,10 @@ pub(crate) fn as_in_the_paper(scene: &mut Scene) {
     if let Some(fluid) = &mut scene.fluid {
         fluid.solver = FluidSolver::Wcsph;
     }
+    let balls = scene.bodies.iter_mut().filter(|body| body.kind == BodyKind::Dynamic);
+    balls.for_each(|ball| ball.density = 2500.0);
     for sponge in &mut scene.sponges {
-        let modulus = sponge.young_modulus;
+        let modulus = if scene.fluid.is_some() { sponge.young_modulus } else { 1e4 };
         sponge.solver = Solver::Sbd;
         (sponge.stretch_modulus, sponge.volume_modulus) = (modulus, modulus);
         sponge.shear_modulus = 0.5 * modulus;

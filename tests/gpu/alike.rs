@@ -3,7 +3,7 @@
 use sorb::{
     Offload, World,
     glam::{DVec3, Vec3},
-    scene::{FluidSolver, Scene},
+    scene::Scene,
 };
 
 use super::{DFSPH, busy, common, difference, world, worst};
@@ -52,13 +52,8 @@ struct Case {
 }
 
 impl Case {
-    /// With the equation of state, unless the keys say otherwise.
     fn scene(&self) -> Scene {
-        let mut scene = busy::scene(self.scene, self.resolution);
-        if let Some(fluid) = &mut scene.fluid {
-            fluid.solver = FluidSolver::Wcsph;
-        }
-        common::with(&scene, self.keys)
+        common::with(&busy::scene(self.scene, self.resolution), self.keys)
     }
 
     /// How far apart two worlds of the case are.
@@ -151,20 +146,27 @@ cases! {
     squish: "squish", 0.5, &[], 1, 1e-4;
     dam_break: "dam_break", 0.5, &[], 1, 1e-4;
     wring: "wring", 0.5, &[], 1, 1e-4;
+    life: "life", 0.5, &[], 1, 1e-4;
     water: "water", 0.5, &[], 1, 1e-4;
     dry: "dry", 0.5, &[], 1, 1e-4;
     empty: "empty", 0.5, &[], 1, 1e-4;
     fixed_ball: "ball_drop", 0.5, FIXED, 1, 1e-4;
-    solved_water: "water", 0.5, DFSPH, 1, 1e-4;
-    solved_dam_break: "dam_break", 0.5, DFSPH, 1, 1e-4;
-    solved_ball_drop: "ball_drop", 0.5, DFSPH, 1, 1e-4;
-    a_second_of_solved_water: "water", 0.4, DFSPH, 60, 1e-1;
-    a_second_of_water: "water", 0.3, &[], 60, 1e-1;
-    a_second_of_standing: "standing", 0.3, SOFT, 60, 1e-3;
-    a_second_of_ball_drop: "ball_drop", 0.3, &[], 60, 1e-3;
-    a_second_of_squish: "squish", 0.3, SOFT, 60, 3e-3;
-    a_second_of_dam_break: "dam_break", 0.3, SOFT, 60, 3e-2;
-    ten_seconds_of_water: "water", 0.3, NARROW, 600, 1e-2;
-    ten_seconds_of_standing: "standing", 0.3, SOFT, 600, 1e-2;
-    ten_seconds_of_ball_drop: "ball_drop", 0.2, SOFT, 600, 1e-3;
+    standing_of_the_paper: "standing_paper", 0.5, &[], 1, 1e-4;
+    ball_drop_of_the_paper: "ball_drop_paper", 0.5, &[], 1, 1e-4;
+    squish_of_the_paper: "squish_paper", 0.5, &[], 1, 1e-4;
+    dam_break_of_the_paper: "dam_break_paper", 0.5, &[], 1, 1e-4;
+    wring_of_the_paper: "wring_paper", 0.5, &[], 1, 1e-4;
+    water_of_the_paper: "water_paper", 0.5, &[], 1, 1e-4;
+    dry_of_the_paper: "dry_paper", 0.5, &[], 1, 1e-4;
+    solved_dam_break: "dam_break_paper", 0.5, DFSPH, 1, 1e-4;
+    a_second_of_solved_water: "water", 0.4, &[], 60, 1e-1;
+    a_second_of_standing: "standing", 0.3, &[], 60, 1e-2;
+    a_second_of_ball_drop: "ball_drop", 0.3, &[], 60, 1e-2;
+    a_second_of_water: "water_paper", 0.3, &[], 60, 1e-1;
+    a_second_of_standing_of_the_paper: "standing_paper", 0.3, SOFT, 60, 1e-3;
+    a_second_of_squish: "squish_paper", 0.3, SOFT, 60, 3e-3;
+    a_second_of_dam_break: "dam_break_paper", 0.3, SOFT, 60, 3e-2;
+    ten_seconds_of_water: "water_paper", 0.3, NARROW, 600, 1e-2;
+    ten_seconds_of_standing: "standing_paper", 0.3, SOFT, 600, 1e-2;
+    ten_seconds_of_ball_drop: "ball_drop_paper", 0.2, SOFT, 600, 1e-3;
 }

@@ -2,8 +2,9 @@
 
 use sorb::{
     Offload, Options, World,
+    glam::{UVec3, Vec3},
     kernel::KERNELS,
-    scene::Scene,
+    scene::{Scene, Solver, Sponge},
     schedule::{Place, Verdict},
 };
 
@@ -11,7 +12,12 @@ use super::{DFSPH, busy, common, difference, gpu, world};
 
 #[test]
 fn every_kernel_can_be_the_first_on_the_gpu() {
-    let scene = busy::scene("ball_drop", 0.5);
+    ["ball_drop", "ball_drop_paper"].into_iter().for_each(assert_each_can_be_the_first);
+}
+
+#[track_caller]
+fn assert_each_can_be_the_first(name: &str) {
+    let scene = busy::scene(name, 0.5);
     let mut cpu = world(&scene, Offload::Cpu);
     common::steps(&mut cpu, 3);
     let kernels = cpu.plan().lines().iter().filter(|line| line.verdict == Verdict::Runs);
@@ -27,12 +33,18 @@ fn every_kernel_can_be_the_first_on_the_gpu() {
     }
 }
 
-/// The scene with the ball on the sponge and surface tension, so that every kernel has work but those of the other solve
-/// for the pressure.
-fn everything(keys: &[&str]) -> Scene {
-    let mut scene = busy::scene("ball_drop", 0.5);
+/// The scene with the ball on the sponge and surface tension; with the models of the paper also a sponge beside it for
+/// each of the other solvers, so that every kernel has work but those of the other solve for the pressure.
+fn everything(name: &str, keys: &[&str]) -> Scene {
+    let mut scene = busy::scene(name, 0.5);
     if let Some(fluid) = &mut scene.fluid {
         fluid.surface_tension = 0.072;
+    }
+    let beside = [(-0.12, "left", Solver::Vbd), (0.06, "right", Solver::XpbdNeoHookean)];
+    for (x, name, solver) in beside.into_iter().filter(|_| name.ends_with("_paper")) {
+        let (cells, position) = (UVec3::splat(3), Vec3::new(x, 0.0, -0.03));
+        let sponge = Sponge { name: name.to_owned(), cells, position, solver, ..scene.sponges[0].clone() };
+        scene.sponges.push(sponge);
     }
     common::with(&scene, keys)
 }
@@ -74,17 +86,22 @@ fn assert_each_can_be_alone(scene: &Scene, bound: f64) {
 
 #[test]
 fn every_kernel_can_be_alone_on_either_side() {
-    assert_each_can_be_alone(&everything(&[]), 1e-4);
+    assert_each_can_be_alone(&everything("ball_drop_paper", &[]), 1e-4);
 }
 
 #[test]
 fn every_kernel_of_a_pressure_solve_can_be_alone_on_either_side() {
-    assert_each_can_be_alone(&everything(DFSPH), 1e-4);
+    assert_each_can_be_alone(&everything("ball_drop_paper", DFSPH), 1e-4);
+}
+
+#[test]
+fn every_kernel_of_porous_media_can_be_alone_on_either_side() {
+    assert_each_can_be_alone(&everything("ball_drop", &[]), 1e-4);
 }
 
 #[test]
 fn kernels_can_take_turns() {
-    let scene = everything(&[]);
+    let scene = everything("ball_drop_paper", &[]);
     let mut cpu = world(&scene, Offload::Cpu);
     let list = KERNELS.iter().enumerate().map(|(index, kernel)| {
         let sort = ["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"].contains(&kernel.name);
@@ -129,7 +146,7 @@ fn kernels_at_places_where_they_cannot_be_are_refused() {
 
 #[test]
 fn plans_say_where_and_why_and_what_travels() {
-    let scene = busy::scene("ball_drop", 0.5);
+    let scene = busy::scene("ball_drop_paper", 0.5);
     let all = world(&scene, Offload::Gpu).plan().to_string();
     for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 144 bytes"] {
         assert!(all.contains(part), "{part} is not in {all}");

@@ -101,7 +101,7 @@ fn a_world_can_leave_a_device_that_works() {
 
 #[test]
 fn measures_are_the_same_without_reading_the_state_back() {
-    for name in ["water_wcsph", "ball_drop", "dry", "dam_break_wcsph"] {
+    for name in ["water_paper", "ball_drop_paper", "dry", "dam_break_paper"] {
         let scene = busy::scene(name, 0.5);
         let mut world = world_on(&scene, &gpu());
         common::frame(&mut world);

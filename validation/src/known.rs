@@ -30,9 +30,14 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     miss("confined", "sbd", "", ONE_SWEEP),
     miss("torsion", "sbd", "", ONE_SWEEP),
     miss("vibration", "sbd", "frequency", ONE_SWEEP),
+    miss("vibration", "vbd", "", IMPLICIT),
     miss("washburn", "wcsph", "exponent", NO_SOLID),
-    miss("imbibition", "", "", NO_SOLID),
-    miss("permeameter", "", "", NO_SOLID),
+    miss("imbibition", "sbd", "", NO_SOLID),
+    miss("imbibition", "wcsph", "", NO_SOLID),
+    miss("imbibition", "dfsph+vbd", "", COARSE),
+    miss("permeameter", "sbd", "", NO_SOLID),
+    miss("permeameter", "wcsph", "", NO_SOLID),
+    miss("permeameter", "dfsph+vbd", "", COARSE),
     miss(
         "momentum",
         "",
@@ -43,13 +48,23 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "momentum",
         "",
         "angular",
-        "the drag acts at the particle, and is returned to nodes whose mean is not there",
+        "the numerical viscosity of the water does not act along the line between particles",
     ),
-    miss("squeeze", "", "water", NO_SOLID),
-    miss("rest", "", "", "the coupling of paper and strain constraints keep moving"),
+    miss("squeeze", "sbd", "water", NO_SOLID),
+    miss("squeeze", "wcsph", "water", NO_SOLID),
+    miss("squeeze", "dfsph+vbd", "water", COARSE),
+    miss(
+        "rest",
+        "",
+        "",
+        "single particles are noisy; the coupling of the paper and strain constraints keep moving",
+    ),
 ];
 
 const ONE_SWEEP: &str = "one sweep a step from no impulse, with damping, is softer than the material";
+const IMPLICIT: &str = "implicit steps of the length that the scene allows damp a vibration";
+const COARSE: &str =
+    "faces of the sponge are as wide as the smoothing of suction and material: 1.2 to 1.5 edges";
 const PITS: &str = "lattice of 4 cells: its faces are pits";
 const NO_SOLID: &str = "the paper's coupling gives the sponge no solid volume";
 

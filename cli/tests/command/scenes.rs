@@ -8,14 +8,14 @@ const NAMES: [&str; 9] =
     ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "water", "dry", "empty"];
 
 #[test]
-fn scenes_lists_all_eight() {
+fn scenes_lists_all_nine() {
     let answer = sorb(&["scenes"]);
     let listed: Vec<_> =
         answer.out.lines().skip(1).filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!((answer.code, listed), (Some(0), NAMES.to_vec()));
     let json = sorb(&["scenes", "--json"]).json();
     let scenes = json.as_array().expect("an array");
-    assert_eq!(scenes.len(), 8);
+    assert_eq!(scenes.len(), 9);
     let nodes =
         |name: &str| scenes.iter().find(|scene| scene["name"] == name).map(|scene| scene["nodes"] != 0);
     assert_eq!((nodes("ball_drop"), nodes("water")), (Some(true), Some(false)));
@@ -90,7 +90,7 @@ fn plan_says_what_is_skipped_and_why() {
     let text = sorb(&["plan", "dry"]);
     assert_eq!(text.code, Some(0));
     assert!(text.out.contains("skip  sph::density: no fluid"), "{}", text.out);
-    assert!(text.out.contains("pbd::strain\n"), "{}", text.out);
+    assert!(text.out.contains("pbd::vbd\n"), "{}", text.out);
     let json = sorb(&["plan", "water", "--json"]).json();
     let phases = json["phases"].as_array().expect("an array");
     let skipped =

@@ -13,8 +13,8 @@
 //! k_a = sum_i w_ia k_i,   t_a = x_a(before) + h (u_a + sum_i w_ia J_i / k_a),   E_a(x) = k_a / (2 h^2) |x - t_a|^2
 //! ```
 //!
-//! never raises the energy, ends at the same minimum, and is exact at once where all move alike. Together with the inertia,
-//! m_a / (2 h^2) |x - z_a|^2, it is one mass m_a + k_a that is drawn to the mean of both targets.
+//! never raises the energy, ends at the same minimum, and is exact at once where all move alike. Together with the inertia
+//! it is one mass, the node's own and that of the fluid, which is drawn to the mean of both targets.
 
 use crate::{
     columns::{Column::*, Columns, Controls},

@@ -44,5 +44,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 (0..3).for_each(|axis| y[axis] -= lacking * acceleration[node][axis]);
             }
         }
-    });    free.clone_from(target);
+    });
+    free.clone_from(target);
 }

@@ -49,9 +49,9 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::pressure_update",
     "sph::pressure_acceleration",
     "sph::pressure_residual",
+    "couple::solid_reaction",
     "sph::pressure_kick",
     "sph::boundary_reaction",
-    "couple::solid_reaction",
     "pbd::predict",
     "pbd::guess",
     "couple::node_velocity",
@@ -243,7 +243,7 @@ impl Scene {
             nodes.position.push([x, y, z, 1.0 / (60.0 * volume)]);
             let mut speed = || 0.6 * (random.unit() - 0.5);
             // w: a node that something holds, but not all of it.
-            nodes.velocity.push([speed(), speed(), speed(), 0.25]);
+            nodes.velocity.push([speed(), speed(), speed(), 0.9]);
             nodes.volume.push(volume);
             nodes.suction.push(if lattice.tets_at[node] == 24 { 1.0 } else { 0.0 });
         }

@@ -1,12 +1,13 @@
 use super::super::*;
 
 /// Fluid particles and sponge nodes that the default sizes aim at.
-const SIZES: [(&str, u64, u64); 8] = [
+const SIZES: [(&str, u64, u64); 9] = [
     ("standing", 8192, 1024),
     ("ball_drop", 8192, 1024),
     ("squish", 8192, 1024),
     ("dam_break", 8192, 1024),
     ("wring", 8192, 1024),
+    ("life", 14_336, 1024),
     ("water", 8192, 0),
     ("dry", 0, 1024),
     ("empty", 0, 0),

