@@ -205,6 +205,7 @@ pub enum PlaceError {
 }
 
 /// Kernels that go through the cells that `grid::sort_fluid` made, which do not travel: they run where the sort does.
+#[cfg(feature = "gpu")]
 pub(crate) const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
 
 #[cfg(test)]
