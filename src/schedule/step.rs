@@ -170,14 +170,12 @@ pub static POROUS_STEP: &[Phase] = &[
     Repeat {
         times: Times::Fixed(BALANCES),
         phases: &[
-            Run(&couple::node_velocity::KERNEL),
-            Run(&couple::drag_impulse::KERNEL),
             Run(&couple::drag_reaction::KERNEL),
             Run(&pbd::momentum::KERNEL),
+            Run(&couple::node_velocity::KERNEL),
+            Run(&couple::drag_impulse::KERNEL),
         ],
     },
-    Run(&couple::node_velocity::KERNEL),
-    Run(&couple::drag_impulse::KERNEL),
     Run(&couple::drag_kick::KERNEL),
     Run(&pbd::velocity::KERNEL),
     Run(&sph::advect::KERNEL),
