@@ -124,7 +124,8 @@ impl Steps {
         let fluid = &params.fluid;
         if scene.fluid.is_some() {
             let h = fluid.smoothing.support_radius;
-            let viscosity = fluid.viscosity / fluid.rest_density;
+            // Along the line between particles the central form is as stiff as five times the other.
+            let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
             let capillary = fluid.rest_density * h * h * h / (2.0 * PI * fluid.surface_tension);
             bounds.push((0.25 * capillary.sqrt(), Bound::SurfaceTension));
@@ -200,16 +201,18 @@ impl Steps {
     }
 }
 
-/// Cuts a step to what is left of a frame: two equal steps instead of a whole one and a sliver.
+/// Cuts a step so that equal ones fill what is left of a frame: water at rest stays calmer than with a short last step.
 pub(crate) fn within((step, bound): (f32, Bound), left: f64) -> (f32, Bound) {
     let whole = f64::from(step);
     if whole >= left {
-        (left as f32, Bound::Frame)
-    } else if whole * 2.0 > left {
-        ((left * 0.5) as f32, Bound::Frame)
-    } else {
-        (step, bound)
+        return (left as f32, Bound::Frame);
     }
+    if !left.is_finite() {
+        return (step, bound);
+    }
+    // A step that has been cut must not be cut to one more piece by rounding.
+    let count = (left / whole * (1.0 - 1e-4)).ceil();
+    ((left / count) as f32, bound)
 }
 
 /// The smallest bound; one that is not a number bounds nothing (a speed of zero over an acceleration of zero).
@@ -230,10 +233,20 @@ mod tests {
     #[test]
     fn a_frame_is_filled_without_slivers() {
         let step = (0.4, Bound::Courant);
-        assert_eq!(within(step, 1.0), step);
-        assert_eq!(within(step, 0.6), (0.3, Bound::Frame));
+        assert_eq!(within(step, f64::INFINITY), step);
+        assert_eq!(within(step, 1.2), step);
+        assert_eq!(within(step, 1.0), (1.0 / 3.0, Bound::Courant));
+        assert_eq!(within(step, 0.6), (0.3, Bound::Courant));
         assert_eq!(within(step, 0.4), (0.4, Bound::Frame));
         assert_eq!(within(step, 0.1), (0.1, Bound::Frame));
+        // The rest is filled by as many steps, whatever rounding does to them.
+        let mut left = 1.0 / 60.0;
+        let mut steps = 0;
+        while left > 1e-9 {
+            left -= f64::from(within((0.003, Bound::Courant), left).0);
+            steps += 1;
+        }
+        assert_eq!(steps, 6);
     }
 
     #[test]

@@ -85,6 +85,10 @@ fn solid(scene: &Scene) -> Option<Wendland> {
     is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }
 
+/// Compression that is allowed for the roughness of the pressure, over the square of the time that sound takes for a
+/// spacing: enough that particles in rows do not have pressures that are higher and lower by turns.
+const ROUGHNESS: f32 = 2.0;
+
 fn fluid_params(scene: &Scene) -> FluidParams {
     let Some(fluid) = &scene.fluid else {
         return FluidParams {
@@ -96,6 +100,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             sound_speed: 1.0,
             incompressible: None,
             viscosity: 0.0,
+            central_viscosity: 0.0,
+            roughness: 0.0,
             surface_tension: 0.0,
             repulsion_range: 0.0,
             repulsion_stiffness: 0.0,
@@ -108,7 +114,14 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     let sound_speed = fluid.sound_speed.unwrap_or_else(|| scene.default_sound_speed());
     // Monaghan's alpha as a kinematic viscosity in three dimensions, alpha c h / 10 with the smoothing length
     // h = H / 2 [M05, eq. 8.8].
-    let numerical = fluid.artificial_viscosity * sound_speed * support / 20.0;
+    let numerical = fluid.rest_density * fluid.artificial_viscosity * sound_speed * support / 20.0;
+    let is_incompressible = fluid.solver != scene::FluidSolver::Wcsph;
+    let (viscosity, central_viscosity) = match (is_incompressible, fluid.viscosity_form) {
+        (_, scene::ViscosityForm::Monaghan) => (0.0, fluid.viscosity + numerical),
+        (true, scene::ViscosityForm::Morris) => (fluid.viscosity, numerical),
+        // As the paper has it.
+        (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
+    };
     // Half a spacing, where the first layer of a lattice lies. A particle at half the speed of sound is stopped
     // at the surface.
     let range = 0.5 * fluid.spacing;
@@ -124,7 +137,9 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         },
         sound_speed,
         incompressible: incompressible(fluid, &Wendland::new(support), sound_speed),
-        viscosity: fluid.viscosity + fluid.rest_density * numerical,
+        viscosity,
+        central_viscosity,
+        roughness: if is_incompressible { ROUGHNESS * (fluid.spacing / sound_speed).powi(2) } else { 0.0 },
         surface_tension: fluid.surface_tension,
         repulsion_range: range,
         repulsion_stiffness: frequency * frequency,
@@ -173,6 +188,8 @@ fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
         friction: sponge.friction,
         porosity: sponge.porosity,
         drag_rate: viscosity * sponge.porosity / (density * sponge.permeability),
+        inertial_drag: sponge.forchheimer * sponge.porosity * sponge.porosity / sponge.permeability.sqrt(),
+        pores_close: scene.coupling() == scene::Coupling::Porous,
         entry_pressure: sponge.entry_pressure,
         saturation_gain: sponge.saturation_gain,
         reaction: sponge.reaction,

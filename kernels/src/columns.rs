@@ -166,7 +166,7 @@ columns! {
         FluidNeighbors = neighbors: Neighbors, "1", Scratch;
         /// Mass density rho.
         FluidDensity = density: Vec<f32>, "kg/m^3", Scratch;
-        /// Acceleration by all forces of this step; w: unused.
+        /// Acceleration by all forces of this step; w: compression that is allowed, see `sph::forces`.
         FluidAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// For every particle, the control rows within the suction radius.
         FluidControls = controls: Neighbors, "1", Scratch;
@@ -174,8 +174,9 @@ columns! {
         FluidControlWeights = control_weights: ListValues, "1", Scratch;
         /// How far inside a sponge the particle is: sum of node volume times kernel, 0 outside, 1 inside.
         FluidInterior = interior: Vec<f32>, "1", Scratch;
-        /// Rate at which drag takes the particle to the velocity of the sponge.
-        FluidDragRate = drag_rate: Vec<f32>, "1/s", Scratch;
+        /// Rate at which drag takes the particle to the velocity of the sponge, and what its speed beside the sponge adds to
+        /// that \[1/m\]; z, w: unused.
+        FluidDragRate = drag_rate: Vec<[f32; 4]>, "1/s", Scratch;
         /// Impulse that the particle loses to the sponge, over its interior value; w: unused.
         FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
         /// Position at the end of the step as far as it is known; w: change of the pressure over rest density
@@ -191,7 +192,8 @@ columns! {
         /// Pressure over rest density \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and compression
         /// that is left \[1\].
         FluidPressureRows = pressure_rows: Vec<[f32; 4]>, "m^2/s^2", Scratch;
-        /// Acceleration by the change of the pressure; w: its scalar product with the predicted position \[m^2/s^2\].
+        /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
+        /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
         FluidCorrection = correction: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// Where the pressure solve stands.
         FluidPressureSolve = pressure_solve: PressureSolve, "1", Scratch;
@@ -232,6 +234,9 @@ columns! {
         NodePredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
         /// External acceleration, by gravity and the fluid; w: unused.
         NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
+        /// Volume of the sponge around the node over that at rest \[1\]; times it: rate of the drag, and what the speed of
+        /// the water beside the sponge adds to that \[1/m\]; w: porosity \[1\].
+        NodePores = pores: Vec<[f32; 4]>, "1/s", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         NodeSaturation = saturation: Vec<f32>, "1", Scratch;
         /// Impulse of the drag of the fluid in this step; w: mass of the fluid that the node takes along \[kg\].

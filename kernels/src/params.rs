@@ -76,8 +76,12 @@ pub struct FluidParams {
     pub sound_speed: f32,
     /// The solve for the pressure; none where it follows from an equation of state.
     pub incompressible: Option<Incompressible>,
-    /// Dynamic viscosity, numerical viscosity included \[Pa s\].
+    /// Dynamic viscosity between all velocities of neighbours \[Pa s\].
     pub viscosity: f32,
+    /// Dynamic viscosity between their velocities along the line between them \[Pa s\].
+    pub central_viscosity: f32,
+    /// Compression that is allowed for the roughness of the pressure, over that roughness \[s^2\]; see `sph::factors`.
+    pub roughness: f32,
     /// Surface tension \[N/m\].
     pub surface_tension: f32,
     /// Distance at which walls and bodies begin to push \[m\].
@@ -128,6 +132,10 @@ pub struct SpongeParams {
     pub porosity: f32,
     /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
     pub drag_rate: f32,
+    /// The same per speed of the water beside the sponge, c_F phi^2 / sqrt(K) \[1/m\].
+    pub inertial_drag: f32,
+    /// Whether porosity and permeability fall as the sponge is compressed.
+    pub pores_close: bool,
     /// Suction of a saturated node \[Pa\].
     pub entry_pressure: f32,
     /// Further suction of a dry node, over the entry pressure \[1\].

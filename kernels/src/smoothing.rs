@@ -71,6 +71,12 @@ impl Wendland {
         sum
     }
 
+    /// What is added to squared distances where they are divided by: a twentieth of H, squared \[m^2\].
+    #[must_use]
+    pub fn softening(&self) -> f32 {
+        0.0025 * self.support_radius * self.support_radius
+    }
+
     /// 1 / H, and the factors of value, gradient, Laplacian and viscosity.
     #[cfg(feature = "gpu")]
     pub(crate) fn factors(&self) -> [f32; 5] {

@@ -53,13 +53,12 @@ fn choose_step() {
         clock.running = 0u;
         return;
     }
-    // Two equal steps instead of a whole one and a sliver.
+    // Equal steps fill what is left.
     if (clock.step >= clock.left) {
         clock.step = clock.left;
         clock.bound = FRAME;
-    } else if (clock.step * 2.0 > clock.left) {
-        clock.step = clock.left * 0.5;
-        clock.bound = FRAME;
+    } else if (clock.left < 1.0e6 * clock.step) {
+        clock.step = clock.left / ceil(clock.left / clock.step * (1.0 - 1.0e-4));
     }
 }
 

@@ -1,21 +1,6 @@
 // The energy of one node while all others stand still, and obstacles in its way; `descent.rs` and `obstacles.rs` have the
 // formulas. Uses the bindings `stars`, `position`, `predicted`, and `bodies`.
 
-// Words of a star: 8 corners, 6 directions, tets, sponge.
-const STAR: u32 = 16u;
-const DIRECTION: u32 = 8u;
-const TETS: u32 = 14u;
-const SPONGE: u32 = 15u;
-
-const RINGS = array<vec4<u32>, 6>(
-    vec4<u32>(6u, 4u, 0u, 2u),
-    vec4<u32>(7u, 3u, 1u, 5u),
-    vec4<u32>(5u, 1u, 0u, 4u),
-    vec4<u32>(7u, 6u, 2u, 3u),
-    vec4<u32>(3u, 2u, 0u, 1u),
-    vec4<u32>(7u, 5u, 4u, 6u),
-);
-
 const LEAST_COMPLIANCE: f32 = 0.1;
 
 struct Local {

@@ -42,8 +42,13 @@ struct Params {
     neighbor_capacity: u32,
     control_capacity: u32,
     control_fluid_capacity: u32,
-    unused_0: u32,
-    unused_1: u32,
+    central_viscosity: f32,
+    // Compression that is allowed for the roughness of the pressure, over that roughness.
+    roughness: f32,
+    cohesion: f32,
+    unused_0: f32,
+    unused_1: f32,
+    unused_2: f32,
     smoothing: Smoothing,
     coupling: Smoothing,
     // Of the volume of the sponges' material.

@@ -16,6 +16,11 @@ struct Sponge {
     mu: f32,
     lambda: f32,
     damping: f32,
+    inertial_drag: f32,
+    // 1 where porosity and permeability fall as the sponge is compressed.
+    pores_close: u32,
+    unused_0: u32,
+    unused_1: u32,
 }
 
 // Solvers.

@@ -5,7 +5,7 @@
 @group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> interior: array<f32>;
-@group(0) @binding(5) var<storage, read> drag_rate: array<f32>;
+@group(0) @binding(5) var<storage, read> drag_rate: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> list: array<u32>;
 @group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> control_velocity: array<vec4<f32>>;
@@ -39,7 +39,7 @@ fn main(
         sum += weight * control_velocity[other];
     }
     let inverse = weight_inside(interior[row]);
-    let rate = drag_rate[row] * clock.step;
+    let rate = drag_rate[row].x * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;
     // The column holds impulses over chi.
     let old = drag[row].xyz;

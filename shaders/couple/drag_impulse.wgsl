@@ -6,7 +6,7 @@
 @group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> interior: array<f32>;
-@group(0) @binding(5) var<storage, read> drag_rate: array<f32>;
+@group(0) @binding(5) var<storage, read> drag_rate: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> list: array<u32>;
 @group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> control_velocity: array<vec4<f32>>;
@@ -40,8 +40,9 @@ fn main(
         sum += weight * control_velocity[other].xyz;
     }
     let inverse = weight_inside(interior[row]);
-    let rate = drag_rate[row] * clock.step;
+    let beside = velocity[row].xyz - sum * inverse;
+    let rate = (drag_rate[row].x + drag_rate[row].y * length(beside)) * clock.step;
     // The column holds impulses and masses over chi.
     let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
-    drag[row] = vec4<f32>((velocity[row].xyz - sum * inverse) * strength, strength);
+    drag[row] = vec4<f32>(beside * strength, strength);
 }

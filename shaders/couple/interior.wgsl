@@ -1,17 +1,16 @@
-// How far inside a sponge every particle is, and how fast drag acts there.
+// How far inside a sponge every particle is, and how drag acts there.
 //
-//     chi_i = sum_a V_a W_ia,    beta_i = sum_a V_a W_ia mu phi_a / (rho K_a)
+//     chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> control_node: array<u32>;
-@group(0) @binding(6) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(7) var<storage, read> list: array<u32>;
-@group(0) @binding(8) var<storage, read_write> interior: array<f32>;
-@group(0) @binding(9) var<storage, read_write> drag_rate: array<f32>;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_node: array<u32>;
+@group(0) @binding(5) var<storage, read> node_pores: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> list: array<u32>;
+@group(0) @binding(7) var<storage, read_write> interior: array<f32>;
+@group(0) @binding(8) var<storage, read_write> drag_rate: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -28,7 +27,7 @@ fn main(
     let end = list[row];
     var slot = row;
     var sum = 0.0;
-    var rate = 0.0;
+    var rate = vec2<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = list[slot];
@@ -36,8 +35,8 @@ fn main(
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight;
-        rate += weight * sponges.all[node_sponge[control_node[other]]].drag_rate;
+        rate += weight * node_pores[control_node[other]].yz;
     }
     interior[row] = sum;
-    drag_rate[row] = rate;
+    drag_rate[row] = vec4<f32>(rate, 0.0, 0.0);
 }

@@ -50,6 +50,6 @@ fn main(
         }
     }
     if (is_row) {
-        acceleration[row] = vec4<f32>(sum, 0.0);
+        acceleration[row] = vec4<f32>(sum, acceleration[row].w);
     }
 }

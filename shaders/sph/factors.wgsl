@@ -7,9 +7,10 @@
 @group(0) @binding(3) var<storage, read> predicted: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> list: array<u32>;
 @group(0) @binding(5) var<storage, read> boundary: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> factors: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> pressure_rows: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> solve_sums: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> acceleration: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> factors: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> solve_sums: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -34,6 +35,7 @@ fn main(
         var own = vec3<f32>(0.0);
         var others = 0.0;
         var shapes = 0.0;
+        var pairs = 0.0;
         let end = list[row];
         var slot = row;
         for (var k = 0u; k < end; k += 1u) {
@@ -44,14 +46,18 @@ fn main(
             let c = gradient * (u * u * u);
             own += c * apart;
             others += c * c * square;
+            pairs += c;
             shapes += shape(u);
         }
         let wall = boundary[row];
         own -= wall.xyz;
         let least = params.lattice_diagonal / 3.0;
-        let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step);
+        // The lists hold the particle itself, which is no pair.
+        let rough = (pairs - gradient) * params.roughness;
+        let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step) + rough;
         let most = params.correction_speed * clock.step / params.spacing;
-        let compression = min(shapes * (params.smoothing.value * volume) + wall.w - 1.0, most);
+        let share = shapes * (params.smoothing.value * volume) + wall.w;
+        let compression = min(share - 1.0 + acceleration[row].w, most);
         factors[row] = vec4<f32>(own, compression);
         pressure_rows[row] = vec4<f32>(before.w * params.rest_density, 0.0, diagonal, compression);
     }

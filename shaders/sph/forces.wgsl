@@ -1,6 +1,8 @@
 // Acceleration by gravity, pressure and viscosity.
 //
 //     a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)
+//         + 10 mu_c / rho_i sum_j V_j (v_j - v_i) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
+//     w_i = e sum_j c_ij (q_j - q_i),   q = P - g . x
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -26,19 +28,32 @@ fn main(
     var slot = row;
     var push = vec3<f32>(0.0);
     var pull = vec3<f32>(0.0);
+    var central = vec3<f32>(0.0);
+    var roughness = 0.0;
+    let softening = 0.0025 * params.smoothing.radius * params.smoothing.radius;
+    let weight = params.gravity.xyz / params.rest_density;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = list[slot];
         let there = position[other];
         let its_velocity = velocity[other];
         let apart = own.xyz - there.xyz;
-        let u = closeness(params.smoothing, dot(apart, apart));
-        push += ((own.w + there.w) * (u * u * u)) * apart;
-        pull += (its_velocity.w * u) * (its_velocity.xyz - own_velocity.xyz);
+        let square = dot(apart, apart);
+        let u = closeness(params.smoothing, square);
+        let cube = u * u * u;
+        let relative = its_velocity.xyz - own_velocity.xyz;
+        push += ((own.w + there.w) * cube) * apart;
+        pull += (its_velocity.w * u) * relative;
+        central += (its_velocity.w * cube * dot(relative, apart) / (square + softening)) * apart;
+        if (min(own.w, there.w) > 0.0) {
+            roughness += cube * (there.w - own.w + dot(weight, apart));
+        }
     }
     // mu / rho_i = mu V_i / m.
     let pressure_scale = params.smoothing.gradient * params.particle_mass;
     let viscosity_scale = params.smoothing.viscosity * (params.viscosity / params.particle_mass) * own_velocity.w;
-    let sum = push * pressure_scale + pull * viscosity_scale + params.gravity.xyz;
-    acceleration[row] = vec4<f32>(sum, 0.0);
+    let central_scale =
+        params.smoothing.gradient * (10.0 * params.central_viscosity / params.particle_mass) * own_velocity.w;
+    let sum = push * pressure_scale + pull * viscosity_scale + central * central_scale + params.gravity.xyz;
+    acceleration[row] = vec4<f32>(sum, roughness * (pressure_scale * params.roughness));
 }

@@ -1,6 +1,6 @@
 // One round of a pressure solve: the compression that is left, and the sums that `solve_round.wgsl` adds up.
 //
-//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i)
+//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + e sum_j c_ij (dP_j - dP_i)
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -26,22 +26,27 @@ fn main(
     var sums = vec4<f32>(0.0);
     var pressure_sum = 0.0;
     if (is_row) {
-        let own = predicted[row].xyz;
-        let point = own - middle();
+        let own = predicted[row];
+        let point = own.xyz - middle();
         let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
         let end = list[row];
         var slot = row;
         var sum = 0.0;
+        var pairs = 0.0;
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
             let other = list[slot];
-            let apart = own - predicted[other].xyz;
+            let apart = own.xyz - predicted[other].xyz;
             let u = closeness(params.smoothing, dot(apart, apart));
             let there = correction[other];
-            sum += gradient * (u * u * u) * (dot(there.xyz, point) - there.w);
+            let c = gradient * (u * u * u);
+            sum += c * (dot(there.xyz, point) - there.w);
+            pairs += c;
         }
         let factor = factors[row];
-        let left = factor.w + (sum - dot(correction[row].xyz, factor.xyz)) * (clock.step * clock.step);
+        let square = clock.step * clock.step;
+        let away = dot(correction[row].xyz, factor.xyz) + pairs * own.w * (params.roughness / square);
+        let left = factor.w + (sum - away) * square;
         let before = pressure_rows[row];
         let response = before.w - left;
         var error = left;

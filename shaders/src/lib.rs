@@ -40,10 +40,11 @@ pub static SHADERS: &[Shader] = shaders! {
     couple::exchange: smoothing control_group received;
     couple::exchange_fluid: ;
     couple::expect_solid: sponges;
-    couple::interior: smoothing sponges;
+    couple::interior: smoothing;
     couple::near_controls: grid;
     couple::near_fluid: grid;
     couple::node_velocity: ;
+    couple::pores: sponges star;
     couple::saturation: smoothing sponges control_group;
     couple::solid_pressure: smoothing;
     couple::solid_reaction: smoothing control_group;
@@ -67,9 +68,9 @@ pub static SHADERS: &[Shader] = shaders! {
     pbd::momentum: sponges;
     pbd::momentum_sums: sponges;
     pbd::predict: body;
-    pbd::reaction: body surface sponges wrench descent;
+    pbd::reaction: body surface sponges wrench star descent;
     pbd::strain: sponges;
-    pbd::vbd: body surface sponges descent;
+    pbd::vbd: body surface sponges star descent;
     pbd::velocity: ;
     pbd::xpbd_neo_hookean: sponges;
     sph::advect: ;
@@ -77,6 +78,7 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::boundary: body surface profile;
     sph::boundary_pressure: body surface wrench profile;
     sph::boundary_reaction: body surface wrench profile;
+    sph::cohesion: smoothing;
     sph::density: smoothing;
     sph::factors: smoothing sums;
     sph::forces: smoothing;

@@ -39,6 +39,8 @@ pub struct Fluid {
     pub sound_speed: Option<f32>,
     /// Dynamic viscosity. Range 0 to 1000 Pa s; default 0.001 (water).
     pub viscosity: f32,
+    /// Between which velocities of neighbours viscosity acts; default `morris`.
+    pub viscosity_form: ViscosityForm,
     /// Monaghan's alpha, the damping of approaching particles. Range 0 to 1; default 0.05.
     ///
     /// Below 0.01 the pressure is noisy; above 0.2 the water looks like oil.
@@ -65,6 +67,7 @@ impl Default for Fluid {
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,
             viscosity: 0.001,
+            viscosity_form: ViscosityForm::Morris,
             artificial_viscosity: 0.05,
             surface_tension: 0.0,
             repulsion_damping: 0.1,
@@ -91,6 +94,22 @@ pub enum FluidSolver {
     /// By a solve that keeps the density at rest density: few long steps \[BK17\].
     #[default]
     Dfsph,
+}
+
+/// Between which velocities of neighbours viscosity acts.
+///
+/// The damping of approaching particles (`artificial_viscosity`) is of the second form in either case, but for `wcsph`
+/// with `morris`, which is the model of the paper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum ViscosityForm {
+    /// All of the velocity: accurate in shear, keeps linear momentum \[MFZ97; MCG03\].
+    #[default]
+    Morris,
+    /// The velocity along the line between the particles: keeps angular momentum as well, and is less accurate where
+    /// particles lie in rows \[M92\].
+    Monaghan,
 }
 
 /// How water and sponges meet.

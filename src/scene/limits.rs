@@ -134,6 +134,7 @@ pub(super) const SPONGE: &[Row<Sponge>] = fields! { Sponge, "sponges[].";
     density: 1.0 to 5000.0, "kg/m^3";
     porosity: 0.05 to 0.99, "1";
     permeability: 1e-14 to 1e-5, "m^2";
+    forchheimer: 0.0 to 2.0, "1";
     entry_pressure: 0.0 to 1e5, "Pa";
     suction_radius: 1.0 to 2.5, "1";
     saturation_gain: 0.0 to 5.0, "1";

@@ -59,7 +59,7 @@ pub use bodies::{Body, Rotation, ShapeKind};
 pub use camera::Camera;
 pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
-pub use fluid::{Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver};
+pub use fluid::{Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm};
 pub use limits::{Limit, limits};
 pub use motion::Motion;
 #[cfg(feature = "serde")]

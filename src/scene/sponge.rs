@@ -92,7 +92,14 @@ pub struct Sponge {
     pub porosity: f32,
     /// Permeability of the pores: lower lets water in and out more slowly. Range 1e-14 to 1e-5 m^2;
     /// default 1e-9.
+    ///
+    /// That of the sponge at rest. With `fluid.coupling = "porous"` it falls as pores close, as Kozeny and Carman have it:
+    /// `K (phi / phi_0)^3 ((1 - phi_0) / (1 - phi))^2`.
     pub permeability: f32,
+    /// How much more than in proportion fast water is slowed, Forchheimer's coefficient: its drag per volume of sponge
+    /// is `viscosity / permeability * q + density * forchheimer / sqrt(permeability) * q^2` for a flow q per area. Range 0 to
+    /// 2; default 0. Foams have about 0.1, beds of grains 0.5. With `fluid.coupling = "porous"`.
+    pub forchheimer: f32,
     /// Capillary pressure of the saturated sponge; water climbs to about this over (density * gravity). Range 0 to
     /// 100000 Pa; default 500.
     ///
@@ -158,6 +165,7 @@ impl Default for Sponge {
             density: 50.0,
             porosity: 0.9,
             permeability: 1e-9,
+            forchheimer: 0.0,
             entry_pressure: 500.0,
             suction_radius: 1.5,
             saturation_gain: 1.0,

@@ -1,6 +1,8 @@
 //! The world: the one object that a host builds, steps and looks at.
 
 mod error;
+#[cfg(test)]
+mod pool;
 mod views;
 
 use glam::Vec3;
@@ -193,6 +195,7 @@ impl World {
             &sph::density::KERNEL,
             &couple::controls::KERNEL,
             &couple::saturation::KERNEL,
+            &couple::pores::KERNEL,
             &couple::interior::KERNEL,
         ];
         for kernel in phases {

@@ -1,6 +1,6 @@
 //! What a host may look at: read-only views of a world.
 
-use sorb_kernels::{body::Body, columns::Columns, cpu::Cpu, params::Params};
+use sorb_kernels::{body::Body, columns::Columns, cpu::Cpu, params::Params, sph};
 
 use super::World;
 use crate::{
@@ -93,18 +93,29 @@ impl World {
     }
 
     /// Pressures of the particles as the last step found them \[Pa\], in the order of the positions; zero at time zero.
+    ///
+    /// With `wcsph` that of the equation of state. The solve of `dfsph` knows multipliers; what is given here is the stress
+    /// that pairs of neighbours carry by them, see [`pressure_moments`](sorb_kernels::sph::boundary::pressure_moments). Inside sponges
+    /// that is the pressure in the pores.
     #[must_use]
     pub fn particle_pressures(&self) -> Vec<f32> {
         let (fluid, count) = (&self.columns().fluid, self.stores.host.rows.fluid);
-        let mut pressures = if self.params.fluid.incompressible.is_some() {
-            let over_density = fluid.pressure_rows.iter().take(count).map(|row| row[0]);
-            over_density.map(|pressure| pressure * self.params.fluid.rest_density).collect()
-        } else {
+        let parameters = &self.params.fluid;
+        let Some(solve) = &parameters.incompressible else {
             let rows = fluid.position.iter().zip(&fluid.density).take(count);
-            rows.map(|(row, density)| row[3] * density * density).collect::<Vec<_>>()
+            let mut pressures: Vec<_> = rows.map(|(row, density)| row[3] * density * density).collect();
+            pressures.resize(count, 0.0);
+            return pressures;
         };
-        pressures.resize(count, 0.0);
-        pressures
+        let (inside, beside) = sph::boundary::pressure_moments(&parameters.smoothing, parameters.spacing);
+        // Of a particle of a lattice beside a wall, half a spacing away.
+        let range = solve.boundary_range;
+        let whole = solve.boundary_share * (1.0 - 0.5 * parameters.spacing / range).powi(6);
+        let square = parameters.rest_density * parameters.rest_density;
+        let (inside, lack) = ((inside as f32) * square, ((inside - beside) as f32) * square);
+        let shares = sph::boundary::shares(&self.cpu, &self.params, self.columns());
+        let rows = fluid.position.iter().zip(&shares).take(count);
+        rows.map(|(row, share)| row[3] * (inside - lack * (share[3] / whole).min(2.0))).collect()
     }
 
     /// Identities of the particles: `ids[row]` is the same particle for ever.

@@ -80,7 +80,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 }
                 let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
                 let sponge = times([sum[0], sum[1], sum[2]], inverse);
-                let rate = lanes::load(simd, drag_rate, first + row) * step;
+                let [rate, _, _, _] = lanes::load_rows(simd, drag_rate, first + row);
+                let rate = rate * step;
                 let strength = rate / (one + rate) * mass;
                 // The column holds impulses over chi.
                 let [jx, jy, jz, _] = lanes::load_rows(simd, drag, row);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! u_i = sum_a w_ia u_a,   w_ia = V_a W_ia / chi_i             velocity of the sponge at the particle
-//! k_i = m h beta_i / (1 + h beta_i)                          linear drag, implicit in the particle
+//! b_i = beta_i + gamma_i |v_i - u_i|,   k_i = m h b_i / (1 + h b_i)       implicit in the particle, but for the speed in b
 //! J_i = k_i (v_i - u_i)
 //! ```
 //!
@@ -12,9 +12,9 @@ use crate::{
     columns::{Column::*, Columns, Fluid},
     cpu::Cpu,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, with_lanes},
+    lanes::{self, LANES, prelude::*, with_lanes},
     params::Params,
-    vector::{minus, times},
+    vector::{dot, minus, times},
 };
 
 use super::drag::weight_inside;
@@ -59,10 +59,12 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     sum = [sum[0] + weight * ux, sum[1] + weight * uy, sum[2] + weight * uz];
                 }
                 let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
-                let rate = lanes::load(simd, drag_rate, first + row) * step;
+                let beside = minus([vx, vy, vz], times(sum, inverse));
+                let [linear, inertial, _, _] = lanes::load_rows(simd, drag_rate, first + row);
+                let rate = (linear + inertial * dot(beside, beside).sqrt()) * step;
                 // The column holds impulses and masses over chi.
                 let strength = rate / (one + rate) * mass * inverse;
-                let [jx, jy, jz] = times(minus([vx, vy, vz], times(sum, inverse)), strength);
+                let [jx, jy, jz] = times(beside, strength);
                 lanes::store_rows(drag, row, [jx, jy, jz, strength]);
             }
         });

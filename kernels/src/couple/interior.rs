@@ -1,10 +1,10 @@
-//! How far inside a sponge every particle is, and how fast drag acts there.
+//! How far inside a sponge every particle is, and how drag acts there.
 //!
 //! ```text
-//! chi_i = sum_a V_a W_ia,    beta_i = sum_a V_a W_ia mu phi_a / (rho K_a)
+//! chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //! ```
 //!
-//! chi is 1 deep inside and 0 outside.
+//! chi is 1 deep inside and 0 outside; beta and gamma are those of `couple::pores`.
 
 use crate::{
     columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
@@ -20,7 +20,7 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::interior",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodeSponge],
+    reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodePores],
     writes: &[FluidControlWeights, FluidInterior, FluidDragRate],
     cpu,
 };
@@ -28,13 +28,13 @@ pub static KERNEL: Kernel = Kernel {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, controls: lists, control_weights, interior, drag_rate, .. } = &mut columns.fluid;
     let controls = &columns.controls.position;
-    // One rate per control row; padding rows weigh nothing.
-    let mut rate = vec![0.0; controls.len()];
-    for (rate, node) in rate.iter_mut().zip(&columns.controls.node) {
-        *rate = params.sponges[columns.nodes.sponge[*node as usize] as usize].drag_rate;
+    // In the order of the controls; padding rows weigh nothing.
+    let mut pores = vec![[0.0; 4]; controls.len()];
+    for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
+        *pores = columns.nodes.pores[*node as usize];
     }
     interior.resize(position.len(), 0.0);
-    drag_rate.resize(position.len(), 0.0);
+    drag_rate.resize(position.len(), [0.0; 4]);
     let rows = (&mut interior[..], &mut drag_rate[..], control_weights.match_lists(lists));
     cpu.for_chunks(rows, |first, (interior, drag_rate, weights)| {
         let (lists, weights) = (lists.chunk(first), &mut weights.0[0]);
@@ -42,8 +42,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let kernel = params.coupling.lanes(simd);
             for row in (0..interior.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
-                let mut sum = lanes::splat(simd, 0.0);
-                let mut drag = lanes::splat(simd, 0.0);
+                let zero = lanes::splat(simd, 0.0);
+                let (mut sum, mut linear, mut inertial) = (zero, zero, zero);
                 for (entry, stored) in lists.group(row).iter().zip(&mut weights[lists.range(row)]) {
                     let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
                     let (dx, dy, dz) = (x - xa, y - ya, z - za);
@@ -51,10 +51,12 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     let weight = volume * kernel.value_scale() * shape;
                     lanes::store(stored, 0, weight);
                     sum += weight;
-                    drag += weight * lanes::gather(simd, &rate, entry);
+                    let [_, rate, per_speed, _] = lanes::gather_rows(simd, &pores, entry);
+                    linear += weight * rate;
+                    inertial += weight * per_speed;
                 }
                 lanes::store(interior, row, sum);
-                lanes::store(drag_rate, row, drag);
+                lanes::store_rows(drag_rate, row, [linear, inertial, zero, zero]);
             }
         });
     });

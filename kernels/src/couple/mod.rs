@@ -10,6 +10,7 @@ pub mod drag_target;
 pub mod exchange;
 pub mod interior;
 pub mod node_velocity;
+pub mod pores;
 pub mod saturation;
 pub mod solid_pressure;
 pub mod solid_reaction;

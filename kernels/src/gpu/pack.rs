@@ -12,6 +12,7 @@ use crate::{
         stars::{NEIGHBORS, Stars},
     },
     smoothing::Wendland,
+    sph::cohesion,
 };
 
 /// Most sponges that fit the uniform buffer.
@@ -21,7 +22,7 @@ pub(super) const BATCH_STRIDE: u64 = 256;
 /// Batches: colours of tets, then colours of nodes.
 pub(super) const BATCHES: usize = COLORS + 4;
 /// Bytes of a sponge.
-pub(super) const SPONGE_BYTES: usize = 64;
+pub(super) const SPONGE_BYTES: usize = 80;
 /// Bytes of a body.
 pub(super) const BODY_BYTES: u64 = 144;
 
@@ -92,7 +93,8 @@ pub(super) fn params(
         .floats(&[limits.courant, limits.edge.min(f32::MAX), limits.minimum, limits.constant])
         .words(&[limits.constant_bound])
         .words(&capacities)
-        .words(&[0, 0]);
+        .floats(&[fluid.central_viscosity, fluid.roughness])
+        .floats(&[cohesion::strength(fluid), 0.0, 0.0, 0.0]);
     let solid = params.solid.unwrap_or(params.coupling);
     for smoothing in [&fluid.smoothing, &params.coupling, &solid] {
         bytes.floats(&smoothing_factors(smoothing));
@@ -137,7 +139,10 @@ pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
             Solver::Vbd => 1,
             Solver::XpbdNeoHookean => 2,
         };
-        bytes.words(&[solver]).floats(&[sponge.mu, sponge.lambda, sponge.damping]);
+        bytes
+            .words(&[solver])
+            .floats(&[sponge.mu, sponge.lambda, sponge.damping, sponge.inertial_drag])
+            .words(&[u32::from(sponge.pores_close), 0, 0]);
     }
     bytes.0.resize(SPONGES * SPONGE_BYTES, 0);
     bytes.0

@@ -155,7 +155,7 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 272, uniform),
+            ("params", 288, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),
@@ -187,7 +187,7 @@ impl Resident {
             ("fluid_neighbors", list(fluid, self.capacities[0]), plain),
             ("fluid_controls", list(inside, self.capacities[1]), plain),
             ("fluid_interior", inside * 4, plain),
-            ("fluid_drag_rate", inside * 4, plain),
+            ("fluid_drag_rate", inside * 16, plain),
             ("fluid_drag", inside * 16, plain),
             ("node_position", nodes * 16, plain),
             ("node_velocity", nodes * 16, plain),
@@ -198,6 +198,7 @@ impl Resident {
             ("node_drag", nodes * 16, plain),
             ("node_drag_moment", nodes * 16, plain),
             ("node_reaction", nodes * 16, plain),
+            ("node_pores", nodes * 16, plain),
             ("node_stars", nodes * STAR_WORDS as u64 * 4, plain),
             ("sponge_ranges", self.params.sponges.len() as u64 * 32, plain),
             ("sponge_motions", self.params.sponges.len() as u64 * 48, plain),

@@ -125,16 +125,18 @@ pub(super) fn interior(params: &Params, columns: &mut Columns) {
     columns.fluid.control_weights =
         list_values(&columns.fluid.controls, counts, |particle, control| pairs.weight(particle, control));
     columns.fluid.interior = vec![0.0; columns.fluid.position.len()];
-    columns.fluid.drag_rate = vec![0.0; columns.fluid.position.len()];
+    columns.fluid.drag_rate = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
-        let (mut chi, mut rate) = (0.0, 0.0);
+        let (mut chi, mut linear, mut inertial) = (0.0, 0.0, 0.0);
         for control in 0..columns.rows.nodes {
             let weight = pairs.weight(particle, control);
             chi += weight;
-            rate += weight * f64::from(sponge(params, columns, control).drag_rate);
+            let pores = columns.nodes.pores[columns.controls.node[control] as usize];
+            linear += weight * f64::from(pores[1]);
+            inertial += weight * f64::from(pores[2]);
         }
         columns.fluid.interior[particle] = chi as f32;
-        columns.fluid.drag_rate[particle] = rate as f32;
+        columns.fluid.drag_rate[particle] = [linear as f32, inertial as f32, 0.0, 0.0];
     }
 }
 
@@ -203,7 +205,7 @@ pub(super) fn drag(params: &Params, columns: &mut Columns) {
             sponge += weight * vector(columns.controls.velocity[control]);
             shared += weight * f64::from(columns.controls.velocity[control][3]);
         }
-        let rate = f64::from(params.step) * f64::from(columns.fluid.drag_rate[particle]);
+        let rate = f64::from(params.step) * f64::from(columns.fluid.drag_rate[particle][0]);
         let strength = mass * rate / (1.0 + rate);
         // The column holds J_i over the interior value.
         let old = vector(columns.fluid.drag[particle]);

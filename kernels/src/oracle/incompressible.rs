@@ -105,7 +105,8 @@ pub(super) fn boundary_pressure(params: &Params, columns: &mut Columns) {
             slope += own;
             wrench.add(own * (pressure * momentum), x - body.state.position.as_dvec3());
         }
-        fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - pressure * slope, 0.0);
+        let allowed = f64::from(fluid.acceleration[i][3]);
+        fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - pressure * slope, allowed);
     }
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
@@ -140,16 +141,18 @@ pub(super) fn factors(params: &Params, columns: &mut Columns) {
     for i in 0..count {
         let mut own = -vector(fluid.boundary[i]);
         let (mut others, mut share) = (0.0, f64::from(fluid.boundary[i][3]));
+        let mut rough = 0.0;
         for (j, c) in &near[i] {
             let offset = end[i] - end[*j];
             own += *c * offset;
             others += (*c * offset).length_squared();
+            rough += if *j == i { 0.0 } else { *c * f64::from(params.fluid.roughness) };
             share += volume * smoothing(params.fluid.smoothing.support_radius, offset.length());
         }
         let most = f64::from(solve.correction_speed) * step / spacing;
-        let compression = (share - 1.0).min(most);
-        let diagonal =
-            (own.length_squared() + others).max(f64::from(solve.lattice_diagonal) / 3.0) * step * step;
+        let compression = (share - 1.0 + f64::from(fluid.acceleration[i][3])).min(most);
+        let wide = (own.length_squared() + others).max(f64::from(solve.lattice_diagonal) / 3.0);
+        let diagonal = wide * step * step + rough;
         fluid.factors[i] = row(own, compression);
         let pressure = f64::from(fluid.position[i][3]) * density;
         fluid.pressure_rows[i] = [pressure as f32, 0.0, diagonal as f32, compression as f32];
@@ -189,13 +192,15 @@ pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     let near = pairs(params, fluid, count);
     let end = vectors(&fluid.predicted, count);
     let origin = params.origin().as_dvec3();
+    let roughness = f64::from(params.fluid.roughness) / f64::from(params.step).powi(2);
     fluid.correction.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..count {
         let mut sum = f64::from(fluid.predicted[i][3]) * vector(fluid.factors[i]);
         for (j, c) in &near[i] {
             sum += *c * f64::from(fluid.predicted[*j][3]) * (end[i] - end[*j]);
         }
-        fluid.correction[i] = row(sum, sum.dot(end[i] - origin));
+        let allowed = f64::from(fluid.predicted[i][3]) * roughness;
+        fluid.correction[i] = row(sum, sum.dot(end[i] - origin) - allowed);
     }
 }
 
@@ -208,10 +213,13 @@ pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
     let mut sums = [0.0; 5];
     for i in 0..count {
         let mut change = -a[i].dot(vector(fluid.factors[i]));
+        let mut smoother = 0.0;
         for (j, c) in &near[i] {
             change += *c * a[*j].dot(end[i] - end[*j]);
+            smoother += *c * (f64::from(fluid.predicted[*j][3]) - f64::from(fluid.predicted[i][3]));
         }
-        let left = f64::from(fluid.factors[i][3]) + square * change;
+        let allowed = f64::from(params.fluid.roughness) * smoother;
+        let left = f64::from(fluid.factors[i][3]) + square * change + allowed;
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;
         sums[0] += if left > 0.0 { left } else { (-left).min(pressure * diagonal) };

@@ -86,6 +86,33 @@ pub(super) fn node_velocity(params: &Params, columns: &mut Columns) {
     }
 }
 
+pub(super) fn pores(params: &Params, columns: &mut Columns) {
+    let nodes = &mut columns.nodes;
+    let mut volumes = vec![(0.0, 0.0); nodes.position.len()];
+    for tet in &nodes.topology.tets {
+        let [a, b, c, d] = tet.map(|node| vector(nodes.position[node as usize]));
+        let volume = (b - a).cross(c - a).dot(d - a) / 6.0;
+        for node in tet {
+            volumes[*node as usize].0 += volume;
+            volumes[*node as usize].1 += 1.0;
+        }
+    }
+    nodes.pores = vec![[0.0; 4]; nodes.position.len()];
+    for node in 0..columns.rows.nodes {
+        let sponge = &params.sponges[nodes.sponge[node] as usize];
+        let porosity = f64::from(sponge.porosity);
+        let rest = f64::from(sponge.edge).powi(3) / 12.0;
+        let least = (1.0 - porosity) / (1.0 - porosity.min(0.15));
+        let ratio = if sponge.pores_close { (volumes[node].0 / volumes[node].1 / rest).max(least) } else { 1.0 };
+        let now = 1.0 - (1.0 - porosity) / ratio;
+        // K / K_0.
+        let permeability = (now / porosity).powi(3) * ((1.0 - porosity) / (1.0 - now)).powi(2);
+        let linear = f64::from(sponge.drag_rate) * (now / porosity) / permeability;
+        let inertial = f64::from(sponge.inertial_drag) * (now / porosity).powi(2) / permeability.sqrt();
+        nodes.pores[node] = [ratio, linear * ratio, inertial * ratio, now].map(|value| value as f32);
+    }
+}
+
 pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     columns.fluid.drag = vec![[0.0; 4]; columns.fluid.position.len()];
@@ -96,9 +123,10 @@ pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
                 pairs.weight(particle, control) * inverse * vector(columns.controls.velocity[control])
             })
             .sum();
-        let rate = f64::from(params.step) * f64::from(columns.fluid.drag_rate[particle]);
-        let mass = f64::from(params.fluid.particle_mass) * rate / (1.0 + rate);
         let apart = vector(columns.fluid.velocity[particle]) - sponge;
+        let [linear, inertial, ..] = columns.fluid.drag_rate[particle].map(f64::from);
+        let rate = f64::from(params.step) * (linear + inertial * apart.length());
+        let mass = f64::from(params.fluid.particle_mass) * rate / (1.0 + rate);
         // The column holds impulses and masses over the interior value.
         columns.fluid.drag[particle] = row(mass * inverse * apart, mass * inverse);
     }

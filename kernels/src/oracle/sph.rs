@@ -41,20 +41,33 @@ pub(super) fn forces(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let (x, v) = (vectors(&fluid.position, count), vectors(&fluid.velocity, count));
     let radius = params.fluid.smoothing.support_radius;
-    let mass = f64::from(params.fluid.particle_mass);
+    let (mass, rest) = (f64::from(params.fluid.particle_mass), f64::from(params.fluid.rest_density));
     fluid.acceleration.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..count {
-        let (mut pressure, mut viscosity) = (DVec3::ZERO, DVec3::ZERO);
+        let (mut pressure, mut viscosity, mut central) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        let mut roughness = 0.0;
         for j in 0..count {
             let offset = x[i] - x[j];
             let both = f64::from(fluid.position[i][3]) + f64::from(fluid.position[j][3]);
             pressure -= mass * both * gradient(radius, offset);
             let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
-            viscosity += f64::from(fluid.velocity[j][3]) * laplacian * (v[j] - v[i]);
+            let volume = f64::from(fluid.velocity[j][3]);
+            viscosity += volume * laplacian * (v[j] - v[i]);
+            let softened = offset.length_squared() + 0.0025 * f64::from(radius).powi(2);
+            central -= 10.0 * volume * (v[j] - v[i]).dot(offset) / softened * gradient(radius, offset);
+            let (own, other) = (f64::from(fluid.position[i][3]), f64::from(fluid.position[j][3]));
+            if own > 0.0 && other > 0.0 {
+                let slope = 210.0 / pi_power(radius, 5) * closeness(radius, offset.length()).powi(3);
+                let beyond = rest * (other - own) + params.gravity.as_dvec3().dot(offset);
+                roughness += mass / rest * slope * beyond;
+            }
         }
         // mu / rho_i, where the velocity row holds m / rho_i.
-        let scale = f64::from(params.fluid.viscosity) * f64::from(fluid.velocity[i][3]) / mass;
-        fluid.acceleration[i] = row(params.gravity.as_dvec3() + pressure + scale * viscosity, 0.0);
+        let scale = f64::from(fluid.velocity[i][3]) / mass;
+        let viscosity = f64::from(params.fluid.viscosity) * viscosity;
+        let central = f64::from(params.fluid.central_viscosity) * central;
+        let sum = params.gravity.as_dvec3() + pressure + scale * (viscosity + central);
+        fluid.acceleration[i] = row(sum, f64::from(params.fluid.roughness) * roughness);
     }
 }
 
@@ -74,8 +87,25 @@ pub(super) fn surface_tension(params: &Params, columns: &mut Columns) {
         if normal.length() * f64::from(radius) > 1.0 {
             let strength = per_mass * f64::from(fluid.velocity[i][3]) * laplacian;
             let change = strength * normal.normalize();
-            fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - change, 0.0);
+            let allowed = f64::from(fluid.acceleration[i][3]);
+            fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - change, allowed);
         }
+    }
+}
+
+pub(super) fn cohesion(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let x = vectors(&fluid.position, count);
+    let radius = f64::from(params.fluid.smoothing.support_radius);
+    let strength = f64::from(crate::sph::cohesion::strength(&params.fluid));
+    for i in 0..count {
+        let mut sum = DVec3::ZERO;
+        for j in (0..count).filter(|j| *j != i) {
+            let offset = x[i] - x[j];
+            sum += crate::sph::cohesion::shape_f64(radius, offset.length()) * offset.normalize_or_zero();
+        }
+        let old = fluid.acceleration[i];
+        fluid.acceleration[i] = row(vector(old) - strength * sum, f64::from(old[3]));
     }
 }
 
@@ -106,7 +136,7 @@ pub(super) fn repulsion(params: &Params, columns: &mut Columns) {
             let impulse = change * -f64::from(parameters.particle_mass) * f64::from(params.step);
             wrench.add(impulse, x - normal * distance - body.state.position.as_dvec3());
         }
-        fluid.acceleration[i] = row(sum, 0.0);
+        fluid.acceleration[i] = row(sum, f64::from(fluid.acceleration[i][3]));
     }
     columns.bodies.fluid_wrenches.0 = wrenches;
 }

@@ -219,18 +219,19 @@ impl<'a, S: Simd> Star<'a, S> {
     ) {
         let simd = self.simd;
         // The columns are left without their factor 1 / a, and n without its own.
-        let half = lanes::splat(simd, 0.5);
         let lame = material.volume - material.shear;
         let twice = material.shear + material.shear;
         let inverse_square = material.inverse_edge * material.inverse_edge;
+        let scale = lanes::splat(simd, 0.5) * inverse_square;
         for (tet, corners) in self.shape.tets.iter().enumerate() {
             let (f, g) = (self.columns(corners, x), before.columns(corners, old));
             let df = [minus(f[0], g[0]), minus(f[1], g[1]), minus(f[2], g[2])];
-            let rate = |k: usize, l: usize| (dot(g[k], df[l]) + dot(g[l], df[k])) * half * inverse_square;
-            let (dd, ff) = (rate(0, 0), rate(2, 2));
-            let trace = (dd + rate(1, 1) + ff) * lame;
+            let [dd, ee, ff] = [rate(&g, &df, (0, 0), scale), rate(&g, &df, (1, 1), scale), rate(&g, &df, (2, 2), scale)];
+            let trace = (dd + ee + ff) * lame;
             // n = -(1, 0, 1): only the first and the last row of the stress.
-            let (de, across, ef) = (rate(0, 1) * twice, rate(0, 2) * twice, rate(1, 2) * twice);
+            let de = rate(&g, &df, (0, 1), scale) * twice;
+            let across = rate(&g, &df, (0, 2), scale) * twice;
+            let ef = rate(&g, &df, (1, 2), scale) * twice;
             let own = lanes::load_array(simd, &self.group.tets[tet]) * material.damping;
             let first = times(g[0], (dd * twice + trace + across) * own);
             let second = times(g[1], (de + ef) * own);
@@ -252,6 +253,18 @@ impl<'a, S: Simd> Star<'a, S> {
         let (u, q, r) = (self.around[*partner], self.around[*q], self.around[*r]);
         [minus(u, x), minus(q, r), minus(plus(q, r), plus(x, u))]
     }
+}
+
+/// One entry of the strain rate times the step, `(g_k . df_l + g_l . df_k) / 2` by way of a scale. A function, because a closure
+/// would lose the instruction set.
+#[inline(always)]
+fn rate<S: Simd>(
+    g: &[Vec3x8<S>; 3],
+    df: &[Vec3x8<S>; 3],
+    (k, l): (usize, usize),
+    scale: f32x8<S>,
+) -> f32x8<S> {
+    (dot(g[k], df[l]) + dot(g[l], df[k])) * scale
 }
 
 /// The quadratic energy of eight nodes: force at the present place, and stiffness, both without inertia.

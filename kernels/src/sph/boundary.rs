@@ -34,12 +34,24 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { predicted, boundary, .. } = &mut columns.fluid;
     boundary.resize(predicted.len(), [0.0; 4]);
     let bodies = at_end(&columns.bodies.states.0, params.step);
+    fill(cpu, params, &bodies, predicted, boundary);
+}
+
+/// Gradients of the share of walls and bodies \[1/m\], and in w the share \[1\], at the particles as they are now.
+#[must_use]
+pub fn shares(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<[f32; 4]> {
+    let mut shares = vec![[0.0; 4]; columns.fluid.position.len()];
+    fill(cpu, params, &columns.bodies.states.0, &columns.fluid.position, &mut shares);
+    shares
+}
+
+fn fill(cpu: &Cpu, params: &Params, bodies: &[Body], points: &[[f32; 4]], boundary: &mut [[f32; 4]]) {
     let Some(profile) = Profile::of(params) else { return };
-    cpu.for_chunks(&mut boundary[..], |first, boundary| {
-        let near = near(&bodies, &predicted[first..first + boundary.len()], profile.range);
+    cpu.for_chunks(boundary, |first, boundary| {
+        let near = near(bodies, &points[first..first + boundary.len()], profile.range);
         with_lanes!(cpu, simd => {
             for row in (0..boundary.len()).step_by(LANES) {
-                let [x, y, z, _] = lanes::load_rows(simd, predicted, first + row);
+                let [x, y, z, _] = lanes::load_rows(simd, points, first + row);
                 let [mut gx, mut gy, mut gz, mut share] = profile.walls(simd, params, [x, y, z]);
                 for body in &near {
                     let [bx, by, bz, own] = profile.body(simd, &bodies[*body], [x, y, z]);
@@ -182,4 +194,27 @@ pub fn boundary_profile(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     let range = 0.5 * d + 6.0 * missing / (2.0 * slope);
     let share = missing * (range / (range - 0.5 * d)).powi(6);
     (range as f32, share as f32)
+}
+
+/// What a particle's pressure has to be multiplied by to be the stress that pairs and walls carry, far from walls and in
+/// the first layer beside one: a third of the trace of `sum_j c_ij x_ij x_ij` in a lattice.
+///
+/// The sums of few neighbours are not the integrals that they stand for, and no pairs reach through a wall, so that the
+/// solve holds water with pressures that are a little higher there.
+#[must_use]
+pub fn pressure_moments(smoothing: &Wendland, spacing: f32) -> (f64, f64) {
+    let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
+    let reach = (radius / d).ceil() as i32;
+    let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
+    // Along x, by all pairs and by those that do not reach through a wall across y.
+    let (mut full, mut beside) = (0.0, 0.0);
+    for (x, y, z) in
+        (-reach..=reach).flat_map(|x| (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))
+    {
+        let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
+        let part = volume * Wendland::gradient_f64(radius, distance) * (f64::from(x) * d).powi(2);
+        full += part;
+        beside += if y >= 0 { part } else { 0.0 };
+    }
+    (full, (full + 2.0 * beside) / 3.0)
 }

@@ -2,10 +2,21 @@
 //!
 //! ```text
 //! c_ij = V (-dW/dr) / r                            grad W_ij = -c_ij x_ij / V
-//! r_i = sum_j V W_ij + lambda_i - 1                compression, if the pressure stays as it is
+//! r_i = sum_j V W_ij + lambda_i - 1 + w_i          compression, if the pressure stays as it is
 //! B_i = sum_j c_ij x_ij - grad lambda_i            acceleration by the particle's own pressure
-//! M_i = h^2 (|B_i|^2 + sum_j |c_ij x_ij|^2)        diagonal of the system [BK17, eq. 8]
+//! M_i = h^2 (|B_i|^2 + sum_j |c_ij x_ij|^2) + e sum_j c_ij    diagonal of the system [BK17, eq. 8]
 //! ```
+//!
+//! A pressure that is higher and lower by turns pushes no particle of a lattice, so that the solve could not answer to a
+//! compression that alternates but by raising such a pressure without end. With
+//!
+//! ```text
+//! w_i = e sum_j c_ij (q_j - q_i)
+//! ```
+//!
+//! of `sph::forces`, and the same of what the solve changes, a compression of `-w_i` is allowed instead: e times the compact
+//! Laplacian of the pressure, beside h^2 times the wide one [RC83]. The time in e does not change: an allowance that went
+//! with the step would move the water whenever the step changes.
 //!
 //! An error of the density is put right at a limited speed: particles that begin on top of each other would fly apart.
 
@@ -24,7 +35,7 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "sph::factors",
     needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary],
+    reads: &[FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary, FluidAcceleration],
     writes: &[FluidFactors, FluidPairs, FluidPressureRows, FluidPressureSolve],
     cpu,
 };
@@ -35,14 +46,14 @@ const LEAST_DIAGONAL: f32 = 1.0 / 3.0;
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let Fluid {
-        position, predicted, neighbors, boundary, factors, pairs, pressure_rows, pressure_solve, ..
+        position, predicted, neighbors, boundary, acceleration, factors, pairs, pressure_rows, pressure_solve, ..
     } = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
     factors.resize(predicted.len(), [0.0; 4]);
     pressure_rows.resize(predicted.len(), [0.0; 4]);
     let displacements = pressure_solve.displacements(predicted.len());
     let rows = (&mut factors[..], &mut pressure_rows[..], pairs.match_lists(neighbors), displacements);
-    let task = Task { params, solve, position, predicted, boundary };
+    let task = Task { params, solve, position, predicted, boundary, acceleration };
     cpu.for_chunks(rows, |first, (factors, pressure, pairs, displacement)| {
         let lists = neighbors.chunk(first);
         with_lanes!(cpu, simd => task.chunk(simd, first, lists, &mut pairs.0[0], factors, pressure));
@@ -71,6 +82,7 @@ struct Task<'a> {
     position: &'a [[f32; 4]],
     predicted: &'a [[f32; 4]],
     boundary: &'a [[f32; 4]],
+    acceleration: &'a [[f32; 4]],
 }
 
 impl Task<'_> {
@@ -94,7 +106,7 @@ impl Task<'_> {
         for row in (0..factors.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.predicted, first + row);
             let mut own = [zero; 3];
-            let (mut others, mut shape_sum) = (zero, zero);
+            let (mut others, mut shape_sum, mut pair_sum) = (zero, zero, zero);
             for (entry, stored) in lists.group(row).iter().zip(&mut pairs[lists.range(row)]) {
                 let [xj, yj, zj, _] = lanes::gather_rows(simd, self.predicted, entry);
                 let (dx, dy, dz) = (x - xj, y - yj, z - zj);
@@ -104,12 +116,16 @@ impl Task<'_> {
                 lanes::store(stored, 0, c);
                 own = [own[0] + c * dx, own[1] + c * dy, own[2] + c * dz];
                 others += c * c * square;
+                pair_sum += c;
                 shape_sum += kernel.shape(u);
             }
             let [gx, gy, gz, share] = lanes::load_rows(simd, self.boundary, first + row);
             let own = [own[0] - gx, own[1] - gy, own[2] - gz];
-            let diagonal = (dot(own, own) + others).max(least) * (step * step);
-            let compression = (shape_sum * value + share - one).min(most);
+            // The lists hold the particle itself, which is no pair.
+            let rough = (pair_sum - gradient) * fluid.roughness;
+            let diagonal = (dot(own, own) + others).max(least) * (step * step) + rough;
+            let [_, _, _, allowed] = lanes::load_rows(simd, self.acceleration, first + row);
+            let compression = (shape_sum * value + share - one + allowed).min(most);
             lanes::store_rows(factors, row, [own[0], own[1], own[2], compression]);
             let [_, _, _, before] = lanes::load_rows(simd, self.position, first + row);
             lanes::store_rows(pressure, row, [before * fluid.rest_density, zero, diagonal, compression]);

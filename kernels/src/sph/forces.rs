@@ -1,18 +1,27 @@
-//! Acceleration by gravity, pressure \[M92, eq. 3.3\] and viscosity \[MCG03, eq. 14, made symmetric\].
+//! Acceleration by gravity, pressure \[M92, eq. 3.3\] and viscosity \[MCG03, eq. 14, made symmetric; M92, eq. 4.1\].
 //!
 //! ```text
 //! a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij
 //!         + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)
+//!         + 10 mu_c / rho_i sum_j V_j (v_j - v_i) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
 //! ```
 //!
-//! Both sums are equal and opposite for the two particles of a pair.
+//! All sums are equal and opposite for the two particles of a pair, and the first and the last act along the line between
+//! them, which keeps angular momentum as well.
+//!
+//! The fourth number of a row is the compression that is allowed for the roughness of the pressure beyond that of water at
+//! rest, over pairs that both have a pressure; `sph::factors` says why:
+//!
+//! ```text
+//! w_i = e sum_j c_ij (q_j - q_i),   q = P - g . x,   P = rho_0 p / rho^2,   c_ij = V_0 (-dW/dr) / r
+//! ```
 
 use crate::{
     columns::{Column::*, Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd, prelude::*, with_lanes},
     params::Params,
     vector::{self, plus, times},
 };
@@ -49,29 +58,39 @@ fn chunk<S: Simd>(
     let pressure_scale = kernel.gradient_scale() * fluid.particle_mass;
     // mu / rho_i = mu V_i / m.
     let viscosity_scale = kernel.viscosity_scale() * (fluid.viscosity / fluid.particle_mass);
+    let central_scale = kernel.gradient_scale() * (10.0 * fluid.central_viscosity / fluid.particle_mass);
+    let softening = lanes::splat(simd, fluid.smoothing.softening());
     let gravity = vector::splat(simd, params.gravity.to_array());
+    let weight = times(gravity, lanes::splat(simd, 1.0 / fluid.rest_density));
+    let roughness_scale = pressure_scale * fluid.roughness;
     for row in (0..acceleration.len()).step_by(LANES) {
         let [x, y, z, p] = lanes::load_rows(simd, position, first + row);
         let [vx, vy, vz, volume] = lanes::load_rows(simd, velocity, first + row);
         let zero = lanes::splat(simd, 0.0);
         let mut pressure = [zero; 3];
         let mut viscosity = [zero; 3];
+        let mut central = [zero; 3];
+        let mut roughness = zero;
         for entry in lists.group(row) {
             let [xj, yj, zj, pj] = lanes::gather_rows(simd, position, entry);
             let [vxj, vyj, vzj, volume_j] = lanes::gather_rows(simd, velocity, entry);
             let (dx, dy, dz) = (x - xj, y - yj, z - zj);
-            let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
-            let push = (p + pj) * (u * u * u);
+            let square = dx * dx + dy * dy + dz * dz;
+            let u = kernel.closeness(square);
+            let cube = u * u * u;
+            let push = (p + pj) * cube;
             pressure = [pressure[0] + push * dx, pressure[1] + push * dy, pressure[2] + push * dz];
             let pull = volume_j * u;
-            viscosity = [
-                viscosity[0] + pull * (vxj - vx),
-                viscosity[1] + pull * (vyj - vy),
-                viscosity[2] + pull * (vzj - vz),
-            ];
+            let (wx, wy, wz) = (vxj - vx, vyj - vy, vzj - vz);
+            viscosity = [viscosity[0] + pull * wx, viscosity[1] + pull * wy, viscosity[2] + pull * wz];
+            let pull = volume_j * cube * (wx * dx + wy * dy + wz * dz) / (square + softening);
+            central = [central[0] + pull * dx, central[1] + pull * dy, central[2] + pull * dz];
+            let beyond = pj - p + (weight[0] * dx + weight[1] * dy + weight[2] * dz);
+            roughness += lanes::select(p.min(pj).simd_gt(zero), cube * beyond, zero);
         }
-        let viscosity_scale = viscosity_scale * volume;
-        let sum = plus(plus(times(pressure, pressure_scale), times(viscosity, viscosity_scale)), gravity);
-        lanes::store_rows(acceleration, row, [sum[0], sum[1], sum[2], zero]);
+        let viscosity = times(viscosity, viscosity_scale * volume);
+        let central = times(central, central_scale * volume);
+        let sum = plus(plus(plus(times(pressure, pressure_scale), viscosity), central), gravity);
+        lanes::store_rows(acceleration, row, [sum[0], sum[1], sum[2], roughness * roughness_scale]);
     }
 }

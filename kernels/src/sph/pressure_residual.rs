@@ -1,7 +1,7 @@
 //! One round of a pressure solve: the compression that is left, and how far to go in the next round.
 //!
 //! ```text
-//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i)
+//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + e sum_j c_ij (dP_j - dP_i)
 //! ```
 //!
 //! The length of the next step is that of Barzilai and Borwein \[BB88\] in the norm of the diagonal, see
@@ -66,17 +66,21 @@ fn chunk<S: Simd>(
 ) {
     let origin = vector::splat(simd, params.origin().to_array());
     let square = params.step * params.step;
+    let roughness = params.fluid.roughness / square;
     for row in (0..left.len()).step_by(LANES) {
-        let [x, y, z, _] = lanes::load_rows(simd, predicted, first + row);
+        let [x, y, z, change] = lanes::load_rows(simd, predicted, first + row);
         let point = minus([x, y, z], origin);
         let [ax, ay, az, _] = lanes::load_rows(simd, correction, first + row);
         let [bx, by, bz, before] = lanes::load_rows(simd, factors, first + row);
-        let mut sum = lanes::splat(simd, 0.0);
+        let (mut sum, mut pair_sum) = (lanes::splat(simd, 0.0), lanes::splat(simd, 0.0));
         for (entry, c) in lists.group(row).iter().zip(&pairs[lists.range(row)]) {
             let [axj, ayj, azj, product] = lanes::gather_rows(simd, correction, entry);
-            // a_j . x_ij, with one row of the neighbour instead of two.
-            sum += lanes::load_array(simd, c) * (dot([axj, ayj, azj], point) - product);
+            // a_j . x_ij + e / h^2 dP_j, with one row of the neighbour instead of two.
+            let c = lanes::load_array(simd, c);
+            sum += c * (dot([axj, ayj, azj], point) - product);
+            pair_sum += c;
         }
-        lanes::store(left, row, before + (sum - dot([ax, ay, az], [bx, by, bz])) * square);
+        let own = dot([ax, ay, az], [bx, by, bz]) + pair_sum * change * roughness;
+        lanes::store(left, row, before + (sum - own) * square);
     }
 }

@@ -136,7 +136,7 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::FluidId => Content::Sets(vec![by_id.iter().map(|row| ids[*row]).collect()]),
         Column::FluidDensity => values(&fluid.density, &by_id),
         Column::FluidInterior => values(&fluid.interior, &by_id),
-        Column::FluidDragRate => values(&fluid.drag_rate, &by_id),
+        Column::FluidDragRate => planes(&fluid.drag_rate, &by_id),
         Column::FluidCells => boxes(&fluid.cells, &fluid.position, &by_id, ids, radii[0], brute),
         Column::ControlCells => {
             boxes(&controls.cells, &controls.position, &by_node, &controls.node, radii[1], brute)
@@ -162,6 +162,7 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::NodePredicted => rows(&nodes.predicted, &all_nodes),
         Column::NodeFree => rows(&nodes.free, &all_nodes),
         Column::NodeTarget => rows(&nodes.target, &all_nodes),
+        Column::NodePores => planes(&nodes.pores, &all_nodes),
         Column::NodeDrag => rows(&nodes.drag, &all_nodes),
         Column::NodeDragMoment => rows(&nodes.drag_moment, &all_nodes),
         Column::NodeReaction => rows(&nodes.reaction, &all_nodes),

@@ -1,0 +1,108 @@
+//! What compression does to the pores of a sponge, and drag with it.
+//!
+//! ```text
+//! J_a     = mean of V / V_0 over the tets of a node
+//! phi_a   = 1 - (1 - phi) / J_a                                   the volume of the material stays
+//! K_a     = K (phi_a / phi)^3 ((1 - phi) / (1 - phi_a))^2         [C37]
+//! beta_a  = mu phi_a / (rho K_a),   gamma_a = c_F phi_a^2 / sqrt(K_a)
+//! ```
+//!
+//! Water that moves through the pores with the velocity w beside the material is slowed at the rate `beta + gamma |w|`, by
+//! Darcy's law and Forchheimer's addition to it. Both are kept times J, so that their sums over nodes near a particle, with
+//! the volumes of the nodes at rest, are sums over the volume as it is now.
+
+use crate::{
+    columns::{Column::*, Columns, Nodes},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
+    params::{Params, SpongeParams},
+    pbd::stars::{StarGroup, StarShape},
+    vector::{Vec3x8, cross, dot, minus},
+};
+
+/// `couple::pores`.
+pub static KERNEL: Kernel = Kernel {
+    name: "couple::pores",
+    needs: &[Need::Fluid, Need::Sponge],
+    reads: &[NodePosition, NodeStars, NodeSponge],
+    writes: &[NodePores],
+    cpu,
+};
+
+/// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.
+pub(crate) const LEAST_POROSITY: f32 = 0.15;
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Nodes { position, sponge, stars, pores, .. } = &mut columns.nodes;
+    pores.clear();
+    pores.resize(position.len(), [0.0; 4]);
+    for color in 0..4 {
+        cpu.for_chunks(&mut pores[stars.rows(color)], |first, pores| {
+            let groups = stars.groups_from(color, first);
+            with_lanes!(cpu, simd => {
+                for (group, pores) in groups.iter().zip(pores.chunks_mut(LANES)) {
+                    let edges = group.own.map(|node| params.sponges[sponge[node as usize] as usize].edge);
+                    let places = (&position[..], lanes::load_array(simd, &edges));
+                    let [volume, count] = volumes(simd, group, &stars.shape, places);
+                    for (lane, pores) in pores.iter_mut().enumerate() {
+                        let sponge = &params.sponges[sponge[group.own[lane] as usize] as usize];
+                        *pores = of_node(sponge, volume[lane], count[lane]);
+                    }
+                }
+            });
+        });
+    }
+}
+
+/// Sum of V / V_0 over the tets of eight nodes, and the number of their tets.
+#[inline(always)]
+fn volumes<S: Simd>(
+    simd: S,
+    group: &StarGroup,
+    shape: &StarShape,
+    (position, edge): (&[[f32; 4]], f32x8<S>),
+) -> [[f32; LANES]; 2] {
+    let zero = lanes::splat(simd, 0.0);
+    let own = places(simd, position, &group.own);
+    let (mut sum, mut count) = (zero, zero);
+    let scale = lanes::splat(simd, 2.0) / (edge * edge * edge);
+    for (tet, [partner, q, r]) in shape.tets.iter().enumerate() {
+        let u = places(simd, position, &group.neighbors[*partner]);
+        let q = places(simd, position, &group.neighbors[*q]);
+        let r = places(simd, position, &group.neighbors[*r]);
+        let exists = lanes::load_array(simd, &group.tets[tet]);
+        let area = cross(minus(q, u), minus(r, u));
+        sum += dot(minus(u, own), area) * scale * exists;
+        count += exists;
+    }
+    [sum.to_array(), count.to_array()]
+}
+
+/// Where eight nodes are.
+#[inline(always)]
+fn places<S: Simd>(simd: S, position: &[[f32; 4]], rows: &[u32; LANES]) -> Vec3x8<S> {
+    let [x, y, z, _] = lanes::gather_rows(simd, position, rows);
+    [x, y, z]
+}
+
+/// J, beta J \[1/s\], gamma J \[1/m\] and porosity of a node.
+fn of_node(sponge: &SpongeParams, volume: f32, count: f32) -> [f32; 4] {
+    if !sponge.pores_close {
+        return [1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity];
+    }
+    // Where pores are as narrow as they get.
+    let least = (1.0 - sponge.porosity) / (1.0 - LEAST_POROSITY.min(sponge.porosity));
+    let ratio = volume / count;
+    let ratio = if ratio > least { ratio } else { least };
+    let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
+    let opening = porosity / sponge.porosity;
+    let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);
+    let permeability = opening * opening * opening * (crowding * crowding);
+    [
+        ratio,
+        sponge.drag_rate * opening / permeability * ratio,
+        sponge.inertial_drag * (opening * opening) / permeability.sqrt() * ratio,
+        porosity,
+    ]
+}

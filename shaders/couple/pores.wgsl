@@ -1,0 +1,59 @@
+// What compression does to the pores of a sponge; `pores.rs` has the formulas.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> stars: array<u32>;
+@group(0) @binding(5) var<storage, read_write> pores: array<vec4<f32>>;
+
+const LEAST_POROSITY: f32 = 0.15;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.node_rows) {
+        return;
+    }
+    let base = row * STAR;
+    let sponge = sponges.all[stars[base + SPONGE]];
+    if (sponge.pores_close == 0u) {
+        pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity);
+        return;
+    }
+    let tets = stars[base + TETS];
+    let x = position[row].xyz;
+    var rings = RINGS;
+    var sum = 0.0;
+    var count = 0.0;
+    for (var direction = 0u; direction < 6u; direction += 1u) {
+        let ring = rings[direction];
+        let u = position[stars[base + DIRECTION + direction]].xyz;
+        for (var k = 0u; k < 4u; k += 1u) {
+            if (((tets >> (4u * direction + k)) & 1u) == 0u) {
+                continue;
+            }
+            let r = position[stars[base + ring[k]]].xyz;
+            let q = position[stars[base + ring[(k + 1u) % 4u]]].xyz;
+            sum += dot(u - x, cross(q - u, r - u));
+            count += 1.0;
+        }
+    }
+    let volume = 2.0 * sum / (sponge.edge * sponge.edge * sponge.edge);
+    let least = (1.0 - sponge.porosity) / (1.0 - min(LEAST_POROSITY, sponge.porosity));
+    let ratio = max(volume / count, least);
+    let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
+    let opening = porosity / sponge.porosity;
+    let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);
+    let permeability = opening * opening * opening * (crowding * crowding);
+    pores[row] = vec4<f32>(
+        ratio,
+        sponge.drag_rate * opening / permeability * ratio,
+        sponge.inertial_drag * (opening * opening) / sqrt(permeability) * ratio,
+        porosity,
+    );
+}
