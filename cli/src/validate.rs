@@ -44,8 +44,8 @@ pub(crate) struct Arguments {
     /// Takes misses with a known cause for good
     #[arg(long)]
     allow_known: bool,
-    /// Runs cases at many settings, and writes a report of run time against error: about a quarter of an hour, or two
-    /// minutes with --quick
+    /// Runs cases at many settings, and writes a report of run time against error: ten minutes, or half a minute with
+    /// --quick
     #[arg(long, conflicts_with_all = ["list", "solver", "control", "allow_known", "json"])]
     work_precision: bool,
     /// Folder for that report

@@ -159,7 +159,7 @@ impl Vessel {
         (0..=self.cells.z)
             .map(|index| {
                 let place = DVec3::new(0.0, self.top(), f64::from(index) * self.edge - half).as_vec3();
-                let bar = Body::kinematic(&format!("bar{index}"), shape.clone(), place, vec![push.clone()]);
+                let bar = Body::kinematic(&format!("bar{index}"), shape.clone(), place, vec![push]);
                 Body { grip: true, ..bar }
             })
             .collect()
