@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
-use sorb::scene::{self, Scene, SceneError};
+use sorb::scene::{self, Quality, Scene, SceneError};
 
 /// A scene with changes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Choice {
     /// Name of a scene that comes with the program (see `sorb scenes`), or path of a .toml or .json file
     scene: String,
+    /// How much work goes into precision: fast, balanced (the defaults) or accurate; by default what the scene says.
+    /// `--set` comes after it
+    #[arg(long, value_name = "QUALITY")]
+    quality: Option<Quality>,
     /// Changes one key of the scene, as in `--set sponges.sponge.permeability=1e-10`; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -18,12 +22,15 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// Reads the scene, changes it, then refines it.
+    /// Reads the scene, gives it the quality, changes it, then refines it.
     ///
     /// # Errors
-    /// As [`named`], [`Scene::with_overrides`] and [`Scene::scaled`].
+    /// As [`named`], [`Scene::with_quality`], [`Scene::with_overrides`] and [`Scene::scaled`].
     pub(crate) fn load(&self) -> Result<Scene, SceneError> {
         let mut scene = named(&self.scene)?;
+        if let Some(quality) = self.quality {
+            scene = scene.with_quality(quality)?;
+        }
         if !self.set.is_empty() {
             scene = scene.with_overrides(self.set.iter().map(String::as_str))?;
         }

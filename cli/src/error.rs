@@ -22,6 +22,9 @@ pub(crate) enum CliError {
     /// A picture cannot be written.
     #[error(transparent)]
     Picture(#[from] RenderError),
+    /// A diagram cannot be drawn.
+    #[error("{0}")]
+    Drawing(String),
     /// A file or folder of the results cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {

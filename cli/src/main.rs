@@ -6,6 +6,7 @@ mod doctor;
 mod error;
 mod output;
 mod plan;
+mod precision;
 mod run;
 mod scenes;
 mod schema;

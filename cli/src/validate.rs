@@ -1,12 +1,12 @@
 //! `sorb validate`: how far the simulator is from analytic, experimental and converged references.
 
-use std::fmt::Write as _;
+use std::{fmt::Write as _, path::PathBuf};
 
 use serde_json::{Value, json};
-use sorb::{Offload, Options};
-use sorb_validation::{CASES, Case, Outcome, Setting, SolverKind, Solvers, Subject, Verdict};
+use sorb::{Offload, Options, scene::Quality};
+use sorb_validation::{CASES, Case, Outcome, Setting, SolverKind, Solvers, Stopwatch, Subject, Verdict};
 
-use crate::{error::CliError, output};
+use crate::{error::CliError, output, precision};
 
 /// Arguments of `sorb validate`.
 #[derive(Debug, clap::Args)]
@@ -26,6 +26,9 @@ pub(crate) struct Arguments {
     /// Coarser and shorter runs, two minutes in all
     #[arg(long)]
     quick: bool,
+    /// How much work goes into precision: fast, balanced or accurate; by default what the scenes of the cases say
+    #[arg(long, value_name = "QUALITY", conflicts_with = "work_precision")]
+    quality: Option<Quality>,
     /// Changes one key of every scene, as in `--set sponges[0].iterations=4`; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -41,6 +44,16 @@ pub(crate) struct Arguments {
     /// Takes misses with a known cause for good
     #[arg(long)]
     allow_known: bool,
+    /// Runs cases at many settings, and writes a report of run time against error: ten minutes, or half a minute with
+    /// --quick
+    #[arg(long, conflicts_with_all = ["list", "solver", "control", "allow_known", "json"])]
+    work_precision: bool,
+    /// Folder for that report
+    #[arg(long, value_name = "DIR", default_value = "out/precision", requires = "work_precision")]
+    out: PathBuf,
+    /// What that report says about the machine, beside its processor
+    #[arg(long, value_name = "TEXT", requires = "work_precision")]
+    note: Option<String>,
     /// Prints a JSON array instead of a table
     #[arg(long)]
     json: bool,
@@ -51,6 +64,14 @@ pub(crate) struct Arguments {
 /// # Errors
 /// A case or solver does not exist, or a case is out of its bounds.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
+    if arguments.work_precision {
+        return precision::run(&precision::Request {
+            cases: &arguments.cases,
+            setting: arguments.setting(Solvers::default()),
+            out: arguments.out.clone(),
+            note: arguments.note.as_deref(),
+        });
+    }
     let cases = chosen(&arguments.cases)?;
     if arguments.list {
         return list(&cases, arguments.json);
@@ -92,6 +113,8 @@ impl Arguments {
             fault: self.control,
             changes: self.set.clone(),
             options: Options { threads: self.threads, offload: self.backend.clone(), ..Options::default() },
+            quality: self.quality,
+            stopwatch: Stopwatch::default(),
         }
     }
 

@@ -48,6 +48,8 @@ mod overrides;
 #[cfg(feature = "serde")]
 mod presets;
 #[cfg(feature = "serde")]
+mod quality;
+#[cfg(feature = "serde")]
 mod schema;
 #[cfg(feature = "serde")]
 mod text;
@@ -64,6 +66,8 @@ pub use limits::{Limit, limits};
 pub use motion::Motion;
 #[cfg(feature = "serde")]
 pub use presets::{Preset, preset, presets};
+#[cfg(feature = "serde")]
+pub use quality::Quality;
 #[cfg(feature = "serde")]
 pub use schema::schema;
 pub use sponge::{Axis, Solver, Sponge, SpongeShape};

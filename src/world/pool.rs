@@ -22,7 +22,8 @@ fn pool(roughness: f32) -> (f64, f64) {
         world.advance_frame().unwrap_or_else(|error| panic!("{error}"));
     }
     let mut layers = vec![[0.0; 4]; LAYERS + 2];
-    let rows = world.particle_positions().iter().zip(world.particle_velocities()).zip(world.particle_pressures());
+    let rows =
+        world.particle_positions().iter().zip(world.particle_velocities()).zip(world.particle_pressures());
     for ((x, v), pressure) in rows {
         // Walls carry a share of their own.
         if x[0].abs() < side - 1.5 * spacing && x[2].abs() < side - 1.5 * spacing {

@@ -100,6 +100,11 @@ pub(crate) fn line(world: &World) -> String {
 
 /// What always holds of a healthy state. Gives the first thing that does not.
 pub(crate) fn unhealthy(world: &World, particles: usize) -> Option<String> {
+    unhealthy_in(world, world.scene().domain, particles)
+}
+
+/// The same, in a container that need not be that of the scene.
+pub(crate) fn unhealthy_in(world: &World, domain: Domain, particles: usize) -> Option<String> {
     let mut ids = world.particle_ids().to_vec();
     ids.sort_unstable();
     if ids.len() != particles || ids.iter().enumerate().any(|(index, id)| *id as usize != index) {
@@ -113,7 +118,7 @@ pub(crate) fn unhealthy(world: &World, particles: usize) -> Option<String> {
     if let Some(bad) = points().chain(speeds()).find(|row| !row.iter().all(|value| value.is_finite())) {
         return Some(format!("not finite: {bad:?}"));
     }
-    if let Domain::Box { minimum, maximum } = world.scene().domain {
+    if let Domain::Box { minimum, maximum } = domain {
         // Walls hold particles to the bit, nodes to the softness of one contact pass.
         let slack = Vec3::splat(1e-3);
         let inside = |row: &[f32; 4], slack: Vec3| {

@@ -1,8 +1,16 @@
 //! What a case is, what it is told, and what it gives.
 
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
 use sorb::{
-    Options, StepError, World, WorldError,
-    scene::{Scene, SceneError},
+    FrameReport, Options, StepError, World, WorldError,
+    scene::{Quality, Scene, SceneError},
 };
 
 use crate::solver::Solvers;
@@ -46,10 +54,30 @@ pub struct Setting {
     pub quick: bool,
     /// Plants the case's fault, which must push it out of its bounds.
     pub fault: bool,
-    /// Changes of keys of every scene, as `KEY=VALUE`; see [`Scene::set`].
+    /// Quality of every scene; what it says itself where there is none.
+    pub quality: Option<Quality>,
+    /// Changes of keys of every scene, after the quality, as `KEY=VALUE`; see [`Scene::set`].
     pub changes: Vec<String>,
     /// What to run on.
     pub options: Options,
+    /// Real time in the simulator, of all worlds of the case together; clones share it.
+    pub stopwatch: Stopwatch,
+}
+
+/// Adds up real time.
+#[derive(Clone, Debug, Default)]
+pub struct Stopwatch(Arc<AtomicU64>);
+
+impl Stopwatch {
+    /// Time so far \[s\].
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.0.load(Ordering::Relaxed) as f64 * 1e-9
+    }
+
+    fn add(&self, time: Duration) {
+        self.0.fetch_add(u64::try_from(time.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);
+    }
 }
 
 impl Setting {
@@ -82,16 +110,30 @@ impl Setting {
         (f64::from(full) * self.resolution).round().max(2.0) as u32
     }
 
-    /// The world of a scene, with the solvers and changes of the setting.
+    /// The world of a scene, with the solvers, the quality and the changes of the setting.
     ///
     /// # Errors
     /// The scene is bad, or the machine lacks what the options ask for.
     pub fn world(&self, scene: &Scene) -> Result<World, Failure> {
         let mut scene = self.solvers.applied(scene)?;
+        if let Some(quality) = self.quality {
+            scene = scene.with_quality(quality)?;
+        }
         if !self.changes.is_empty() {
             scene = scene.with_overrides(self.changes.iter().map(String::as_str))?;
         }
         Ok(World::with_options(&scene, &self.options)?)
+    }
+
+    /// A frame of a world, on the stopwatch.
+    ///
+    /// # Errors
+    /// As [`World::advance_frame`].
+    pub fn advance(&self, world: &mut World) -> Result<FrameReport, StepError> {
+        let start = Instant::now();
+        let report = world.advance_frame();
+        self.stopwatch.add(start.elapsed());
+        report
     }
 }
 

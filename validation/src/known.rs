@@ -42,6 +42,9 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     miss("permeameter", "sbd", "", NO_SOLID),
     miss("permeameter", "wcsph", "", NO_SOLID),
     miss("permeameter", "dfsph+vbd", "", COARSE),
+    miss("consolidation", "dfsph+vbd", "pressure", JUMPS),
+    miss("consolidation", "sbd", "", NO_SOLID),
+    miss("consolidation", "wcsph", "", NO_SOLID),
     miss(
         "momentum",
         "",
@@ -68,6 +71,8 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
 const ONE_SWEEP: &str = "one sweep a step from no impulse, with damping, is softer than the material";
 const FEW_SWEEPS: &str = "four sweeps a step are few for a bar that is long: 0.5 % too soft";
 const IMPLICIT: &str = "implicit steps of the length that the scene allows damp a vibration";
+const JUMPS: &str =
+    "drag comes after the pressure: what it leaves of the volume makes the pressure of the next steps jump";
 const COARSE: &str =
     "faces of the sponge are as wide as the smoothing of suction and material: 1.2 to 1.5 edges";
 const PITS: &str = "lattice of 4 cells: its faces are pits";

@@ -58,6 +58,7 @@ caught! {
     washburn
     imbibition
     permeameter
+    consolidation
     momentum
     squeeze
     rest

@@ -151,3 +151,22 @@ fn digests_do_not_depend_on_threads_and_simd_level() {
     assert_eq!(first, digest(&["--threads", "1", "--simd", "auto"]));
     assert_ne!(first, digest(&["--set", "sponges.sponge.permeability=2e-9"]), "the digest sees the state");
 }
+
+#[test]
+fn a_quality_is_another_state_but_for_the_defaults() {
+    let scratch = Scratch::new("qualities");
+    let digest = |more: &[&str]| {
+        let answer = run(&scratch, "standing", &[&["--frames", "5", "--json"], more].concat());
+        assert_eq!(answer.code, Some(0), "{answer:?}");
+        answer.json()["digest"].as_str().expect("text").to_owned()
+    };
+    let defaults = digest(&[]);
+    assert_eq!(defaults, digest(&["--quality", "balanced"]));
+    let fast = digest(&["--quality", "fast"]);
+    assert_ne!(defaults, fast);
+    // What is set by hand comes after the quality.
+    let back = ["time.courant=0.25", "fluid.support=2", "sponges[0].iterations=4"];
+    let by_hand: Vec<&str> = back.iter().flat_map(|change| ["--set", *change]).collect();
+    assert_eq!(defaults, digest(&[&["--quality", "fast"], &by_hand[..]].concat()));
+    assert_ne!(fast, digest(&["--quality", "accurate"]));
+}

@@ -29,6 +29,11 @@ fn a_bad_change_names_the_key() {
 }
 
 #[test]
+fn an_unknown_quality_names_those_there_are() {
+    refused(&["water", "--quality", "fats"], &["fats", "did you mean `fast`", "balanced, accurate"]);
+}
+
+#[test]
 fn an_unknown_or_missing_simd_level_names_those_there_are() {
     refused(&["water", "--simd", "avx3"], &["avx3", "fallback", "auto"]);
     let missing = if cfg!(target_arch = "x86_64") { "neon" } else { "sse2" };

@@ -1,6 +1,6 @@
 //! `sorb validate`: what it lists, refuses, prints and exits with.
 
-use crate::support::sorb;
+use crate::support::{Scratch, sorb};
 
 #[test]
 fn it_lists_its_cases_with_their_references() {
@@ -36,4 +36,37 @@ fn a_row_for_every_figure_and_1_if_one_is_out_of_bounds() {
     let control = sorb(&["validate", "torsion", "--quick", "--control"]);
     assert_eq!((control.code, control.err.as_str()), (Some(0), ""), "{control:?}");
     assert!(control.out.contains("MISS"), "{control:?}");
+}
+
+#[test]
+fn run_time_against_error_leaves_a_report_a_table_and_a_diagram() {
+    let scratch = Scratch::new("work_precision");
+    let out = scratch.path("report");
+    let quick =
+        ["validate", "--work-precision", "dam_break", "--quick", "--resolution", "0.5", "--out", &out];
+    let answer = sorb(&quick);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""), "{answer:?}");
+    let table = scratch.read("report/precision.csv");
+    let runs = table.lines().count() - 1;
+    assert!(runs > 4 && table.lines().skip(1).all(|line| line.starts_with("dam_break,")), "{table}");
+    // A heading, a line for every run, and where the report is.
+    assert_eq!(answer.out.lines().count(), runs + 2, "{}", answer.out);
+    assert!(scratch.read("report/dam_break.svg").starts_with("<svg"));
+    let page = scratch.read("report/index.html");
+    assert!(page.contains("sorb validate --work-precision dam_break") && page.contains("</html>"));
+    assert!(!page.contains("hydrostatic"));
+}
+
+#[test]
+fn run_time_against_error_refuses_what_it_cannot_sweep() {
+    for (arguments, word) in [
+        (&["validate", "--work-precision", "patch"][..], "imbibition"),
+        (&["validate", "--work-precision", "--control"], "cannot be used with"),
+        (&["validate", "--out", "somewhere"], "--work-precision"),
+        (&["validate", "--quality", "acurate"], "did you mean `accurate`"),
+    ] {
+        let answer = sorb(arguments);
+        assert_eq!(answer.code, Some(2), "{answer:?}");
+        assert!(answer.err.contains(word), "{answer:?}");
+    }
 }

@@ -226,7 +226,8 @@ impl<'a, S: Simd> Star<'a, S> {
         for (tet, corners) in self.shape.tets.iter().enumerate() {
             let (f, g) = (self.columns(corners, x), before.columns(corners, old));
             let df = [minus(f[0], g[0]), minus(f[1], g[1]), minus(f[2], g[2])];
-            let [dd, ee, ff] = [rate(&g, &df, (0, 0), scale), rate(&g, &df, (1, 1), scale), rate(&g, &df, (2, 2), scale)];
+            let [dd, ee, ff] =
+                [rate(&g, &df, (0, 0), scale), rate(&g, &df, (1, 1), scale), rate(&g, &df, (2, 2), scale)];
             let trace = (dd + ee + ff) * lame;
             // n = -(1, 0, 1): only the first and the last row of the stress.
             let de = rate(&g, &df, (0, 1), scale) * twice;

@@ -208,8 +208,8 @@ pub fn pressure_moments(smoothing: &Wendland, spacing: f32) -> (f64, f64) {
     let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
     // Along x, by all pairs and by those that do not reach through a wall across y.
     let (mut full, mut beside) = (0.0, 0.0);
-    for (x, y, z) in
-        (-reach..=reach).flat_map(|x| (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))
+    for (x, y, z) in (-reach..=reach)
+        .flat_map(|x| (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))
     {
         let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
         let part = volume * Wendland::gradient_f64(radius, distance) * (f64::from(x) * d).powi(2);

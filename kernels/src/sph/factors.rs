@@ -46,7 +46,16 @@ const LEAST_DIAGONAL: f32 = 1.0 / 3.0;
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let Fluid {
-        position, predicted, neighbors, boundary, acceleration, factors, pairs, pressure_rows, pressure_solve, ..
+        position,
+        predicted,
+        neighbors,
+        boundary,
+        acceleration,
+        factors,
+        pairs,
+        pressure_rows,
+        pressure_solve,
+        ..
     } = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
     factors.resize(predicted.len(), [0.0; 4]);

@@ -8,6 +8,8 @@ mod overrides;
 #[cfg(feature = "serde")]
 mod presets;
 #[cfg(feature = "serde")]
+mod quality;
+#[cfg(feature = "serde")]
 mod schema;
 #[cfg(feature = "serde")]
 mod text;

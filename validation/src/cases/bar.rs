@@ -78,11 +78,16 @@ impl Bar {
 /// Positions of the nodes, mean over the last part of a run \[m\].
 ///
 /// What still swings about the equilibrium drops out of the mean but for its square.
-pub(super) fn settled(world: &mut World, seconds: f64, mean_over: f64) -> Result<Vec<DVec3>, Failure> {
+pub(super) fn settled(
+    setting: &Setting,
+    world: &mut World,
+    seconds: f64,
+    mean_over: f64,
+) -> Result<Vec<DVec3>, Failure> {
     let mut sum = vec![DVec3::ZERO; world.node_positions().len()];
     let mut count = 0.0;
     while world.clock().time < seconds - 1e-6 {
-        world.advance_frame()?;
+        setting.advance(world)?;
         if world.clock().time > seconds - mean_over {
             sum.iter_mut().zip(nodes(world)).for_each(|(sum, position)| *sum += position);
             count += 1.0;

@@ -47,7 +47,7 @@ fn sag(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let bar = bar(setting, -9.81 / f64::from(bar(setting, 0.0).cells.y));
     let mut world = setting.world(&bar.scene("cantilever", setting)?)?;
     let seconds = setting.pick(10.0, 5.0);
-    let measured = settled(&mut world, seconds, 0.2 * seconds)?;
+    let measured = settled(setting, &mut world, seconds, 0.2 * seconds)?;
     let (model, reference, figure) = against_elements(&world, setting, &FOAM, &measured, |_| [false; 3])?;
     let end = bar.section(&world, bar.size().x);
     let tip = |positions: &[DVec3]| mean(end.iter().map(|node| model.rest[*node].y - positions[*node].y));
@@ -70,7 +70,7 @@ fn swing(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let periods = 6.0;
     let mut samples = Vec::new();
     while world.clock().time < periods / expected {
-        world.advance_frame()?;
+        setting.advance(&mut world)?;
         let height = mean(end.iter().map(|node| f64::from(world.node_positions()[*node][1])));
         samples.push((world.clock().time, height));
     }

@@ -49,7 +49,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut samples = vec![Sample::of(&world, spacing)];
     let mut density = 0.0_f64;
     while world.clock().time < 0.28 {
-        world.advance_frame()?;
+        setting.advance(&mut world)?;
         samples.push(Sample::of(&world, spacing));
         density = density.max(world.measures().mean_density_error);
     }

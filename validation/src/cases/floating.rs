@@ -53,7 +53,7 @@ fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, F
     let seconds = setting.pick(2.5, 1.5);
     let (mut heave, mut drafts) = (Vec::new(), Vec::new());
     while world.clock().time < seconds {
-        world.advance_frame()?;
+        setting.advance(&mut world)?;
         let bottom = f64::from(world.bodies()[0].state.position.y) - 0.5 * HEIGHT;
         heave.push((world.clock().time, bottom));
         if world.clock().time > seconds - 0.5 {

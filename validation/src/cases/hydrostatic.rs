@@ -34,7 +34,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut world = setting.world(&scene(setting, spacing))?;
     let seconds = setting.pick(3, 1);
     for _ in 0..seconds * 60 {
-        world.advance_frame()?;
+        setting.advance(&mut world)?;
     }
     let measures = world.measures();
     let speed = (GRAVITY * DEPTH).sqrt();

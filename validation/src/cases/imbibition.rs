@@ -60,7 +60,7 @@ fn washburn(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         let seconds = driven.time(way);
         let mut curve = Vec::new();
         while world.clock().time < seconds {
-            world.advance_frame()?;
+            setting.advance(&mut world)?;
             curve.push((world.clock().time, duct.surface(&world)? - start));
         }
         let reference: Vec<_> =
@@ -108,7 +108,7 @@ fn bath(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         let seconds = setting.pick(2.5, 1.0);
         let mut curve = Vec::new();
         while world.clock().time < seconds {
-            world.advance_frame()?;
+            setting.advance(&mut world)?;
             curve.push((world.clock().time, rise(&world, cells, edge)?));
         }
         let side = (f64::from(cells.x) - 1.0 / 3.0) * edge;

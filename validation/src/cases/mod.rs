@@ -2,6 +2,7 @@
 
 mod bar;
 mod cantilever;
+mod consolidation;
 mod dam_break;
 mod duct;
 mod floating;
@@ -30,6 +31,7 @@ pub const CASES: &[&Case] = &[
     &imbibition::WASHBURN,
     &imbibition::BATH,
     &permeameter::CASE,
+    &consolidation::CASE,
     &momentum::CASE,
     &squeeze::CASE,
     &rest::CASE,

@@ -44,7 +44,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     if inside.is_empty() {
         return Err(Failure::Nothing("no node is free".to_owned()));
     }
-    let measured = settled(&mut world, MOVES + 1.0, 0.1)?;
+    let measured = settled(setting, &mut world, MOVES + 1.0, 0.1)?;
     let centre = DVec3::ZERO;
     let off = |node: &usize| {
         let affine = rest[*node] + gradient() * (rest[*node] - centre);

@@ -51,7 +51,7 @@ fn measured(setting: &Setting, duct: &Duct, permeability: f64) -> Result<f64, Fa
     let mut points = Vec::new();
     let limit = 3.0 / decay;
     while world.clock().time < limit {
-        world.advance_frame()?;
+        setting.advance(&mut world)?;
         let above = world.particle_positions().iter().filter(|row| f64::from(row[1]) > top).count();
         let head = particle * above as f64;
         if head < 0.25 * HEAD {

@@ -37,7 +37,7 @@ fn rest(setting: &Setting, name: &str) -> Result<Figure, Failure> {
     let seconds = setting.planted(last_motion(&scene) + setting.pick(10.0, 3.0), 0.3);
     let (mut before, mut end) = (0.0_f64, 0.0_f64);
     while world.clock().time < seconds {
-        let report = world.advance_frame()?;
+        let report = setting.advance(&mut world)?;
         let speed = f64::from(report.maximum_speed);
         if world.clock().time > seconds - 0.5 {
             end = end.max(speed);

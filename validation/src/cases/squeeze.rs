@@ -37,9 +37,9 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 
 fn squeeze(setting: &Setting, permeability: f64) -> Result<Vec<Figure>, Failure> {
     let mut world = setting.world(&scene(setting, permeability))?;
-    let start = run_to(&mut world, PLATE.1[0])?;
-    let pressed = run_to(&mut world, PLATE.1[1])?;
-    let released = run_to(&mut world, PLATE.1[2] + 0.6)?;
+    let start = run_to(setting, &mut world, PLATE.1[0])?;
+    let pressed = run_to(setting, &mut world, PLATE.1[1])?;
+    let released = run_to(setting, &mut world, PLATE.1[2] + 0.6)?;
     let solid = (1.0 - POROSITY) * rest_volume(&world);
     let water = |measures: &Measures| measures.absorbed_mass / 1000.0;
     let lost = water(&start) - water(&pressed);
@@ -65,9 +65,9 @@ fn squeeze(setting: &Setting, permeability: f64) -> Result<Vec<Figure>, Failure>
     ])
 }
 
-fn run_to(world: &mut World, seconds: f32) -> Result<Measures, Failure> {
+fn run_to(setting: &Setting, world: &mut World, seconds: f32) -> Result<Measures, Failure> {
     while world.clock().time < f64::from(seconds) - 1e-6 {
-        world.advance_frame()?;
+        setting.advance(world)?;
     }
     Ok(world.measures())
 }

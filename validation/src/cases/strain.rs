@@ -71,7 +71,7 @@ fn run(setting: &Setting, kind: Kind) -> Result<Vec<Figure>, Failure> {
     let length = setting.pick(3, 4) * thickness;
     let bar = Bar { cells: UVec3::new(length, thickness, thickness), gravity: 0.0, material };
     let mut world = setting.world(&scene(&bar, setting, kind)?)?;
-    let measured = settled(&mut world, MOVES + setting.pick(2.5, 1.5), 0.5)?;
+    let measured = settled(setting, &mut world, MOVES + setting.pick(2.5, 1.5), 0.5)?;
     let size = bar.size();
     let at_wall = |value: f64, high: f64| value < 1e-6 || value > high - 1e-6;
     let hold = |rest: DVec3| match kind {

@@ -4,3 +4,4 @@ pub mod beam;
 pub mod darcy;
 pub mod floating;
 pub mod martin_moyce;
+pub mod terzaghi;

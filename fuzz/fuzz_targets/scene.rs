@@ -1,0 +1,26 @@
+//! Any text as a scene file, TOML and JSON: an error with a key or a line, or a scene that is written and read back as it is.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use sorb::scene::{Scene, SceneError};
+
+fuzz_target!(|text: &str| {
+    for parse in [Scene::from_toml, Scene::from_json] {
+        match parse(text, "fuzz") {
+            Ok(scene) => {
+                assert!(scene.problems().is_empty());
+                let again = scene.to_toml().and_then(|text| Scene::from_toml(&text, "again"));
+                assert_eq!(again.as_ref().ok(), Some(&scene));
+                let again = scene.to_json().and_then(|text| Scene::from_json(&text, "again"));
+                assert_eq!(again.as_ref().ok(), Some(&scene));
+            }
+            Err(SceneError::Syntax { line, .. }) => assert!(line >= 1),
+            Err(SceneError::Invalid { problems, .. }) => {
+                // `scene` is the key of what only serde has noticed.
+                assert!(problems.iter().all(|problem| !problem.key.is_empty() && problem.key != "scene"));
+                assert!(!problems.is_empty());
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
+});

@@ -1,0 +1,281 @@
+//! States that no host can write, put into the columns: what is not finite, nodes and particles at one place, tets inside out, and
+//! steps far beyond what is stable.
+
+use super::*;
+use crate::scene::preset;
+
+/// A scene of the library in which everything touches, after some steps.
+fn busy(name: &str) -> World {
+    let scene = preset(name).and_then(|scene| scene.scaled(0.4));
+    let mut scene = scene.unwrap_or_else(|error| panic!("{name}: {error}"));
+    if let Some(body) = scene.bodies.first_mut() {
+        (body.position.y, body.linear_velocity.y) = (0.111, -1.0);
+    }
+    let mut world = World::new(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    for _ in 0..6 {
+        world.step().unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+    world
+}
+
+/// Where a number is put: its name, and the way to it.
+type Place = (&'static str, fn(&mut Columns) -> &mut f32);
+
+/// All numbers of the state of the middle particle, the middle node and the first body.
+const PLACES: &[Place] = &[
+    ("fluid.position.x", |columns| &mut particle(columns).0[0]),
+    ("fluid.position.y", |columns| &mut particle(columns).0[1]),
+    ("fluid.position.z", |columns| &mut particle(columns).0[2]),
+    ("fluid.position.w", |columns| &mut particle(columns).0[3]),
+    ("fluid.velocity.x", |columns| &mut particle(columns).1[0]),
+    ("fluid.velocity.y", |columns| &mut particle(columns).1[1]),
+    ("fluid.velocity.z", |columns| &mut particle(columns).1[2]),
+    ("fluid.velocity.w", |columns| &mut particle(columns).1[3]),
+    ("nodes.position.x", |columns| &mut node(columns).0[0]),
+    ("nodes.position.y", |columns| &mut node(columns).0[1]),
+    ("nodes.position.z", |columns| &mut node(columns).0[2]),
+    ("nodes.position.w", |columns| &mut node(columns).0[3]),
+    ("nodes.velocity.x", |columns| &mut node(columns).1[0]),
+    ("nodes.velocity.y", |columns| &mut node(columns).1[1]),
+    ("nodes.velocity.z", |columns| &mut node(columns).1[2]),
+    ("nodes.velocity.w", |columns| &mut node(columns).1[3]),
+    ("bodies.states.position", |columns| &mut columns.bodies.states.0[0].state.position.y),
+    ("bodies.states.rotation", |columns| &mut columns.bodies.states.0[0].state.rotation.x),
+    ("bodies.states.linear_velocity", |columns| &mut columns.bodies.states.0[0].state.linear_velocity.y),
+    ("bodies.states.angular_velocity", |columns| &mut columns.bodies.states.0[0].state.angular_velocity.y),
+];
+
+/// What no step notices, and whether it is gone afterwards.
+///
+/// The engine owns the bodies: their column is written anew in every step, and contact with what is nowhere is none.
+const SILENT: &[&str] = &[
+    "bodies.states.position = NaN: gone",
+    "bodies.states.position = inf: gone",
+    "bodies.states.position = -inf: gone",
+    "bodies.states.linear_velocity = NaN: gone",
+    "bodies.states.linear_velocity = inf: gone",
+    "bodies.states.linear_velocity = -inf: gone",
+];
+
+fn particle(columns: &mut Columns) -> (&mut [f32; 4], &mut [f32; 4]) {
+    let row = columns.rows.fluid / 2;
+    (&mut columns.fluid.position[row], &mut columns.fluid.velocity[row])
+}
+
+fn node(columns: &mut Columns) -> (&mut [f32; 4], &mut [f32; 4]) {
+    let row = columns.rows.nodes / 2;
+    (&mut columns.nodes.position[row], &mut columns.nodes.velocity[row])
+}
+
+fn is_finite(world: &World) -> bool {
+    let rows = || world.particle_positions().iter().chain(world.node_positions());
+    let speeds = world.particle_velocities().iter().chain(world.node_velocities());
+    rows().chain(speeds).all(|row| row.iter().all(|value| value.is_finite()))
+}
+
+#[test]
+fn what_is_not_finite_is_an_error_in_the_step_and_the_last_one() {
+    let healthy = busy("ball_drop");
+    let mut silent = Vec::new();
+    for (name, place) in PLACES {
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let mut world = healthy.clone();
+            *place(&mut world.stores.host) = value;
+            let Err(error) = world.step() else {
+                // The fault was overwritten before it was read, or it is still there.
+                let finite = is_finite(&world);
+                silent.push(format!("{name} = {value}: {}", if finite { "gone" } else { "kept" }));
+                continue;
+            };
+            let text = error.to_string();
+            let is_named = match &error {
+                StepError::Particle { id, .. } => (*id as usize) < world.columns().rows.fluid,
+                StepError::Node { node, .. } => (*node as usize) < world.columns().rows.nodes,
+                StepError::Rigid(text) => text.contains("ball"),
+                _ => false,
+            };
+            assert!(is_named, "{name} = {value}: {text}");
+            let digest = world.digest();
+            assert_eq!(world.step(), Err(error.clone()), "{name} = {value}");
+            assert_eq!(world.advance_frame().map(|_| ()), Err(error), "{name} = {value}");
+            assert_eq!(world.digest(), digest, "{name} = {value}: a failed world must stay as it is");
+        }
+    }
+    let silent: Vec<&str> = silent.iter().map(String::as_str).collect();
+    assert_eq!(silent, SILENT);
+    // The control: without a fault.
+    assert!(healthy.clone().step().is_ok());
+}
+
+/// Runs for some time, and says what is wrong on the way or in the end.
+fn survives(world: &mut World, seconds: f64) -> Result<(), String> {
+    let end = world.clock().time + seconds;
+    let particles = world.particle_ids().len();
+    let start = world.clock().steps;
+    while world.clock().time < end {
+        world.step().map_err(|error| error.to_string())?;
+        if world.clock().steps > start + 100_000 {
+            return Err("more than 100 000 steps".to_owned());
+        }
+    }
+    let mut ids = world.particle_ids().to_vec();
+    ids.sort_unstable();
+    let all = ids.len() == particles && ids.iter().zip(0..).all(|(id, index)| *id == index);
+    match (is_finite(world), all, outside(world)) {
+        (true, true, 0) => Ok(()),
+        (finite, all, outside) => {
+            Err(format!("finite: {finite}, all particles: {all}, outside of the box: {outside}"))
+        }
+    }
+}
+
+/// Number of particles and nodes outside of the box, by a millimetre for nodes.
+fn outside(world: &World) -> usize {
+    let crate::scene::Domain::Box { minimum, maximum } = world.scene().domain else { return 0 };
+    let count = |rows: &[[f32; 4]], slack: f32| {
+        let out = |row: &&[f32; 4]| {
+            let point = Vec3::new(row[0], row[1], row[2]);
+            point.cmplt(minimum - slack).any() || point.cmpgt(maximum + slack).any()
+        };
+        rows.iter().filter(out).count()
+    };
+    count(world.particle_positions(), 0.0) + count(world.node_positions(), 1e-3)
+}
+
+fn volume(world: &World) -> f64 {
+    world.measures().sponge_volume / world.lattice().rest_volume(0).unwrap_or(f64::NAN)
+}
+
+/// Moves the nodes of a sponge about the centre of its box.
+fn moved(world: &mut World, to: impl Fn(Vec3) -> Vec3) {
+    let count = world.stores.host.rows.nodes;
+    let nodes = &mut world.stores.host.nodes.position[..count];
+    let centre = nodes.iter().map(|row| Vec3::new(row[0], row[1], row[2])).sum::<Vec3>() / count as f32;
+    for row in nodes {
+        let point = centre + to(Vec3::new(row[0], row[1], row[2]) - centre);
+        (row[0], row[1], row[2]) = (point.x, point.y, point.z);
+    }
+}
+
+/// Where a deformation takes a node, from the centre of the sponge \[m\].
+type Deformation = fn(Vec3) -> Vec3;
+
+/// Deformations that no material bears.
+const DEFORMATIONS: &[(&str, Deformation)] = &[
+    ("all nodes at one place", |_| Vec3::ZERO),
+    ("all nodes in a plane", |x| Vec3::new(x.x, 0.0, x.z)),
+    ("all nodes on a line", |x| Vec3::new(x.x, 0.0, 0.0)),
+    ("mirrored: every tet is inside out", |x| Vec3::new(-x.x, x.y, x.z)),
+    ("turned inside out about its centre", |x| -x),
+    ("half of its size", |x| 0.5 * x),
+    ("a third of its size", |x| 0.33 * x),
+    ("a tenth of its size", |x| 0.1 * x),
+    ("every node somewhere", |x| {
+        // No pattern that the lattice knows.
+        let scramble = |value: f32| libm::sinf(12_345.6 * value) * 0.03;
+        Vec3::new(scramble(x.y + 0.3 * x.z), scramble(x.z + 0.3 * x.x), scramble(x.x + 0.3 * x.y))
+    }),
+];
+
+/// What sponges do not recover from; known faults.
+///
+/// The energy of the material, `mu (|F|^2 - 3) / 2 + lambda (J - alpha)^2 / 2`, has a minimum at a point: with a Poisson's ratio of
+/// 0.2 it draws what is smaller than 0.39 of its size in every direction together. A third is saved by its free surface.
+/// Why water keeps a sponge on a line is not known.
+const NOT_RECOVERED: &[(&str, &str)] = &[
+    ("dry", "all nodes at one place"),
+    ("dry", "a tenth of its size"),
+    ("ball_drop", "all nodes on a line"),
+];
+
+#[test]
+#[expect(clippy::print_stdout, reason = "the table of the documentation")]
+fn sponges_recover_from_all_but_a_point() {
+    let mut lost = Vec::new();
+    for name in ["dry", "ball_drop"] {
+        for (deformation, to) in DEFORMATIONS {
+            let mut world = busy(name);
+            moved(&mut world, to);
+            let deformed = volume(&world);
+            let start = world.clock().time;
+            let mut result = Ok(());
+            let mut recovered = None;
+            while result.is_ok() && world.clock().time < start + 1.5 {
+                result = survives(&mut world, 1.0 / 60.0);
+                let back = (0.9..1.1).contains(&volume(&world));
+                recovered = if back { recovered.or(Some(world.clock().time - start)) } else { None };
+            }
+            println!(
+                "| {name}: {deformation} | {deformed:.3} | {:.3} | {recovered:?} | {result:?} |",
+                volume(&world)
+            );
+            assert_eq!(result, Ok(()), "{name}: {deformation}");
+            if recovered.is_none() {
+                lost.push((name, *deformation));
+            }
+        }
+    }
+    assert_eq!(lost, NOT_RECOVERED);
+}
+
+/// Pairs of particles that are nearer than a thousandth of the spacing.
+fn together(world: &World) -> usize {
+    let (rows, limit) = (world.particle_positions(), 1e-3 * world.params().fluid.spacing);
+    let near = |a: &[f32; 4], b: &[f32; 4]| (0..3).all(|axis| (a[axis] - b[axis]).abs() < limit);
+    rows.iter().enumerate().map(|(row, a)| rows[..row].iter().filter(|b| near(a, b)).count()).sum()
+}
+
+#[test]
+#[expect(clippy::print_stdout, reason = "the table of the documentation")]
+fn particles_at_one_place_are_driven_apart() {
+    for (name, share) in
+        [("two at every place", 2), ("ten at every place", 10), ("all at one place", 100_000)]
+    {
+        let mut world = busy("water");
+        let count = world.stores.host.rows.fluid;
+        let positions = &mut world.stores.host.fluid.position;
+        for row in 0..count {
+            let [x, y, z, _] = positions[row / share * share];
+            (positions[row][0], positions[row][1], positions[row][2]) = (x, y, z);
+        }
+        assert!(together(&world) > 0, "{name}");
+        assert_eq!(survives(&mut world, 0.5), Ok(()), "{name}");
+        let m = world.measures();
+        println!(
+            "| {name} | {} steps | {:.2} m/s | mean density error {:.3} | {} pairs at one place |",
+            world.clock().steps,
+            m.maximum_speed,
+            m.mean_density_error,
+            together(&world)
+        );
+        assert!(m.maximum_speed < 5.0, "{name}: {} m/s", m.maximum_speed);
+        assert_eq!(together(&world), 0, "{name}");
+    }
+}
+
+#[test]
+#[expect(clippy::print_stdout, reason = "the table of the documentation")]
+fn steps_far_beyond_what_is_stable() {
+    for name in ["ball_drop", "dry", "water"] {
+        for factor in [10.0, 100.0] {
+            let mut world = busy(name);
+            let (mut fastest, mut most) = (0.0_f32, 0);
+            for _ in 0..50 {
+                let long = factor * world.steps.stable(&world.params, &world.clock).0;
+                world.params.step = long;
+                world.clock.steps += 1;
+                world.clock.time += f64::from(long);
+                let result = world.run_phases(long).and_then(|()| world.check());
+                assert_eq!(result, Ok(()), "{name} x{factor}");
+                fastest = fastest.max(world.clock.fluid_speed).max(world.clock.node_speed);
+                most = most.max(outside(&world));
+            }
+            assert!(is_finite(&world), "{name} x{factor}");
+            // Afterwards the world goes on by itself, or says what it would need.
+            let after = survives(&mut world, 0.5);
+            println!("| {name} | {factor} | {fastest:.1} m/s | {most} outside | {after:?} |");
+            let is_refused = after.as_ref().is_err_and(|text| text.contains("asks for a step of"));
+            assert!(after.is_ok() || (factor > 10.0 && is_refused), "{name} x{factor}: {after:?}");
+        }
+    }
+}

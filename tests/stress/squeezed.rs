@@ -1,0 +1,89 @@
+//! Sponges that are crushed, turned inside out, or in each other.
+
+use sorb::{
+    glam::{UVec3, Vec3},
+    scene::{Body, Motion, Scene, ShapeKind, Sponge, SpongeShape},
+};
+
+use crate::{
+    case::{Case, Check, table},
+    pick,
+    scenes::{WAVE, crushed, dry, pool, wet},
+};
+
+/// Faults of water that has nowhere to go.
+const FLUNG: &[(Check, &str)] = &[(
+    Check::Speed,
+    "water that is shut in where less than a spacing is left is flung out, and nodes with it",
+)];
+
+#[test]
+fn crushed_flat_and_to_a_point_and_let_go() {
+    let mut cases = Vec::new();
+    let (flat, rod, point) = (&[1_usize][..], &[0, 2][..], &[0, 1, 2][..]);
+    for (scene, name, axes, gap, known) in [
+        (dry(), "flat, to a twelfth", flat, 0.004, &[][..]),
+        (dry(), "to a rod, a third by a third", rod, 0.016, &[]),
+        (dry(), "to a point, a quarter in every direction", point, 0.012, &[]),
+        (wet(), "flat, to a twelfth", flat, 0.004, FLUNG),
+        (wet(), "to a rod, a third by a third", rod, 0.016, &[]),
+        // A minute: hundreds of neighbours each.
+        (wet(), "to a point, a quarter in every direction", point, 0.012, FLUNG),
+    ]
+    .into_iter()
+    .take(pick(5, 6))
+    {
+        let name = format!("{}: crushed {name}, and let go", scene.name);
+        let case = Case::new(name, crushed(scene, axes, gap), 1.2);
+        cases.push(Case { fastest: WAVE, recovery: Some((0.5, 0.5)), known, ..case });
+    }
+    table(cases);
+}
+
+/// One end of a sponge is moved through the other, which inverts every tet between them, and back.
+fn inside_out(mut scene: Scene) -> Scene {
+    scene.gravity = Vec3::ZERO;
+    scene.sponges[0].position.y = 0.03;
+    let shape = ShapeKind::Cuboid { half_extents: Vec3::new(0.002, 0.03, 0.03) };
+    let place = |x: f32| Vec3::new(x, 0.054, 0.0);
+    let way =
+        |sign: f32, start: f32| Motion::Linear { velocity: Vec3::X * 0.3 * sign, start, end: start + 0.2 };
+    let left = Body { grip: true, ..Body::fixed("left", shape.clone(), place(-0.024)) };
+    let right = Body::kinematic("right", shape, place(0.024), vec![way(-1.0, 0.0), way(1.0, 0.3)]);
+    scene.with_body(left).with_body(Body { grip: true, ..right })
+}
+
+#[test]
+fn turned_inside_out_and_back() {
+    let case = |scene: Scene, known| {
+        let name = format!("{}: turned inside out and back", scene.name);
+        let case = Case::new(name, inside_out(scene), 1.2);
+        // The work of grips is not counted.
+        Case { fastest: WAVE, excess: None, recovery: Some((0.5, 0.5)), known, ..case }
+    };
+    table([case(dry(), &[]), case(wet(), FLUNG)]);
+}
+
+/// Two full balls of sponge at the same place: nodes and particles lie on top of each other, to the bit or nearly.
+fn doubled(offset: f32) -> Scene {
+    let mut scene = pool();
+    for (name, shift) in [("one", 0.0), ("other", offset)] {
+        scene = scene.with_sponge(Sponge {
+            edge: 0.012,
+            cells: UVec3::splat(4),
+            shape: SpongeShape::Ellipsoid,
+            saturation: 1.0,
+            ..Sponge::new(name, Vec3::new(-0.024 + shift, 0.03, -0.024))
+        });
+    }
+    scene
+}
+
+#[test]
+fn particles_and_nodes_on_top_of_each_other() {
+    let case = |name: &str, offset: f32| {
+        // Water that is twice as dense as it can be is driven apart: that energy is in no budget.
+        Case { excess: None, ..Case::new(format!("doubled: {name}"), doubled(offset), pick(0.3, 2.0)) }
+    };
+    table([case("two full sponges in each other", 0.0), case("the same, 1 um apart", 1e-6)]);
+}

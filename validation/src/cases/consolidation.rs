@@ -1,0 +1,199 @@
+//! A soaked sponge is pushed down in a vessel, and settles as the water leaves it.
+
+use sorb::{
+    World,
+    glam::{DVec3, UVec3, Vec3},
+    scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
+};
+
+use super::duct::surface;
+use crate::{
+    case::{Case, Failure, Figure, Setting, Subject},
+    norms::{mean, root_mean_square},
+    references::terzaghi::Layer,
+    solver::Material,
+};
+
+/// Consolidation.
+pub(super) static CASE: Case = Case {
+    name: "consolidation",
+    title: "bars push the top of a soaked sponge in a vessel down and hold it, at two permeabilities",
+    source: "dw/dt = (K M / mu) d2w/dz2 (Terzaghi; stress relaxation as by Mow et al. 1980)",
+    subject: Subject::Coupling,
+    control: "three times the permeability",
+    run,
+};
+
+/// Cells across the vessel and along the sponge at full resolution, and their edge there \[m\].
+const CELLS: (u32, u32) = (4, 6);
+const EDGE: f64 = 0.01;
+/// Depth of the water above the sponge \[m\].
+const ABOVE: f64 = 0.04;
+/// As heavy as water, so that it rests without strain.
+const MATERIAL: Material = Material { young: 2e4, poisson: 0.2, density: (1.0 - POROSITY) * WATER };
+const POROSITY: f64 = 0.9;
+const GRAVITY: f64 = 9.81;
+const WATER: f64 = 1000.0;
+/// Time in which water fills the pits at the walls \[s\].
+const FILLS: f64 = 4.0;
+/// Strain in the end, and the share of the duration over which the top moves.
+const STRAIN: f64 = 0.04;
+const MOVES: f64 = 0.3;
+
+/// Sizes at a resolution.
+struct Vessel {
+    cells: UVec3,
+    edge: f64,
+    layer: Layer,
+}
+
+fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
+    let mut figures = Vec::new();
+    for permeability in setting.pick(&[3e-10, 1e-10][..], &[3e-10][..]) {
+        let vessel = Vessel::new(setting, *permeability);
+        figures.extend(vessel.settle(setting)?);
+    }
+    Ok(figures)
+}
+
+impl Vessel {
+    fn new(setting: &Setting, permeability: f64) -> Self {
+        let across = (setting.count(CELLS.0) / 2 * 2).max(2);
+        let edge = EDGE * f64::from(CELLS.0) / f64::from(across);
+        let along = across * CELLS.1 / CELLS.0;
+        let still = Layer {
+            // The pits of the ends are a sixth of an edge deep on average.
+            height: (f64::from(along) - 1.0 / 3.0) * edge,
+            modulus: MATERIAL.confined(),
+            permeability,
+            viscosity: 1e-3,
+            speed: 0.0,
+            moves: 0.0,
+        };
+        let moves = MOVES * still.duration();
+        let layer = Layer { speed: STRAIN * still.height / moves, moves, ..still };
+        Self { cells: UVec3::new(across, along, across), edge, layer }
+    }
+
+    fn top(&self) -> f64 {
+        f64::from(self.cells.y) * self.edge
+    }
+
+    fn half(&self) -> f64 {
+        0.5 * f64::from(self.cells.x) * self.edge
+    }
+
+    fn settle(&self, setting: &Setting) -> Result<[Figure; 2], Failure> {
+        let mut world = setting.world(&self.scene(setting)?)?;
+        while world.clock().time < FILLS {
+            setting.advance(&mut world)?;
+        }
+        let (at_rest, end) = (self.middle(&world), FILLS + self.layer.duration());
+        let (mut sunk, mut pressure) = (Vec::new(), Vec::new());
+        while world.clock().time < end {
+            setting.advance(&mut world)?;
+            let time = world.clock().time - FILLS;
+            let expected = self.layer.sunk(0.5 * self.layer.height, time);
+            sunk.push((at_rest - self.middle(&world), expected));
+            pressure.push(self.pressure(&world, time)?);
+        }
+        let at = format!("at K {:.0e}", self.layer.permeability);
+        Ok([
+            Figure::error(
+                format!("way down at half height {at}, L2 over the largest"),
+                "1",
+                error(&sunk),
+                0.03,
+            ),
+            Figure::error(
+                format!("pressure above the floor {at}, L2 over the largest"),
+                "1",
+                error(&pressure),
+                0.05,
+            ),
+        ])
+    }
+
+    fn scene(&self, setting: &Setting) -> Result<Scene, Failure> {
+        let (half, top) = (self.half(), self.top());
+        let corner = |y: f64| DVec3::new(-half, y, -half).as_vec3();
+        let sponge = Sponge {
+            edge: self.edge as f32,
+            cells: self.cells,
+            permeability: (setting.planted(1.0, 3.0) * self.layer.permeability) as f32,
+            porosity: POROSITY as f32,
+            entry_pressure: 0.0,
+            saturation: 1.0,
+            friction: 0.0,
+            ..Sponge::new("layer", corner(0.0))
+        };
+        let across = DVec3::new(half, top + ABOVE, half).as_vec3();
+        let fluid = Fluid {
+            spacing: (0.5 * self.edge) as f32,
+            viscosity: self.layer.viscosity as f32,
+            blocks: vec![FluidBlock::new(corner(top), across)],
+            ..Fluid::default()
+        };
+        let scene = Scene {
+            gravity: Vec3::new(0.0, -GRAVITY as f32, 0.0),
+            time: Time { frame_rate: 200.0, ..Time::default() },
+            ..Scene::new("vessel")
+        }
+        .in_box(corner(0.0), across + Vec3::Y * ABOVE as f32)
+        .with_fluid(fluid)
+        .with_sponge(sponge);
+        let scene = self.bars().into_iter().fold(scene, Scene::with_body);
+        Ok(MATERIAL.applied(&scene, &setting.solvers)?)
+    }
+
+    /// Thin bars that hold the topmost nodes and let water pass.
+    fn bars(&self) -> Vec<Body> {
+        let (half, thick) = (self.half(), 0.05 * self.edge);
+        let shape = ShapeKind::Cuboid { half_extents: DVec3::new(half, thick, thick).as_vec3() };
+        let start = FILLS as f32;
+        let push = Motion::Linear {
+            velocity: Vec3::NEG_Y * self.layer.speed as f32,
+            start,
+            end: start + self.layer.moves as f32,
+        };
+        (0..=self.cells.z)
+            .map(|index| {
+                let place = DVec3::new(0.0, self.top(), f64::from(index) * self.edge - half).as_vec3();
+                let bar = Body::kinematic(&format!("bar{index}"), shape.clone(), place, vec![push]);
+                Body { grip: true, ..bar }
+            })
+            .collect()
+    }
+
+    /// Mean height of the nodes about half the height of the sponge \[m\].
+    fn middle(&self, world: &World) -> f64 {
+        let (rest, half) = (&world.lattice().position, 0.5 * self.top());
+        let nodes = rest.iter().zip(world.node_positions());
+        let near = nodes.filter(|(rest, _)| (f64::from(rest[1]) - half).abs() < 0.6 * self.edge);
+        mean(near.map(|(_, now)| f64::from(now[1])))
+    }
+
+    /// What the water bears beyond its own weight, mean over the second layer of cells away from the walls, and what
+    /// it should \[Pa\].
+    ///
+    /// The solver's pressure is that of a unit of volume of water and material, and the material has its share.
+    fn pressure(&self, world: &World, time: f64) -> Result<(f64, f64), Failure> {
+        let level = surface(world, self.half() - self.edge)?;
+        let inner = self.half() - self.edge;
+        let (mut measured, mut expected) = (Vec::new(), Vec::new());
+        for (row, pressure) in world.particle_positions().iter().zip(world.particle_pressures()) {
+            let [x, y, z] = [0, 1, 2].map(|axis| f64::from(row[axis]));
+            if x.abs() < inner && z.abs() < inner && (self.edge..2.0 * self.edge).contains(&y) {
+                measured.push(POROSITY * f64::from(pressure) - WATER * GRAVITY * (level - y));
+                expected.push(self.layer.pressure(y, time));
+            }
+        }
+        Ok((mean(measured), mean(expected)))
+    }
+}
+
+/// Root mean square of measured less expected, over the largest that is expected.
+fn error(curve: &[(f64, f64)]) -> f64 {
+    let largest = curve.iter().map(|point| point.1).fold(0.0, f64::max);
+    root_mean_square(curve.iter().map(|(measured, expected)| measured - expected)) / largest
+}

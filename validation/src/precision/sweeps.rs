@@ -1,0 +1,138 @@
+//! What is swept: everything that a user would turn to trade precision for time, less what changed nothing.
+
+/// A case, and what to run of it.
+pub(super) struct Sweep {
+    pub(super) case: &'static str,
+    /// What its error is, in words.
+    pub(super) error: &'static str,
+    /// Beginnings of the names of the figures that count, and what to divide their errors by.
+    pub(super) figures: &'static [(&'static str, f64)],
+    /// Solvers, resolutions, and changes of keys (joined by blanks) to try with them.
+    pub(super) variants: &'static [(&'static str, &'static [f64], &'static [&'static str])],
+}
+
+impl Sweep {
+    /// Solver, resolution and changes of all runs; the quick form has the two coarsest resolutions of every solver
+    /// with two changes.
+    pub(super) fn runs(&self, quick: bool) -> Vec<(&'static str, f64, &'static str)> {
+        let (most_resolutions, most_changes) = if quick { (2, 2) } else { (usize::MAX, usize::MAX) };
+        let mut runs: Vec<(&'static str, f64, &'static str)> = Vec::new();
+        for (solver, resolutions, changes) in self.variants {
+            if quick && runs.iter().any(|run| run.0 == *solver) {
+                continue;
+            }
+            for resolution in resolutions.iter().take(most_resolutions) {
+                for changes in changes.iter().take(most_changes) {
+                    runs.push((*solver, *resolution, *changes));
+                }
+            }
+        }
+        runs
+    }
+}
+
+/// The qualities, of which no change is one where scenes keep the defaults.
+const QUALITIES: &[&str] = &["", "quality=fast", "quality=accurate"];
+
+/// Water in a sponge where runs are short: sweeps of the elastic solve, shorter steps, tolerance of the pressure solve,
+/// and reach of its kernel.
+const POROUS: &[&str] = &[
+    "",
+    "quality=fast",
+    "quality=accurate",
+    "sponges[0].iterations=1",
+    "sponges[0].iterations=8",
+    "time.maximum_step=0.001",
+    "fluid.density_tolerance=1e-2",
+    "fluid.support=1.8",
+];
+
+/// The same where runs are long.
+const POROUS_FINE: &[&str] = &["", "quality=fast"];
+
+/// All sweeps.
+pub(super) const SWEEPS: &[Sweep] = &[
+    Sweep {
+        case: "hydrostatic",
+        error: "pressure of the particles, L2 over that at the floor",
+        figures: &[("pressure of particles", 1.0)],
+        variants: &[
+            ("dfsph", &[0.5, 1.0], QUALITIES),
+            ("dfsph", &[1.5], &[""]),
+            (
+                "dfsph",
+                &[1.0],
+                &[
+                    "time.maximum_step=0.008",
+                    "time.maximum_step=0.001",
+                    "fluid.density_tolerance=1e-4",
+                    "fluid.support=1.8",
+                    "fluid.rounds=20",
+                ],
+            ),
+            ("wcsph", &[0.5, 1.0], &["", "time.courant=0.4"]),
+        ],
+    },
+    Sweep {
+        case: "dam_break",
+        error: "front and height at the wall against the film, root mean square over the way of the front and the first \
+                height",
+        figures: &[("front Z", 3.11), ("height at the wall", 1.0)],
+        variants: &[
+            ("dfsph", &[0.5, 1.0, 1.5, 2.0], QUALITIES),
+            (
+                "dfsph",
+                &[1.0],
+                &[
+                    "time.courant=0.5",
+                    "time.maximum_step=0.001",
+                    "fluid.density_tolerance=1e-2",
+                    "fluid.density_tolerance=1e-4",
+                    "fluid.support=1.8",
+                    "fluid.support=2.5",
+                ],
+            ),
+            ("wcsph", &[0.5, 1.0, 1.5], &["", "time.courant=0.4"]),
+        ],
+    },
+    Sweep {
+        case: "cantilever",
+        error: "root mean square of two: nodes against converged elements on the same lattice (the solver), and sag of \
+                the tip against Timoshenko (solver and lattice)",
+        figures: &[("displacement against converged", 1.0), ("sag of the tip against Timoshenko", 1.0)],
+        variants: &[
+            ("vbd", &[0.5, 0.75], QUALITIES),
+            ("vbd", &[1.0], &["", "quality=accurate", "sponges[0].iterations=1"]),
+            ("vbd", &[0.5], &["time.maximum_step=0.0005"]),
+            ("xpbd_neo_hookean", &[0.5], &[""]),
+            ("sbd", &[0.5], &[""]),
+        ],
+    },
+    Sweep {
+        case: "permeameter",
+        error: "permeability that the falling head shows, root mean square over three permeabilities",
+        figures: &[("permeability for", 1.0)],
+        variants: &[
+            ("dfsph+vbd", &[1.0], POROUS),
+            ("dfsph+vbd", &[1.5], POROUS_FINE),
+            ("dfsph+vbd", &[2.0], &[""]),
+            ("wcsph+sbd", &[1.0], &[""]),
+        ],
+    },
+    Sweep {
+        case: "imbibition",
+        error: "height of the front, L2 over the largest, root mean square over three permeabilities",
+        figures: &[("front at", 1.0)],
+        variants: &[
+            ("dfsph+vbd", &[1.0], POROUS),
+            ("dfsph+vbd", &[1.5], POROUS_FINE),
+            ("wcsph+sbd", &[1.0], &[""]),
+        ],
+    },
+    Sweep {
+        case: "consolidation",
+        error: "way down of the middle of the sponge, L2 over the largest, root mean square over two permeabilities",
+        figures: &[("way down", 1.0)],
+        variants: &[("dfsph+vbd", &[1.0], POROUS), ("dfsph+vbd", &[1.5], &[""])],
+    },
+];
