@@ -79,7 +79,6 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::pressure::KERNEL,
     &sph::forces::KERNEL,
     &sph::surface_tension::KERNEL,
-    &sph::cohesion::KERNEL,
     &sph::repulsion::KERNEL,
     &sph::boundary_pressure::KERNEL,
     &sph::kick::KERNEL,

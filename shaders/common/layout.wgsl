@@ -45,10 +45,6 @@ struct Params {
     central_viscosity: f32,
     // Compression that is allowed for the roughness of the pressure, over that roughness.
     roughness: f32,
-    cohesion: f32,
-    unused_0: f32,
-    unused_1: f32,
-    unused_2: f32,
     smoothing: Smoothing,
     coupling: Smoothing,
     // Of the volume of the sponges' material.

@@ -8,6 +8,7 @@
 @group(0) @binding(5) var<storage, read_write> pores: array<vec4<f32>>;
 
 const LEAST_POROSITY: f32 = 0.15;
+const LARGEST: f32 = 10.0;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -45,7 +46,7 @@ fn main(
     }
     let volume = 2.0 * sum / (sponge.edge * sponge.edge * sponge.edge);
     let least = (1.0 - sponge.porosity) / (1.0 - min(LEAST_POROSITY, sponge.porosity));
-    let ratio = max(volume / count, least);
+    let ratio = clamp(volume / count, least, LARGEST);
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);

@@ -78,7 +78,6 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::boundary: body surface profile;
     sph::boundary_pressure: body surface wrench profile;
     sph::boundary_reaction: body surface wrench profile;
-    sph::cohesion: smoothing;
     sph::density: smoothing;
     sph::factors: smoothing sums;
     sph::forces: smoothing;

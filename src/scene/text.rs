@@ -93,8 +93,12 @@ impl Scene {
             let defect = Defect::Version { supported: VERSION };
             return Err(invalid(vec![Problem::new("version", value_text(version), defect)]));
         }
-        let problems = check(&value);
+        let mut problems = check(&value);
         if !problems.is_empty() {
+            // What is wrong with the whole file has no key.
+            for problem in problems.iter_mut().filter(|problem| problem.key.is_empty()) {
+                "scene".clone_into(&mut problem.key);
+            }
             return Err(invalid(problems));
         }
         let scene: Self = value.try_into().map_err(|error: toml::de::Error| {

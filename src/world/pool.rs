@@ -8,7 +8,7 @@ use crate::scene::{Fluid, FluidBlock, Scene};
 /// Particles over the depth of the pool, and along its sides.
 const LAYERS: usize = 10;
 
-/// Scatter of the pressure within layers over the pressure at the floor, and the fastest layer on average \[m/s\], after two
+/// Scatter of the pressure within layers over the pressure at the floor, and the fastest layer on average \[m/s\], after four
 /// seconds.
 fn pool(roughness: f32) -> (f64, f64) {
     let spacing = 0.02;
@@ -18,7 +18,7 @@ fn pool(roughness: f32) -> (f64, f64) {
     let scene = Scene::new("pool").in_box(low, high + Vec3::new(0.0, 0.1, 0.0)).with_fluid(fluid);
     let mut world = World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
     world.params.fluid.roughness *= roughness;
-    for _ in 0..120 {
+    for _ in 0..240 {
         world.advance_frame().unwrap_or_else(|error| panic!("{error}"));
     }
     let mut layers = vec![[0.0; 4]; LAYERS + 2];
@@ -43,8 +43,8 @@ fn pool(roughness: f32) -> (f64, f64) {
 #[test]
 fn a_pool_at_rest_has_smooth_pressures_and_does_not_move() {
     let (scatter, speed) = pool(1.0);
-    assert!(scatter < 0.02 && speed < 2e-3, "scatter {scatter:.1e}, {speed:.1e} m/s");
+    assert!(scatter < 0.04 && speed < 4e-3, "scatter {scatter:.1e}, {speed:.1e} m/s");
     // The control: without the compact Laplacian in the solve.
     let (scatter, _) = pool(0.0);
-    assert!(scatter > 0.04, "scatter {scatter:.1e}");
+    assert!(scatter > 0.12, "scatter {scatter:.1e}");
 }

@@ -31,7 +31,9 @@ fn bodies_a_thousand_times_as_heavy_as_each_other() {
             let known = if is_known { LIGHT } else { &[] };
             let name = format!("{}: balls of {name}", scene.name);
             let scene = scene.clone().with_body(ball("low", 0.061, low)).with_body(ball("high", 0.087, high));
-            cases.push(Case { fastest: WAVE, known, ..Case::new(name, scene, pick(0.3, 2.0)) });
+            // Water between a sponge and a ball that weighs a hundred times as much is pressed out fast.
+            let fastest = if scene.fluid.is_some() { 2.0 * WAVE } else { WAVE };
+            cases.push(Case { fastest, known, ..Case::new(name, scene, pick(0.3, 2.0)) });
         }
     }
     table(cases);
@@ -58,7 +60,7 @@ fn a_hundred_metres_a_second() {
         if let Some(sponge) = scene.sponges.first_mut() {
             (sponge.position.y, sponge.velocity) = (0.05, Vec3::NEG_Y * 100.0);
             let name = format!("{}: a sponge at 100 m/s", scene.name);
-            cases.push(Case { fastest: 300.0, ..Case::new(name, scene, pick(0.03, 0.5)) });
+            cases.push(Case { fastest: 400.0, ..Case::new(name, scene, pick(0.03, 0.5)) });
         }
     }
     table(cases);
@@ -103,7 +105,8 @@ fn a_thin_wall_sweeps_through() {
         for (thickness, speed) in [(2.0, 1.0), (2.0, 3.0), (2.0, 10.0), (12.0, 1.0), (12.0, 3.0)] {
             for step in &steps {
                 let is_thin = thickness < 5.0 && speed > if scene.fluid.is_some() { 2.0 } else { 5.0 };
-                let lets_through = *step > 1.0 || is_thin;
+                let is_slow = scene.name == "pool" && thickness > 5.0 && speed < 2.0;
+                let lets_through = (*step > 1.0 && !is_slow) || is_thin;
                 let known: &[_] = if lets_through { &[(Check::Figure, TUNNEL)] } else { &[] };
                 let name =
                     format!("{}: a wall of {thickness} mm at {speed} m/s, steps up to {step} ms", scene.name);
@@ -167,7 +170,7 @@ const CUPS: &[(f32, f32, Faults)] = &[
     (0.5, 0.1, &[(Check::Speed, TUNNEL)]),
     (2.0, 4.0, &[(Check::Speed, TUNNEL), (Check::Energy, TUNNEL), (Check::Figure, TUNNEL)]),
     (2.0, 0.1, &[(Check::Speed, TUNNEL), (Check::Figure, TUNNEL)]),
-    (5.0, 4.0, &[(Check::Energy, TUNNEL), (Check::Figure, TUNNEL)]),
+    (5.0, 4.0, &[(Check::Speed, TUNNEL), (Check::Energy, TUNNEL), (Check::Figure, TUNNEL)]),
     (5.0, 0.1, &[(Check::Speed, TUNNEL), (Check::Figure, TUNNEL)]),
 ];
 

@@ -18,6 +18,12 @@ fn with(scene: &Scene, keys: &[String]) -> Scene {
     common::with(scene, &keys)
 }
 
+/// Steps of 7 ms and more, which the pressure allows before there is any.
+const HEAVES: &[(Check, &str)] = &[(
+    Check::Energy,
+    "a pool without pressure heaves by 6 % of its energy when its first step is ten times too long",
+)];
+
 #[test]
 fn steps_that_are_ten_and_a_hundred_times_too_long() {
     let mut cases = Vec::new();
@@ -33,7 +39,9 @@ fn steps_that_are_ten_and_a_hundred_times_too_long() {
                 format!("time.courant={courant:?}"),
                 format!("time.frame_rate={rate}"),
             ];
-            cases.push(Case::new(format!("{}: {name}", scene.name), with(&scene, &keys), pick(0.3, 3.0)));
+            let known = if scene.name == "pool" && step > 0.03 { HEAVES } else { &[] };
+            let case = Case::new(format!("{}: {name}", scene.name), with(&scene, &keys), pick(0.3, 3.0));
+            cases.push(Case { known, ..case });
         }
     }
     table(cases);
@@ -49,7 +57,8 @@ fn stiffness_over_seven_decades() {
                 with_ball(with(&scene, &[format!("sponges[0].young_modulus=1e{exponent}")]), 500.0, 0.0);
             // Stiff sponges take short steps.
             let seconds = if exponent > 5 { pick(0.05, 0.5) } else { pick(0.3, 2.0) };
-            cases.push(Case::new(name, scene, seconds));
+            // The softest ones are beaten flat, and water leaves them fast.
+            cases.push(Case { fastest: 4.0, ..Case::new(name, scene, seconds) });
         }
     }
     table(cases);
@@ -78,7 +87,7 @@ fn permeability_over_nine_decades() {
         let scene = with(&wet(), &[format!("sponges[0].permeability=1e{exponent}")]);
         let name = format!("wet: permeability 1e{exponent} m^2");
         let case = Case::new(name, with_ball(scene, 2000.0, 0.0), pick(0.3, 2.0));
-        cases.push(Case { known: if long() && exponent > -8 { SOFT_FLOOR } else { &[] }, ..case });
+        cases.push(Case { known: if exponent > -8 { SOFT_FLOOR } else { &[] }, ..case });
     }
     table(cases);
 }

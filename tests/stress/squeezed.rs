@@ -26,7 +26,7 @@ fn crushed_flat_and_to_a_point_and_let_go() {
         (dry(), "to a rod, a third by a third", rod, 0.016, &[]),
         (dry(), "to a point, a quarter in every direction", point, 0.012, &[]),
         (wet(), "flat, to a twelfth", flat, 0.004, FLUNG),
-        (wet(), "to a rod, a third by a third", rod, 0.016, &[]),
+        (wet(), "to a rod, a third by a third", rod, 0.016, FLUNG),
         // A minute: hundreds of neighbours each.
         (wet(), "to a point, a quarter in every direction", point, 0.012, FLUNG),
     ]

@@ -33,6 +33,9 @@ pub static KERNEL: Kernel = Kernel {
 /// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.
 pub(crate) const LEAST_POROSITY: f32 = 0.15;
 
+/// Volume over that at rest beyond which pores do not get wider: the material would vanish, and drag with it.
+pub(crate) const LARGEST: f32 = 10.0;
+
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes { position, sponge, stars, pores, .. } = &mut columns.nodes;
     pores.clear();
@@ -95,6 +98,7 @@ fn of_node(sponge: &SpongeParams, volume: f32, count: f32) -> [f32; 4] {
     let least = (1.0 - sponge.porosity) / (1.0 - LEAST_POROSITY.min(sponge.porosity));
     let ratio = volume / count;
     let ratio = if ratio > least { ratio } else { least };
+    let ratio = if ratio < LARGEST { ratio } else { LARGEST };
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);

@@ -12,7 +12,6 @@ use crate::{
         stars::{NEIGHBORS, Stars},
     },
     smoothing::Wendland,
-    sph::cohesion,
 };
 
 /// Most sponges that fit the uniform buffer.
@@ -93,8 +92,7 @@ pub(super) fn params(
         .floats(&[limits.courant, limits.edge.min(f32::MAX), limits.minimum, limits.constant])
         .words(&[limits.constant_bound])
         .words(&capacities)
-        .floats(&[fluid.central_viscosity, fluid.roughness])
-        .floats(&[cohesion::strength(fluid), 0.0, 0.0, 0.0]);
+        .floats(&[fluid.central_viscosity, fluid.roughness]);
     let solid = params.solid.unwrap_or(params.coupling);
     for smoothing in [&fluid.smoothing, &params.coupling, &solid] {
         bytes.floats(&smoothing_factors(smoothing));

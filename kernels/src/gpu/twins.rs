@@ -211,7 +211,6 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
     ("sph::pressure", &[pass("sph::pressure", Rows::Fluid, FLUID)]),
     ("sph::forces", &[pass("sph::forces", Rows::Fluid, FLUID)]),
     ("sph::surface_tension", &[pass("sph::surface_tension", Rows::Fluid, FLUID)]),
-    ("sph::cohesion", &[pass("sph::cohesion", Rows::Fluid, FLUID)]),
     ("sph::repulsion", &[pass("sph::repulsion", Rows::Fluid, FLUID)]),
     ("sph::kick", &[pass("sph::kick", Rows::Fluid, FLUID)]),
     ("sph::boundary_pressure", &[pass("sph::boundary_pressure", Rows::Fluid, FLUID)]),

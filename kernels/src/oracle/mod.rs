@@ -30,7 +30,6 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::density" => sph::density,
         "sph::pressure" => sph::pressure,
         "sph::forces" => sph::forces,
-        "sph::cohesion" => sph::cohesion,
         "sph::surface_tension" => sph::surface_tension,
         "sph::repulsion" => sph::repulsion,
         "sph::boundary_pressure" => incompressible::boundary_pressure,

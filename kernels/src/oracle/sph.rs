@@ -93,22 +93,6 @@ pub(super) fn surface_tension(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn cohesion(params: &Params, columns: &mut Columns) {
-    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
-    let x = vectors(&fluid.position, count);
-    let radius = f64::from(params.fluid.smoothing.support_radius);
-    let strength = f64::from(crate::sph::cohesion::strength(&params.fluid));
-    for i in 0..count {
-        let mut sum = DVec3::ZERO;
-        for j in (0..count).filter(|j| *j != i) {
-            let offset = x[i] - x[j];
-            sum += crate::sph::cohesion::shape_f64(radius, offset.length()) * offset.normalize_or_zero();
-        }
-        let old = fluid.acceleration[i];
-        fluid.acceleration[i] = row(vector(old) - strength * sum, f64::from(old[3]));
-    }
-}
-
 pub(super) fn repulsion(params: &Params, columns: &mut Columns) {
     let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
     let parameters = &params.fluid;

@@ -5,7 +5,6 @@ pub mod advect;
 pub mod boundary;
 pub mod boundary_pressure;
 pub mod boundary_reaction;
-pub mod cohesion;
 pub mod density;
 pub mod factors;
 pub mod forces;

@@ -22,7 +22,7 @@ const THRESHOLD: f32 = 1.0;
 /// `sph::surface_tension`.
 pub static KERNEL: Kernel = Kernel {
     name: "sph::surface_tension",
-    needs: &[Need::Fluid, Need::SurfaceTension, Need::EquationOfState],
+    needs: &[Need::Fluid, Need::SurfaceTension],
     reads: &[FluidPosition, FluidVelocity, FluidNeighbors, FluidAcceleration],
     writes: &[FluidAcceleration],
     cpu,

@@ -35,7 +35,6 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::zero_distance",
     "sph::forces",
     "sph::surface_tension",
-    "sph::cohesion",
     "sph::repulsion",
     "sph::boundary_pressure",
     "couple::suction",

@@ -58,6 +58,8 @@ fn wrong_types_are_named_by_their_key() {
     }
     let text = message("version = 1\nfluid = [1]\n");
     assert!(text.ends_with("`fluid` = [1] is an array; expected a table"), "{text}");
+    let text = Scene::from_json("7", "bath.json").expect_err("no table").to_string();
+    assert!(text.starts_with("bath.json: `scene` = 7 is a"), "{text}");
 }
 
 #[test]
