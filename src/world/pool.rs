@@ -6,7 +6,7 @@ use super::World;
 use crate::scene::{Fluid, FluidBlock, Scene};
 
 /// Particles over the depth of the pool, and along its sides.
-const LAYERS: usize = 10;
+const LAYERS: usize = 20;
 
 /// Scatter of the pressure within layers over the pressure at the floor, and the fastest layer on average \[m/s\], after four
 /// seconds.
@@ -43,8 +43,8 @@ fn pool(roughness: f32) -> (f64, f64) {
 #[test]
 fn a_pool_at_rest_has_smooth_pressures_and_does_not_move() {
     let (scatter, speed) = pool(1.0);
-    assert!(scatter < 0.04 && speed < 4e-3, "scatter {scatter:.1e}, {speed:.1e} m/s");
+    assert!(scatter < 0.03 && speed < 4e-3, "scatter {scatter:.1e}, {speed:.1e} m/s");
     // The control: without the compact Laplacian in the solve.
     let (scatter, _) = pool(0.0);
-    assert!(scatter > 0.12, "scatter {scatter:.1e}");
+    assert!(scatter > 0.06, "scatter {scatter:.1e}");
 }
