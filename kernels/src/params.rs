@@ -132,7 +132,7 @@ pub struct SpongeParams {
     pub porosity: f32,
     /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
     pub drag_rate: f32,
-    /// The same per speed of the water beside the sponge, c_F phi^2 / sqrt(K) \[1/m\].
+    /// The same per speed of the water beside the sponge, `c_F phi^2 / sqrt(K)` \[1/m\].
     pub inertial_drag: f32,
     /// Whether porosity and permeability fall as the sponge is compressed.
     pub pores_close: bool,

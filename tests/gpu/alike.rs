@@ -131,7 +131,7 @@ const SOFT: &[&str] = &[
 ];
 
 /// A tank that the water fills: a puddle of a few particles in a wide one drifts to and fro for ever.
-const NARROW: &[&str] = &["fluid.sound_speed=4", "fluid.viscosity=0.5", "domain.maximum=[-0.1, 0.2, 0.06]"];
+const NARROW: &[&str] = &["fluid.sound_speed=4", "fluid.viscosity=2.0", "domain.maximum=[-0.1, 0.2, 0.06]"];
 
 /// The ball touches the sponge and stays there: bodies that never move do not stop a batch of steps.
 const FIXED: &[&str] = &[

@@ -4,7 +4,7 @@ use sorb::{glam::Vec3, scene::Scene};
 
 use crate::{
     case::{Case, Check, table},
-    common, long, pick,
+    common, pick,
     scenes::{WAVE, dry, pool, wet, with_ball},
 };
 

@@ -58,7 +58,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Sum of V / V_0 over the tets of eight nodes, and the number of their tets.
+/// Sum of the volumes of the tets of eight nodes over those at rest, and the number of their tets.
 #[inline(always)]
 fn volumes<S: Simd>(
     simd: S,

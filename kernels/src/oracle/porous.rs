@@ -98,16 +98,12 @@ pub(super) fn pores(params: &Params, columns: &mut Columns) {
         }
     }
     nodes.pores = vec![[0.0; 4]; nodes.position.len()];
-    for node in 0..columns.rows.nodes {
+    for (node, (volume, count)) in volumes.into_iter().enumerate().take(columns.rows.nodes) {
         let sponge = &params.sponges[nodes.sponge[node] as usize];
         let porosity = f64::from(sponge.porosity);
         let rest = f64::from(sponge.edge).powi(3) / 12.0;
         let least = (1.0 - porosity) / (1.0 - porosity.min(0.15));
-        let ratio = if sponge.pores_close {
-            (volumes[node].0 / volumes[node].1 / rest).clamp(least, 10.0)
-        } else {
-            1.0
-        };
+        let ratio = if sponge.pores_close { (volume / count / rest).clamp(least, 10.0) } else { 1.0 };
         let now = 1.0 - (1.0 - porosity) / ratio;
         // K / K_0.
         let permeability = (now / porosity).powi(3) * ((1.0 - porosity) / (1.0 - now)).powi(2);
