@@ -15,7 +15,7 @@
 //! ```
 //!
 //! of `sph::forces`, and the same of what the solve changes, a compression of `-w_i` is allowed instead: e times the compact
-//! Laplacian of the pressure, beside h^2 times the wide one [RC83]. The time in e does not change: an allowance that went
+//! Laplacian of the pressure, beside h^2 times the wide one \[RC83\]. The time in e does not change: an allowance that went
 //! with the step would move the water whenever the step changes.
 //!
 //! An error of the density is put right at a limited speed: particles that begin on top of each other would fly apart.
