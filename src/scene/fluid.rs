@@ -25,7 +25,9 @@ pub struct Fluid {
     ///
     /// The compression that is reached is about half of it.
     pub density_tolerance: f32,
-    /// Most rounds of the `dfsph` solve in a step. Range 1 to 1000; default 50.
+    /// Most rounds of the `dfsph` solve in a step. Range 1 to 1000; default 200.
+    ///
+    /// Deep water needs more: with 50, a column 30 particles deep does not come to rest.
     pub rounds: u32,
     /// How water and sponges meet; default: `porous` with the solvers `dfsph` and `vbd`, else `paper`.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
@@ -62,7 +64,7 @@ impl Default for Fluid {
             support: 2.0,
             solver: FluidSolver::Dfsph,
             density_tolerance: 1e-3,
-            rounds: 50,
+            rounds: 200,
             coupling: None,
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,

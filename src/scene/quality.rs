@@ -46,17 +46,17 @@ impl Quality {
         match self {
             Self::Fast => Changes {
                 time: &[("maximum_step", "0.004"), ("courant", "0.4")],
-                fluid: &[("support", "1.8"), ("density_tolerance", "1e-3"), ("rounds", "50")],
+                fluid: &[("support", "1.8"), ("density_tolerance", "1e-3"), ("rounds", "200")],
                 sponge: &[("iterations", "2")],
             },
             Self::Balanced => Changes {
                 time: &[("maximum_step", "0.004"), ("courant", "0.25")],
-                fluid: &[("support", "2"), ("density_tolerance", "1e-3"), ("rounds", "50")],
+                fluid: &[("support", "2"), ("density_tolerance", "1e-3"), ("rounds", "200")],
                 sponge: &[("iterations", "4")],
             },
             Self::Accurate => Changes {
                 time: &[("maximum_step", "0.001"), ("courant", "0.25")],
-                fluid: &[("support", "2"), ("density_tolerance", "1e-4"), ("rounds", "100")],
+                fluid: &[("support", "2"), ("density_tolerance", "1e-4"), ("rounds", "400")],
                 sponge: &[("iterations", "8")],
             },
         }
