@@ -32,6 +32,24 @@ pub enum WorldError {
     /// A body has bad values.
     #[error(transparent)]
     Rigid(#[from] RigidError),
+    /// A velocity that a host gives a particle is out of range.
+    #[error(
+        "particle {id}: velocity {velocity:?} m/s is out of range, -{maximum} to {maximum} m/s on every axis"
+    )]
+    Velocity {
+        /// Identity of the particle.
+        id: u32,
+        /// What was given \[m/s\].
+        velocity: [f32; 3],
+        /// Largest component in range \[m/s\].
+        maximum: f32,
+    },
+    /// What can be changed before the first step only.
+    #[error("velocities can be set before the first step only, and {steps} were taken")]
+    Started {
+        /// Steps taken.
+        steps: u64,
+    },
     /// Threads or SIMD level.
     #[error(transparent)]
     Cpu(#[from] CpuError),

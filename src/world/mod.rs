@@ -5,6 +5,7 @@ mod error;
 mod injected;
 #[cfg(test)]
 mod pool;
+mod start;
 mod views;
 
 use glam::Vec3;

@@ -48,6 +48,7 @@ macro_rules! caught {
 caught! {
     hydrostatic
     dam_break
+    taylor_green
     floating
     patch
     cantilever

@@ -14,6 +14,7 @@ mod permeameter;
 mod rest;
 mod squeeze;
 mod strain;
+mod taylor_green;
 
 use crate::case::Case;
 
@@ -21,6 +22,7 @@ use crate::case::Case;
 pub const CASES: &[&Case] = &[
     &hydrostatic::CASE,
     &dam_break::CASE,
+    &taylor_green::CASE,
     &floating::CASE,
     &patch::CASE,
     &cantilever::CANTILEVER,

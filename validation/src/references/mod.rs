@@ -4,4 +4,5 @@ pub mod beam;
 pub mod darcy;
 pub mod floating;
 pub mod martin_moyce;
+pub mod taylor_green;
 pub mod terzaghi;

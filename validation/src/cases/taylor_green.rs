@@ -1,0 +1,132 @@
+//! A vortex in a box decays: what of its decay is viscosity.
+
+use sorb::{
+    World,
+    glam::Vec3,
+    scene::{Fluid, FluidBlock, Scene, Time, ViscosityForm},
+};
+
+use crate::{
+    case::{Case, Failure, Figure, Setting, Subject},
+    norms::line,
+    references::taylor_green::Vortex,
+};
+
+/// Taylor and Green's vortex.
+pub(super) static CASE: Case = Case {
+    name: "taylor_green",
+    title: "a vortex between walls without friction decays, at a Reynolds number of 100",
+    source: "u falls as exp(-2 nu (pi / L)^2 t) (Taylor and Green 1937)",
+    subject: Subject::Water,
+    control: "a viscosity twice as high",
+    run,
+};
+
+/// Side of the square \[m\] and largest speed at first \[m/s\].
+const SIDE: f64 = 0.1;
+const SPEED: f64 = 0.1;
+/// Side times speed over viscosity.
+const REYNOLDS: f64 = 100.0;
+/// Particles along the side.
+const PARTICLES: u32 = 50;
+/// Layers of particles: pairs reach two spacings, so that the middle of the slab does not feel both of its walls.
+const LAYERS: u32 = 4;
+/// Room beside the layers, over what they take: particles that flow lie less densely than in a lattice. In a box that is full no
+/// pressure is high enough, and the particles jam.
+const ROOM: f64 = 1.0 / 16.0;
+/// Times of the fit, in units of the side over the speed. Before, the lattice that it begins with breaks.
+const FIT: [f64; 2] = [0.5, 2.5];
+
+/// What is seen at one time.
+struct Sample {
+    time: f64,
+    /// Logarithm of the largest speed over that at first.
+    speed: f64,
+    /// Logarithm of the kinetic energy over that at first.
+    energy: f64,
+}
+
+fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
+    let mut figures = Vec::new();
+    for (form, name) in [(ViscosityForm::Morris, "morris"), (ViscosityForm::Monaghan, "monaghan")] {
+        for numerical in [0.0, Fluid::default().artificial_viscosity] {
+            figures.extend(decays(setting, form, numerical, name)?);
+        }
+    }
+    Ok(figures)
+}
+
+fn decays(
+    setting: &Setting,
+    form: ViscosityForm,
+    numerical: f32,
+    name: &str,
+) -> Result<Vec<Figure>, Failure> {
+    let vortex = Vortex { side: SIDE, speed: SPEED, viscosity: SIDE * SPEED / REYNOLDS };
+    let spacing = SIDE / f64::from(setting.count(setting.pick(PARTICLES, PARTICLES / 2)));
+    let mut world = setting.world(&scene(setting, &vortex, spacing, (form, numerical)))?;
+    world.set_particle_velocities(|at| {
+        let [x, y] = vortex.velocity([f64::from(at.x), f64::from(at.y)], 0.0);
+        Vec3::new(x as f32, y as f32, 0.0)
+    })?;
+    let [start, end] = FIT.map(|turns| turns * SIDE / SPEED);
+    let mut samples = Vec::new();
+    while world.clock().time < end {
+        setting.advance(&mut world)?;
+        if world.clock().time >= start {
+            samples.push(Sample::of(&world, &vortex));
+        }
+    }
+    let rate = |of: fn(&Sample) -> f64| -line(&samples.iter().map(|s| (s.time, of(s))).collect::<Vec<_>>()).0;
+    let name = |what: &str| format!("{name}, alpha {numerical}: {what}");
+    Ok(vec![
+        Figure::relative(name("decay of the largest speed"), "1/s", vortex.rate(), rate(|s| s.speed), 0.1),
+        Figure::relative(name("decay of the energy"), "1/s", 2.0 * vortex.rate(), rate(|s| s.energy), 0.1),
+    ])
+}
+
+fn scene(
+    setting: &Setting,
+    vortex: &Vortex,
+    spacing: f64,
+    (viscosity_form, artificial_viscosity): (ViscosityForm, f32),
+) -> Scene {
+    let corner = Vec3::new(SIDE as f32, SIDE as f32, (f64::from(LAYERS) * spacing) as f32);
+    let room = corner * Vec3::new(1.0, 1.0, 1.0 + ROOM as f32);
+    let rest_density = Fluid::default().rest_density;
+    let fluid = Fluid {
+        spacing: spacing as f32,
+        viscosity: setting.planted(1.0, 2.0) * vortex.viscosity as f32 * rest_density,
+        viscosity_form,
+        artificial_viscosity,
+        // Ten times the largest speed, which the scene does not know.
+        sound_speed: Some(10.0 * SPEED as f32),
+        blocks: vec![FluidBlock::new(Vec3::ZERO, corner)],
+        ..Fluid::default()
+    };
+    Scene {
+        gravity: Vec3::ZERO,
+        time: Time { frame_rate: 25.0, ..Time::default() },
+        ..Scene::new("taylor_green")
+    }
+    .in_box(Vec3::ZERO, room)
+    .with_fluid(fluid)
+}
+
+impl Sample {
+    fn of(world: &World, vortex: &Vortex) -> Self {
+        let (mut fastest, mut energy, mut first) = (0.0_f64, 0.0, 0.0);
+        for (at, velocity) in world.particle_positions().iter().zip(world.particle_velocities()) {
+            let square: f64 = velocity[..3].iter().map(|v| f64::from(*v).powi(2)).sum();
+            fastest = fastest.max(square.sqrt());
+            energy += square;
+            let [x, y] = vortex.velocity([f64::from(at[0]), f64::from(at[1])], 0.0);
+            first += x * x + y * y;
+        }
+        Self {
+            time: world.clock().time,
+            speed: libm::log(fastest / vortex.speed),
+            energy: libm::log(energy / first),
+        }
+    }
+}
