@@ -4,7 +4,9 @@ use std::{fmt::Write as _, path::PathBuf};
 
 use serde_json::{Value, json};
 use sorb::{Offload, Options, scene::Quality};
-use sorb_validation::{CASES, Case, Outcome, Setting, SolverKind, Solvers, Stopwatch, Subject, Verdict};
+use sorb_validation::{
+    Backends, CASES, Case, Outcome, Setting, SolverKind, Solvers, Stopwatch, Subject, Verdict,
+};
 
 use crate::{error::CliError, output, precision};
 
@@ -67,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     if arguments.work_precision {
         return precision::run(&precision::Request {
             cases: &arguments.cases,
-            setting: arguments.setting(Solvers::default()),
+            setting: arguments.setting(Solvers::default(), arguments.options()),
             out: arguments.out.clone(),
             note: arguments.note.as_deref(),
         });
@@ -77,13 +79,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
         return list(&cases, arguments.json);
     }
     let solvers = Choices::new(&arguments.solver)?;
+    let options = arguments.options();
     let (mut rows, mut broken) = (Vec::new(), Vec::new());
     if !arguments.json {
         output::print(&line(&HEADING.map(str::to_owned)))?;
     }
     for case in cases {
         for solvers in solvers.of(case.subject) {
-            let outcome = sorb_validation::run(case, &arguments.setting(solvers));
+            let outcome = sorb_validation::run(case, &arguments.setting(solvers, options.clone()));
             if arguments.json {
                 rows.push(row_json(&outcome));
             } else {
@@ -105,16 +108,34 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 impl Arguments {
-    fn setting(&self, solvers: Solvers) -> Setting {
+    fn setting(&self, solvers: Solvers, options: Options) -> Setting {
         Setting {
             solvers,
             resolution: self.resolution,
             quick: self.quick,
             fault: self.control,
             changes: self.set.clone(),
-            options: Options { threads: self.threads, offload: self.backend.clone(), ..Options::default() },
+            options,
             quality: self.quality,
             stopwatch: Stopwatch::default(),
+            backends: Backends::default(),
+        }
+    }
+
+    /// What all cases run on: one device, whose pipelines are compiled once.
+    fn options(&self) -> Options {
+        Options {
+            threads: self.threads,
+            offload: self.backend.clone(),
+            // If there is none, the first world says why.
+            #[cfg(feature = "gpu")]
+            gpu: self
+                .backend
+                .wants_gpu()
+                .then(sorb::gpu::Gpu::new)
+                .and_then(Result::ok)
+                .map(std::sync::Arc::new),
+            ..Options::default()
         }
     }
 
@@ -196,17 +217,17 @@ fn list(cases: &[&Case], json: bool) -> Result<(), CliError> {
     output::print(&output::table(&rows, [false, false, false]))
 }
 
-const HEADING: [&str; 9] =
-    ["case", "solver", "figure", "reference", "measured", "error", "bound", "time", "verdict"];
-const WIDTHS: [usize; 8] = [13, 8, 44, 10, 10, 9, 9, 7];
+const HEADING: [&str; 10] =
+    ["case", "solver", "on", "figure", "reference", "measured", "error", "bound", "time", "verdict"];
+const WIDTHS: [usize; 9] = [13, 8, 3, 44, 10, 10, 9, 9, 7];
 
-fn line(cells: &[String; 9]) -> String {
+fn line(cells: &[String; 10]) -> String {
     let mut line = String::new();
     for (index, (cell, width)) in cells.iter().zip(WIDTHS).enumerate() {
         // The numbers are on the right.
-        let _ = if index < 3 { write!(line, "{cell:<width$}  ") } else { write!(line, "{cell:>width$}  ") };
+        let _ = if index < 4 { write!(line, "{cell:<width$}  ") } else { write!(line, "{cell:>width$}  ") };
     }
-    line + &cells[8] + "\n"
+    line + &cells[9] + "\n"
 }
 
 /// Four significant digits.
@@ -220,13 +241,13 @@ fn number(value: f64) -> String {
 
 /// Lines of a case; with a planted fault, no miss is a known one.
 fn text(outcome: &Outcome, control: bool) -> String {
-    let head = [outcome.case.name.to_owned(), outcome.solver.clone()];
+    let head = [outcome.case.name.to_owned(), outcome.solver.clone(), outcome.backends.names()];
     let time = format!("{:.1} s", outcome.wall);
     let known = |figure: &str| outcome.known(figure).filter(|_| !control);
     let verdict = |known: Option<&sorb_validation::KnownMiss>, otherwise: &str| {
         known.map_or_else(|| otherwise.to_owned(), |miss| format!("known miss: {}", miss.cause))
     };
-    let [name, solver] = head;
+    let [name, solver, backend] = head;
     match &outcome.figures {
         Ok(figures) => figures
             .iter()
@@ -238,6 +259,7 @@ fn text(outcome: &Outcome, control: bool) -> String {
                 line(&[
                     name.clone(),
                     solver.clone(),
+                    backend.clone(),
                     format!("{} [{}]", figure.name, figure.unit),
                     number(figure.reference),
                     number(figure.measured),
@@ -251,7 +273,18 @@ fn text(outcome: &Outcome, control: bool) -> String {
         Err(failure) => {
             let empty = String::new;
             let verdict = verdict(known(""), "FAILED");
-            line(&[name, solver, failure.to_string(), empty(), empty(), empty(), empty(), time, verdict])
+            line(&[
+                name,
+                solver,
+                backend,
+                failure.to_string(),
+                empty(),
+                empty(),
+                empty(),
+                empty(),
+                time,
+                verdict,
+            ])
         }
     }
 }
@@ -273,6 +306,8 @@ fn row_json(outcome: &Outcome) -> Value {
     json!({
         "case": outcome.case.name,
         "solver": outcome.solver,
+        "backend": outcome.backends.names(),
+        "backend_reason": outcome.backends.reasons(),
         "figures": figures,
         "failure": failure,
         "wall_s": outcome.wall,

@@ -1,8 +1,9 @@
 //! What a case is, what it is told, and what it gives.
 
 use std::{
+    collections::BTreeMap,
     sync::{
-        Arc,
+        Arc, Mutex, PoisonError,
         atomic::{AtomicU64, Ordering},
     },
     time::{Duration, Instant},
@@ -62,6 +63,8 @@ pub struct Setting {
     pub options: Options,
     /// Real time in the simulator, of all worlds of the case together; clones share it.
     pub stopwatch: Stopwatch,
+    /// Where the worlds of the case ran; clones share it.
+    pub backends: Backends,
 }
 
 /// Adds up real time.
@@ -77,6 +80,38 @@ impl Stopwatch {
 
     fn add(&self, time: Duration) {
         self.0.fetch_add(u64::try_from(time.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);
+    }
+}
+
+/// Which backends worlds ran on, and why.
+#[derive(Clone, Debug, Default)]
+pub struct Backends(Arc<Mutex<BTreeMap<&'static str, String>>>);
+
+impl Backends {
+    /// `cpu`, `gpu`, or both if there were worlds on either; empty if there were none.
+    #[must_use]
+    pub fn names(&self) -> String {
+        self.found().keys().copied().collect::<Vec<_>>().join("+")
+    }
+
+    /// The adapter, or why there is none, of the last world on each; empty if no GPU was asked for.
+    #[must_use]
+    pub fn reasons(&self) -> String {
+        let found = self.found();
+        let given: Vec<_> = found.values().map(String::as_str).filter(|reason| !reason.is_empty()).collect();
+        given.join("; ")
+    }
+
+    fn add(&self, world: &World) {
+        let placement = world.plan().placement();
+        let on_gpu = placement.is_some_and(|placement| !placement.on_gpu.is_empty());
+        let reason = placement.map(|placement| placement.reason.clone()).unwrap_or_default();
+        self.found().insert(if on_gpu { "gpu" } else { "cpu" }, reason);
+    }
+
+    /// A panic elsewhere leaves the table whole.
+    fn found(&self) -> std::sync::MutexGuard<'_, BTreeMap<&'static str, String>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -122,7 +157,9 @@ impl Setting {
         if !self.changes.is_empty() {
             scene = scene.with_overrides(self.changes.iter().map(String::as_str))?;
         }
-        Ok(World::with_options(&scene, &self.options)?)
+        let world = World::with_options(&scene, &self.options)?;
+        self.backends.add(&world);
+        Ok(world)
     }
 
     /// A frame of a world, on the stopwatch.

@@ -18,7 +18,7 @@ pub mod references;
 mod run;
 mod solver;
 
-pub use case::{Case, Failure, Figure, Setting, Stopwatch, Subject, Verdict};
+pub use case::{Backends, Case, Failure, Figure, Setting, Stopwatch, Subject, Verdict};
 pub use cases::CASES;
 pub use known::{KNOWN_MISSES, KnownMiss};
 pub use run::{Outcome, run};

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use crate::{
-    case::{Case, Failure, Figure, Setting, Verdict},
+    case::{Backends, Case, Failure, Figure, Setting, Verdict},
     known::{KnownMiss, known},
 };
 
@@ -14,6 +14,8 @@ pub struct Outcome {
     pub case: &'static Case,
     /// Names of its solvers.
     pub solver: String,
+    /// Where its worlds ran.
+    pub backends: Backends,
     /// The figures, or why there are none.
     pub figures: Result<Vec<Figure>, Failure>,
     /// Real time of the run \[s\].
@@ -51,9 +53,12 @@ impl Outcome {
 #[must_use]
 pub fn run(case: &'static Case, setting: &Setting) -> Outcome {
     let start = Instant::now();
+    // Those of the case alone: the setting may have run others.
+    let setting = &Setting { backends: Backends::default(), ..setting.clone() };
     let figures = (case.run)(setting);
     Outcome {
         case,
+        backends: setting.backends.clone(),
         solver: setting.solvers.label(case.subject),
         figures,
         wall: start.elapsed().as_secs_f64(),

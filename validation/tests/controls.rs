@@ -48,6 +48,7 @@ macro_rules! caught {
 caught! {
     hydrostatic
     dam_break
+    dam_spheric
     taylor_green
     floating
     patch

@@ -4,6 +4,7 @@ mod bar;
 mod cantilever;
 mod consolidation;
 mod dam_break;
+mod dam_spheric;
 mod duct;
 mod floating;
 mod hydrostatic;
@@ -22,6 +23,7 @@ use crate::case::Case;
 pub const CASES: &[&Case] = &[
     &hydrostatic::CASE,
     &dam_break::CASE,
+    &dam_spheric::CASE,
     &taylor_green::CASE,
     &floating::CASE,
     &patch::CASE,

@@ -1,17 +1,17 @@
-//! Water sinks through a plug of sponge: Darcy's law with a falling head.
+//! Water sinks through a plug of sponge: Darcy's law with a falling head, and the drag of fast water.
 
 use super::duct::{Duct, pores};
 use crate::{
     case::{Case, Failure, Figure, Setting, Subject},
     norms::line,
-    references::darcy::Pores,
+    references::darcy::{Forchheimer, Pores},
 };
 
 /// Falling head.
 pub(super) static CASE: Case = Case {
     name: "permeameter",
     title: "a column of water sinks through a soaked plug, at three permeabilities",
-    source: "ln(h + L) falls by K rho g / (mu L) (Darcy)",
+    source: "ln(h + L) falls by K rho g / (mu L) (Darcy); -grad p = mu q / K + rho c q^2 / sqrt(K) (Forchheimer)",
     subject: Subject::Coupling,
     control: "a permeability 1.3 times as high",
     run,
@@ -25,44 +25,91 @@ const BELOW: f64 = 0.05;
 /// Gravity \[m/s^2\].
 const GRAVITY: f64 = 9.81;
 
+/// Permeability \[m^2\] and coefficient at which most of the drag is that of fast water.
+const FAST: (f64, f64) = (1e-8, 0.5);
+/// Heads at which its drag is measured, over that at first, and how far around them.
+const HEADS: [f64; 3] = [0.7, 0.5, 0.3];
+const AROUND: f64 = 0.1;
+
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let duct = Duct::new(setting, CELLS);
     let mut figures = Vec::new();
     for permeability in setting.pick(&[1e-8, 3e-9, 1e-9][..], &[3e-9][..]) {
-        let found = measured(setting, &duct, *permeability)?;
+        let found = slow(setting, &duct, *permeability)?;
         let name = format!("permeability for {permeability:.0e}");
         figures.push(Figure::relative(name, "m^2", *permeability, found, 0.02));
     }
+    figures.extend(fast(setting, &duct)?);
     Ok(figures)
 }
 
-fn measured(setting: &Setting, duct: &Duct, permeability: f64) -> Result<f64, Failure> {
+/// Permeability that the head shows as it falls, without drag of fast water.
+fn slow(setting: &Setting, duct: &Duct, permeability: f64) -> Result<f64, Failure> {
     let pores = pores(permeability, 0.0);
-    let given = Pores { permeability: setting.planted(1.0, 1.3) * permeability, ..pores };
+    // From four fifths of the head to a quarter of it, so that the start does not matter.
+    let heads = heads(setting, duct, &pores, 0.0)?
+        .into_iter()
+        .filter(|point| (0.25 * HEAD..0.8 * HEAD).contains(&point.1));
+    let logarithms: Vec<_> = heads.map(|(time, head)| (time, libm::log(head + duct.length()))).collect();
+    enough(&logarithms, permeability)?;
+    Ok(pores.from_falling_head(GRAVITY, duct.length(), -line(&logarithms).0))
+}
+
+/// Drag over speed of fast water, at some heads.
+fn fast(setting: &Setting, duct: &Duct) -> Result<Vec<Figure>, Failure> {
+    let (permeability, coefficient) = FAST;
+    let forchheimer = Forchheimer { pores: pores(permeability, 0.0), coefficient };
+    let heads = heads(setting, duct, &forchheimer.pores, coefficient)?;
+    let length = duct.length();
+    let figure = |share: &f64| {
+        let near = |point: &&(f64, f64)| (point.1 / HEAD - share).abs() < AROUND;
+        let around: Vec<_> = heads.iter().filter(near).copied().collect();
+        enough(&around, permeability)?;
+        let (flow, head) = (-line(&around).0, share * HEAD);
+        let measured = forchheimer.pores.density * GRAVITY * (head + length) / (length * flow);
+        let reference = forchheimer.drag(forchheimer.flow(GRAVITY, length, head));
+        let name = format!("drag over speed, Forchheimer {coefficient}, head {:.0} mm", 1e3 * head);
+        Ok(Figure::relative(name, "Pa s/m^2", reference, measured, 0.05))
+    };
+    HEADS.iter().map(figure).collect()
+}
+
+fn enough(points: &[(f64, f64)], permeability: f64) -> Result<(), Failure> {
+    if points.len() < 5 {
+        return Err(Failure::Nothing(format!("the head does not fall evenly at {permeability:e}")));
+    }
+    Ok(())
+}
+
+/// Time and height of the water above the plug, down to a fifth of that at first \[s, m\].
+fn heads(
+    setting: &Setting,
+    duct: &Duct,
+    pores: &Pores,
+    forchheimer: f64,
+) -> Result<Vec<(f64, f64)>, Failure> {
+    let given = Pores { permeability: setting.planted(1.0, 1.3) * pores.permeability, ..*pores };
     let top = duct.top();
     let water = [(top, top + HEAD)];
     let mut scene = duct.scene(setting, &given, GRAVITY, (-BELOW, top + HEAD + 0.02), &water)?;
     scene.sponges[0].saturation = 1.0;
+    scene.sponges[0].forchheimer = forchheimer as f32;
     scene.time.frame_rate = 200.0;
     let mut world = setting.world(&scene)?;
-    let decay = permeability * pores.density * GRAVITY / (pores.viscosity * duct.length());
+    // Three times as long as without drag of fast water, or with at the mean head.
+    let flow =
+        Forchheimer { pores: *pores, coefficient: forchheimer }.flow(GRAVITY, duct.length(), 0.5 * HEAD);
+    let limit = 3.0 * (HEAD + duct.length()) / flow;
     let particle = duct.spacing.powi(3) / duct.area();
-    // From four fifths of the head to a quarter of it, so that the start does not matter.
     let mut points = Vec::new();
-    let limit = 3.0 / decay;
     while world.clock().time < limit {
         setting.advance(&mut world)?;
         let above = world.particle_positions().iter().filter(|row| f64::from(row[1]) > top).count();
         let head = particle * above as f64;
-        if head < 0.25 * HEAD {
+        if head < 0.2 * HEAD {
             break;
         }
-        if head < 0.8 * HEAD {
-            points.push((world.clock().time, libm::log(head + duct.length())));
-        }
+        points.push((world.clock().time, head));
     }
-    if points.len() < 5 {
-        return Err(Failure::Nothing(format!("the head does not fall evenly at {permeability:e}")));
-    }
-    Ok(pores.from_falling_head(GRAVITY, duct.length(), -line(&points).0))
+    Ok(points)
 }

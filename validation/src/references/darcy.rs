@@ -72,6 +72,35 @@ impl Pores {
     }
 }
 
+/// Drag of fast water in pores after Forchheimer: `-grad p = mu q / K + rho c q^2 / sqrt(K)`, q the volume through an
+/// area and time.
+#[derive(Clone, Copy, Debug)]
+pub struct Forchheimer {
+    /// The pores.
+    pub pores: Pores,
+    /// Forchheimer's coefficient c \[1\].
+    pub coefficient: f64,
+}
+
+impl Forchheimer {
+    /// Pressure lost on a way, over the way and the flow \[Pa s/m^2\], at a flow \[m/s\].
+    #[must_use]
+    pub fn drag(&self, flow: f64) -> f64 {
+        let Pores { permeability, viscosity, density, .. } = self.pores;
+        viscosity / permeability + density * self.coefficient * flow / permeability.sqrt()
+    }
+
+    /// Flow through a block under a column of water of a height, both soaked \[m/s\].
+    #[must_use]
+    pub fn flow(&self, gravity: f64, thickness: f64, head: f64) -> f64 {
+        let gradient = self.pores.density * gravity * (head + thickness) / thickness;
+        let linear = self.drag(0.0);
+        let square = self.drag(1.0) - linear;
+        // The form of the root that holds without the square as well.
+        2.0 * gradient / (linear + (linear * linear + 4.0 * square * gradient).sqrt())
+    }
+}
+
 /// Root mean square distance of a curve from a reference, over the largest value of the reference on the way; the curve
 /// may start `delay` later.
 #[must_use]
@@ -105,5 +134,30 @@ mod tests {
         let narrow = pores.bath(gravity, 0.3, 8.0);
         assert!(interpolated(&narrow, 0.903) / rise > 0.53);
         assert!((pores.front(0.584) - 0.5 * rise).abs() < 2e-4);
+    }
+    #[test]
+    fn the_flow_of_a_head_loses_its_pressure_and_is_darcys_where_it_is_slow() {
+        let pores = Pores {
+            permeability: 1e-8,
+            porosity: 0.9,
+            entry_pressure: 0.0,
+            viscosity: 1e-3,
+            density: 1000.0,
+        };
+        let (gravity, thickness) = (9.81, 0.04);
+        for head in [0.0, 0.02, 0.06] {
+            let lost = |fast: &Forchheimer, coefficient| {
+                let flow = fast.flow(gravity, thickness, head);
+                Forchheimer { coefficient, ..*fast }.drag(flow) * flow * thickness
+            };
+            let fast = Forchheimer { pores, coefficient: 0.5 };
+            let given = pores.density * gravity * (head + thickness);
+            assert!((lost(&fast, 0.5) / given - 1.0).abs() < 1e-12);
+            assert!((lost(&fast, 0.4) / given - 1.0).abs() > 0.1);
+            // As the head falls without it: d(h + L)/dt = -q.
+            let slow = Forchheimer { coefficient: 0.0, ..fast }.flow(gravity, thickness, head);
+            let decay = slow / (head + thickness);
+            assert!((pores.from_falling_head(gravity, thickness, decay) / 1e-8 - 1.0).abs() < 1e-12);
+        }
     }
 }

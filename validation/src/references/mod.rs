@@ -3,6 +3,7 @@
 pub mod beam;
 pub mod darcy;
 pub mod floating;
+pub mod kleefsman;
 pub mod martin_moyce;
 pub mod taylor_green;
 pub mod terzaghi;

@@ -1,0 +1,127 @@
+//! A dam breaks onto a box, against the experiment at MARIN that SPHERIC compares with.
+
+use sorb::{
+    World,
+    glam::{DVec3, Vec3},
+    scene::{Body, Fluid, FluidBlock, Scene, ShapeKind, Time},
+};
+
+use crate::{
+    case::{Case, Failure, Figure, Setting, Subject},
+    level::heights,
+    norms::mean,
+    references::kleefsman::{ARRIVAL, BOX, DAM, DEPTH, FIRST, H2, H4, HIGHEST, P2, PEAK, TANK},
+};
+
+/// The dam break of Kleefsman et al.
+pub(super) static CASE: Case = Case {
+    name: "dam_spheric",
+    title: "a dam breaks onto a box: pressure on its face, heights of the water",
+    source: "Kleefsman et al. 2005 (SPHERIC 2), the numbers that the literature quotes",
+    subject: Subject::Water,
+    control: "gravity at two thirds",
+    run,
+};
+
+/// Particles over the depth: 87 thousand in all, 2 cm apart.
+const LAYERS: u32 = 28;
+/// Gravity that the reference assumes \[m/s^2\].
+const GRAVITY: f64 = 9.81;
+/// Samples of the pressure in a second: one in 4 ms, the pressure of the step that ends there.
+const RATE: f64 = 250.0;
+/// Time of the run \[s\]: the wave that comes back has passed H2.
+const END: f64 = 2.4;
+/// Pressure that counts as arrival, over the peak of the experiment.
+const ARRIVED: f64 = 0.1;
+
+/// What is seen at one time.
+struct Sample {
+    time: f64,
+    /// Mean pressure of the particles within a support radius of P2 \[Pa\].
+    pressure: f64,
+    /// Heights at H2 and H4 \[m\].
+    heights: [f64; 2],
+}
+
+fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
+    let spacing = DEPTH / f64::from(setting.count(setting.pick(LAYERS, LAYERS / 2)));
+    let mut world = setting.world(&scene(setting, spacing))?;
+    let mut samples = vec![Sample::of(&world, spacing)];
+    while world.clock().time < END {
+        setting.advance(&mut world)?;
+        samples.push(Sample::of(&world, spacing));
+    }
+    let single = samples.iter().map(|sample| sample.pressure).fold(0.0, f64::max);
+    // As long as the water needs for the length over which the pressure is averaged.
+    let window = support_radius(&world) / (GRAVITY * DEPTH).sqrt();
+    let peak = samples.iter().map(|sample| around(&samples, sample.time, window)).fold(0.0, f64::max);
+    let arrival = samples.iter().find(|sample| sample.pressure > ARRIVED * PEAK);
+    let arrival = arrival.ok_or_else(|| Failure::Nothing("no water comes to the box".to_owned()))?.time;
+    let highest = samples.iter().map(|sample| sample.heights[0]).fold(0.0, f64::max);
+    let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
+    Ok(vec![
+        Figure::relative(format!("largest pressure at P2, mean of {window:.3} s"), "Pa", PEAK, peak, 0.2),
+        Figure::relative(format!("the same of single steps, {RATE} a second"), "Pa", PEAK, single, 0.2),
+        Figure::relative("arrival at P2, a tenth of the peak", "s", middle(ARRIVAL), arrival, 0.2),
+        Figure::relative("largest height at H2", "m", middle(HIGHEST), highest, 0.1),
+        Figure::relative("height at H4 at first", "m", FIRST, samples[0].heights[1], 0.1),
+    ])
+}
+
+fn support_radius(world: &World) -> f64 {
+    f64::from(world.params().fluid.smoothing.support_radius)
+}
+
+/// Mean pressure over a window of time around a moment \[Pa\].
+fn around(samples: &[Sample], time: f64, window: f64) -> f64 {
+    let near = samples.iter().filter(|sample| (sample.time - time).abs() <= 0.5 * window);
+    mean(near.map(|sample| sample.pressure))
+}
+
+fn scene(setting: &Setting, spacing: f64) -> Scene {
+    let [size, low, high] = [TANK, BOX[0], BOX[1]].map(DVec3::from_array);
+    let fluid = Fluid {
+        spacing: spacing as f32,
+        blocks: vec![FluidBlock::new(
+            Vec3::new(DAM as f32, 0.0, 0.0),
+            Vec3::new(size.x as f32, DEPTH as f32, size.z as f32),
+        )],
+        ..Fluid::default()
+    };
+    let shape = ShapeKind::Cuboid { half_extents: (0.5 * (high - low)).as_vec3() };
+    let gravity = -GRAVITY * setting.planted(1.0, 2.0 / 3.0);
+    Scene {
+        gravity: Vec3::new(0.0, gravity as f32, 0.0),
+        time: Time { frame_rate: RATE as f32, ..Time::default() },
+        ..Scene::new("spheric")
+    }
+    .in_box(Vec3::ZERO, size.as_vec3())
+    .with_fluid(fluid)
+    .with_body(Body::fixed("box", shape, (0.5 * (low + high)).as_vec3()))
+}
+
+impl Sample {
+    fn of(world: &World, spacing: f64) -> Self {
+        let radius = support_radius(world);
+        let probe = DVec3::from_array(P2);
+        let is_near = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]).as_dvec3().distance(probe) < radius;
+        let pressures = world.particle_pressures();
+        let near: Vec<_> = world
+            .particle_positions()
+            .iter()
+            .zip(&pressures)
+            .filter(|(row, _)| is_near(row))
+            .map(|(_, pressure)| f64::from(*pressure))
+            .collect();
+        let across = [-1.0, 0.0, 1.0].map(|step| 0.5 * TANK[2] + step * spacing);
+        let height = |along: f64| {
+            let found = heights(world, &across.map(|z| (along, z)));
+            if found.is_empty() { 0.0 } else { mean(found) }
+        };
+        Self {
+            time: world.clock().time,
+            pressure: if near.is_empty() { 0.0 } else { mean(near) },
+            heights: [H2, H4].map(height),
+        }
+    }
+}
