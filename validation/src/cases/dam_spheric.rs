@@ -34,6 +34,9 @@ const END: f64 = 2.4;
 /// Pressure that counts as arrival, over the peak of the experiment.
 const ARRIVED: f64 = 0.1;
 
+/// Time over which heights are averaged \[s\]: drops that fly past a gauge are no level.
+const SWELL: f64 = 0.1;
+
 /// What is seen at one time.
 struct Sample {
     time: f64,
@@ -54,16 +57,26 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let single = samples.iter().map(|sample| sample.pressure).fold(0.0, f64::max);
     // As long as the water needs for the length over which the pressure is averaged.
     let window = support_radius(&world) / (GRAVITY * DEPTH).sqrt();
-    let peak = samples.iter().map(|sample| around(&samples, sample.time, window)).fold(0.0, f64::max);
+    let peak = samples
+        .iter()
+        .map(|sample| around(&samples, sample.time, window, |s| s.pressure))
+        .fold(0.0, f64::max);
     let arrival = samples.iter().find(|sample| sample.pressure > ARRIVED * PEAK);
     let arrival = arrival.ok_or_else(|| Failure::Nothing("no water comes to the box".to_owned()))?.time;
-    let highest = samples.iter().map(|sample| sample.heights[0]).fold(0.0, f64::max);
+    let height = |sample: &Sample| around(&samples, sample.time, SWELL, |s| s.heights[0]);
+    let highest = samples.iter().map(height).fold(0.0, f64::max);
     let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
     Ok(vec![
         Figure::relative(format!("largest pressure at P2, mean of {window:.3} s"), "Pa", PEAK, peak, 0.2),
         Figure::relative(format!("the same of single steps, {RATE} a second"), "Pa", PEAK, single, 0.2),
         Figure::relative("arrival at P2, a tenth of the peak", "s", middle(ARRIVAL), arrival, 0.2),
-        Figure::relative("largest height at H2", "m", middle(HIGHEST), highest, 0.1),
+        Figure::relative(
+            format!("largest height at H2, mean of {SWELL} s"),
+            "m",
+            middle(HIGHEST),
+            highest,
+            0.1,
+        ),
         Figure::relative("height at H4 at first", "m", FIRST, samples[0].heights[1], 0.1),
     ])
 }
@@ -72,10 +85,10 @@ fn support_radius(world: &World) -> f64 {
     f64::from(world.params().fluid.smoothing.support_radius)
 }
 
-/// Mean pressure over a window of time around a moment \[Pa\].
-fn around(samples: &[Sample], time: f64, window: f64) -> f64 {
+/// Mean of a quantity over a window of time around a moment.
+fn around(samples: &[Sample], time: f64, window: f64, of: impl Fn(&Sample) -> f64) -> f64 {
     let near = samples.iter().filter(|sample| (sample.time - time).abs() <= 0.5 * window);
-    mean(near.map(|sample| sample.pressure))
+    mean(near.map(of))
 }
 
 fn scene(setting: &Setting, spacing: f64) -> Scene {
