@@ -17,6 +17,9 @@ const DESCENT: f32 = 2.0;
 /// The same in water, which makes a sponge twenty times as heavy and its waves four times as slow.
 const WET_DESCENT: f32 = 4.0;
 
+/// Step that no speed of a body makes shorter, over the shortest that is allowed.
+const SHORTEST_BY_BODY: f32 = 10.0;
+
 /// What limited a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
@@ -40,6 +43,8 @@ pub enum Bound {
     Elasticity,
     /// Nodes cross a quarter of the lattice constant.
     SpongeSpeed,
+    /// The surface of a body crosses the same as fluid and nodes may.
+    BodySpeed,
 }
 
 impl Bound {
@@ -57,6 +62,7 @@ impl Bound {
             Self::Suction => "suction",
             Self::Elasticity => "elasticity",
             Self::SpongeSpeed => "sponge_speed",
+            Self::BodySpeed => "body_speed",
         }
     }
 }
@@ -64,7 +70,7 @@ impl Bound {
 impl Bound {
     /// All bounds, by the numbers that shaders know them by.
     #[cfg(feature = "gpu")]
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 11] = [
         Self::Maximum,
         Self::Frame,
         Self::Courant,
@@ -75,6 +81,7 @@ impl Bound {
         Self::Elasticity,
         Self::SpongeSpeed,
         Self::Pressure,
+        Self::BodySpeed,
     ];
 
     /// The bound of a number; the first for numbers that no shader gives.
@@ -101,11 +108,17 @@ pub struct Clock {
     pub(crate) fluid_pressure: f32,
     /// Largest speed of a node after the last step \[m/s\].
     pub(crate) node_speed: f32,
+    /// Largest speed of the surface of a body \[m/s\].
+    pub(crate) body_speed: f32,
 }
 
 /// Step over the time in which pressure moves a particle by a spacing. At twice that the lattice of a pool at rest buckles
 /// (docs/pressure-solve.md).
 const PRESSURE_COURANT: f32 = 0.4;
+
+/// Step over the time in which the shortest capillary wave turns. At twice that particles at the surface of a drop do not come
+/// to rest.
+const CAPILLARY_COURANT: f32 = 0.1;
 
 /// Step over the time in which water that is sucked in crosses a spacing.
 const SUCTION_COURANT: f32 = 0.8;
@@ -127,8 +140,10 @@ impl Steps {
             // Along the line between particles the central form is as stiff as five times the other.
             let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
-            let capillary = fluid.rest_density * h * h * h / (2.0 * PI * fluid.surface_tension);
-            bounds.push((0.25 * capillary.sqrt(), Bound::SurfaceTension));
+            let tension =
+                fluid.surface_tension.max(scene.fluid.as_ref().map_or(0.0, |fluid| fluid.surface_tension));
+            let capillary = fluid.rest_density * h * h * h / (2.0 * PI * tension);
+            bounds.push((CAPILLARY_COURANT * capillary.sqrt(), Bound::SurfaceTension));
             for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
                 if params.solid.is_some() {
                     // Water enters at this speed; nodes bear the suction together with what they hold.
@@ -179,6 +194,10 @@ impl Steps {
             bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
         }
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
+        let reach = if fluid.particle_mass > 0.0 { self.time.courant * h } else { f32::INFINITY };
+        let crossing = reach.min(0.25 * self.edge) / clock.body_speed;
+        // A script may move a body at any speed; what is faster than this is swept.
+        bounds.push((crossing.max(SHORTEST_BY_BODY * self.time.minimum_step), Bound::BodySpeed));
         smallest(&bounds)
     }
 

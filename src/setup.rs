@@ -7,13 +7,13 @@ use sorb_kernels::{
     couple::interior::node_interior,
     cpu::Cpu,
     grid::cells::Domain,
-    params::{EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
+    params::{Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
     pbd::{
         lattice::{TetChunk, Topology},
         stars::Stars,
     },
     smoothing::Wendland,
-    sph::{boundary::boundary_profile, factors::lattice_diagonal},
+    sph::{boundary::boundary_profile, deficit::cohesion_stiffness, factors::lattice_diagonal},
 };
 
 use crate::{
@@ -68,6 +68,7 @@ fn params(scene: &Scene) -> Params {
         gravity: scene.gravity,
         domain,
         walls,
+        no_slip: scene.fluid.as_ref().is_some_and(|fluid| fluid.no_slip),
         fluid: fluid_params(scene),
         sponges: scene.sponges.iter().map(|sponge| sponge_params(scene, sponge)).collect(),
         coupling: Wendland::new(if radius > 0.0 { radius } else { 1.0 }),
@@ -84,6 +85,10 @@ fn solid(scene: &Scene) -> Option<Wendland> {
     let is_porous = edge > 0.0 && scene.coupling() == scene::Coupling::Porous;
     is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }
+
+/// Support radius of the energy of the surface over that of the fluid: with as few neighbours as the pressure has, particles at the
+/// surface find places where they lack nothing, in rows, and the tension is a tenth of what it should be.
+const COHESION_SUPPORT: f32 = 2.0;
 
 /// Compression that is allowed for the roughness of the pressure, over the square of the time that sound takes for a
 /// spacing: enough that particles in rows do not have pressures that are higher and lower by turns.
@@ -102,7 +107,9 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             viscosity: 0.0,
             central_viscosity: 0.0,
             roughness: 0.0,
+            wall_viscosity: 0.0,
             surface_tension: 0.0,
+            cohesion: None,
             repulsion_range: 0.0,
             repulsion_stiffness: 0.0,
             repulsion_damping: 0.0,
@@ -140,11 +147,27 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         viscosity,
         central_viscosity,
         roughness: if is_incompressible { ROUGHNESS * (fluid.spacing / sound_speed).powi(2) } else { 0.0 },
-        surface_tension: fluid.surface_tension,
+        wall_viscosity: fluid.viscosity,
+        surface_tension: if is_incompressible { 0.0 } else { fluid.surface_tension },
+        cohesion: cohesion(fluid).filter(|_| is_incompressible),
         repulsion_range: range,
         repulsion_stiffness: frequency * frequency,
         repulsion_damping: 2.0 * fluid.repulsion_damping * frequency,
     }
+}
+
+/// Surface tension from an energy of the surface, if there is any.
+fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
+    let (spacing, smoothing) = (fluid.spacing, Wendland::new(COHESION_SUPPORT * fluid.support_radius()));
+    let sum = Wendland::lattice_sum(f64::from(smoothing.support_radius), f64::from(spacing));
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    (fluid.surface_tension > 0.0).then(|| Cohesion {
+        stiffness: cohesion_stiffness(&smoothing, spacing, fluid.surface_tension),
+        smoothing,
+        volume: (f64::from(spacing).powi(3) / sum) as f32,
+        boundary_range,
+        boundary_share,
+    })
 }
 
 fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) -> Option<Incompressible> {
@@ -245,6 +268,7 @@ fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, c
         state: engine.state(index),
         friction: body.friction,
         touches_nodes: !body.grip,
+        no_slip: body.no_slip,
     });
     columns.bodies.states = Bodies(bodies.collect());
     columns.rows.bodies = setups.len();

@@ -89,9 +89,17 @@ fn every_phase_of_the_step_has_a_line_with_a_reason_if_it_is_skipped() {
 fn surface_tension_runs_only_where_it_is_above_zero() {
     let still = common::preset("water", 0.5);
     let pulled = common::with(&still, &["fluid.surface_tension=0.07"]);
-    let of = |scene| verdict(common::world(scene).plan(), "sph::surface_tension");
-    assert_eq!(of(&still), Verdict::Skipped("surface tension is zero"));
-    assert_eq!(of(&pulled), Verdict::Runs);
+    let of = |scene, name| verdict(common::world(scene).plan(), name);
+    assert_eq!(of(&still, "sph::cohesion"), Verdict::Skipped("no surface tension by cohesion"));
+    assert_eq!(of(&pulled, "sph::cohesion"), Verdict::Runs);
+    // The model of the paper belongs to its solver.
+    assert_eq!(
+        of(&pulled, "sph::surface_tension"),
+        Verdict::Skipped("no surface tension from the colour field")
+    );
+    let paper = common::with(&pulled, &["fluid.solver=wcsph"]);
+    assert_eq!(of(&paper, "sph::surface_tension"), Verdict::Runs);
+    assert_eq!(of(&paper, "sph::deficit"), Verdict::Skipped("no surface tension by cohesion"));
 }
 
 // Small steps of kernels that do nothing but declare.
@@ -134,6 +142,8 @@ const WET: Content = Content {
     walls: false,
     bodies: false,
     surface_tension: false,
+    cohesion: false,
+    no_slip: false,
     iterations: 0,
     porous: false,
     rounds: 0,
@@ -175,12 +185,24 @@ fn what_nobody_reads_is_skipped_unless_it_is_observed() {
 #[test]
 fn the_step_itself_is_consistent_for_every_content() {
     const SOLVERS: [Solver; 3] = [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean];
-    for bits in 0..512_u32 {
+    for bits in 0..1024_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
         let solvers = [0, 1, 2].map(|k| (bits >> (5 + k) & 1 == 1).then_some(SOLVERS[k]));
-        let (rounds, iterations, porous) = (bits >> 8, 1, false);
-        let content =
-            Content { fluid, sponge, solvers, walls, bodies, surface_tension, iterations, porous, rounds };
+        let (rounds, iterations, porous) = (bits >> 8 & 1, 1, false);
+        let (cohesion, no_slip) = (bits >> 9 == 1, bits >> 9 == 1);
+        let content = Content {
+            fluid,
+            sponge,
+            solvers,
+            walls,
+            bodies,
+            surface_tension,
+            cohesion,
+            no_slip,
+            iterations,
+            porous,
+            rounds,
+        };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
         }

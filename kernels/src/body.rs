@@ -4,7 +4,7 @@ use glam::{DVec3, Mat3, Quat, Vec3};
 
 use crate::{
     columns::ColumnData,
-    lanes::{self, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
     vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };
 
@@ -51,6 +51,21 @@ impl Shape {
             Self::Cuboid { half_extents } => half_extents.length(),
             Self::Capsule { half_height, radius } => half_height + radius,
             Self::Hull { vertices, .. } => vertices.iter().map(|vertex| vertex.length()).fold(0.0, f32::max),
+        }
+    }
+}
+
+impl Shape {
+    /// Radius of the ball around the origin outside of which distances are larger than `range` \[m\]: beside its edges a hull
+    /// is taken to be nearer than it is.
+    pub(crate) fn reach(&self, range: f32) -> f32 {
+        let radius = self.bounding_radius();
+        match self {
+            Self::Hull { planes, .. } => {
+                let least = planes.iter().map(|(_, offset)| *offset).fold(f32::INFINITY, f32::min);
+                if least > 0.0 { radius * (1.0 + range / least) } else { f32::INFINITY }
+            }
+            _ => radius + range,
         }
     }
 }
@@ -109,9 +124,31 @@ pub struct Body {
     pub friction: f32,
     /// Whether sponge nodes are kept out; a body that grips a sponge lets them in.
     pub touches_nodes: bool,
+    /// Whether the fluid at the surface moves with it (no-slip); else it slides along it.
+    pub no_slip: bool,
 }
 
 impl Body {
+    /// The body where it will be at the end of a step \[s\].
+    #[must_use]
+    pub fn at_end(&self, step: f32) -> Self {
+        let mut body = self.clone();
+        let state = &mut body.state;
+        state.position += step * state.linear_velocity;
+        let [x, y, z] = (0.5 * step * state.angular_velocity).to_array();
+        let turn = Quat::from_xyzw(x, y, z, 1.0).normalize();
+        state.rotation = (turn * state.rotation).normalize();
+        body
+    }
+
+    /// Largest speed of its surface \[m/s\]; of a plane, that of the point that it is given by.
+    #[must_use]
+    pub fn fastest(&self) -> f32 {
+        let radius = self.shape.bounding_radius();
+        let radius = if radius.is_finite() { radius } else { 0.0 };
+        self.state.linear_velocity.length() + radius * self.state.angular_velocity.length()
+    }
+
     /// Signed distance of a world point from the surface \[m\], negative inside.
     #[must_use]
     pub fn distance(&self, point: Vec3) -> f32 {
@@ -177,85 +214,117 @@ impl<'a, S: Simd> Placed<'a, S> {
     /// Beside a hull's edge the distance is that to the nearest face plane, less than the true one.
     #[inline(always)]
     pub(crate) fn distance(&self, point: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
+        let (distance, normal) = self.local_distance(self.local(point));
+        (distance, self.turned(normal))
+    }
+
+    /// World points in the body's frame.
+    #[inline(always)]
+    pub(crate) fn local(&self, point: Vec3x8<S>) -> Vec3x8<S> {
         let arm = minus(point, self.position);
         let [x, y, z] = self.axes;
-        let (distance, normal) = self.local_distance([dot(x, arm), dot(y, arm), dot(z, arm)]);
-        let world = plus(plus(times(x, normal[0]), times(y, normal[1])), times(z, normal[2]));
-        (distance, world)
+        [dot(x, arm), dot(y, arm), dot(z, arm)]
     }
 
+    /// Directions of the body's frame in the world.
     #[inline(always)]
-    fn local_distance(&self, local: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
+    pub(crate) fn turned(&self, local: Vec3x8<S>) -> Vec3x8<S> {
+        let [x, y, z] = self.axes;
+        plus(plus(times(x, local[0]), times(y, local[1])), times(z, local[2]))
+    }
+
+    /// [`Self::distance`] in the body's frame.
+    #[inline(always)]
+    pub(crate) fn local_distance(&self, local: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
         let simd = self.simd;
-        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        match self.shape {
-            Shape::Plane => (local[1], [zero, one, zero]),
-            Shape::Sphere { radius } => self.round(local, *radius),
-            Shape::Capsule { half_height, radius } => {
-                let half = lanes::splat(simd, *half_height);
-                let y = local[1];
-                let on_axis = select(y.simd_gt(half), half, select(y.simd_lt(-half), -half, y));
-                self.round([local[0], y - on_axis, local[2]], *radius)
+        let local = [local[0].to_array(), local[1].to_array(), local[2].to_array()];
+        let [distance, normal @ ..] = surface(simd.level(), self.shape, &local);
+        let [x, y, z] = normal.each_ref().map(|lanes| lanes::load_array(simd, lanes));
+        (lanes::load_array(simd, &distance), [x, y, z])
+    }
+}
+
+/// Distances of eight points from a shape in its own frame, and the outward normals.
+///
+/// Compiled on its own, with arrays between it and its callers: code for all shapes in the middle of every kernel that asks for
+/// a distance takes the compiler minutes.
+#[inline(never)]
+fn surface(level: fearless_simd::Level, shape: &Shape, [x, y, z]: &[[f32; LANES]; 3]) -> [[f32; LANES]; 4] {
+    lanes::dispatch!(level, simd => {
+        let local = [lanes::load_array(simd, x), lanes::load_array(simd, y), lanes::load_array(simd, z)];
+        let (distance, [nx, ny, nz]) = surface_lanes(simd, shape, local);
+        [distance.to_array(), nx.to_array(), ny.to_array(), nz.to_array()]
+    })
+}
+
+#[inline(always)]
+fn surface_lanes<S: Simd>(simd: S, shape: &Shape, local: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    match shape {
+        Shape::Plane => (local[1], [zero, one, zero]),
+        Shape::Sphere { radius } => round(simd, local, *radius),
+        Shape::Capsule { half_height, radius } => {
+            let half = lanes::splat(simd, *half_height);
+            let y = local[1];
+            let on_axis = select(y.simd_gt(half), half, select(y.simd_lt(-half), -half, y));
+            round(simd, [local[0], y - on_axis, local[2]], *radius)
+        }
+        Shape::Cuboid { half_extents } => cuboid(simd, local, *half_extents),
+        Shape::Hull { planes, .. } => {
+            let mut nearest = lanes::splat(simd, f32::MIN);
+            let mut normal = [zero, one, zero];
+            for (plane, offset) in planes {
+                let direction = vector::splat(simd, plane.to_array());
+                let distance = dot(local, direction) - *offset;
+                let closer = distance.simd_gt(nearest);
+                nearest = select(closer, distance, nearest);
+                normal = choose(closer, direction, normal);
             }
-            Shape::Cuboid { half_extents } => self.cuboid(local, *half_extents),
-            Shape::Hull { planes, .. } => {
-                let mut nearest = lanes::splat(simd, f32::MIN);
-                let mut normal = [zero, one, zero];
-                for (plane, offset) in planes {
-                    let direction = vector::splat(simd, plane.to_array());
-                    let distance = dot(local, direction) - *offset;
-                    let closer = distance.simd_gt(nearest);
-                    nearest = select(closer, distance, nearest);
-                    normal = choose(closer, direction, normal);
-                }
-                (nearest, normal)
-            }
+            (nearest, normal)
         }
     }
+}
 
-    /// Distance from a ball around the origin.
-    #[inline(always)]
-    fn round(&self, local: Vec3x8<S>, radius: f32) -> (f32x8<S>, Vec3x8<S>) {
-        let (zero, one) = (lanes::splat(self.simd, 0.0), lanes::splat(self.simd, 1.0));
-        let length = dot(local, local).sqrt();
-        let off_centre = length.simd_gt(lanes::splat(self.simd, 1.0e-12));
-        let scale = one / select(off_centre, length, one);
-        (length - radius, choose(off_centre, times(local, scale), [zero, one, zero]))
-    }
+/// Distance from a ball around the origin.
+#[inline(always)]
+fn round<S: Simd>(simd: S, local: Vec3x8<S>, radius: f32) -> (f32x8<S>, Vec3x8<S>) {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let length = dot(local, local).sqrt();
+    let off_centre = length.simd_gt(lanes::splat(simd, 1.0e-12));
+    let scale = one / select(off_centre, length, one);
+    (length - radius, choose(off_centre, times(local, scale), [zero, one, zero]))
+}
 
-    #[inline(always)]
-    fn cuboid(&self, local: Vec3x8<S>, half_extents: Vec3) -> (f32x8<S>, Vec3x8<S>) {
-        let simd = self.simd;
-        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        let half = vector::splat(simd, half_extents.to_array());
-        let sign_of = |value: f32x8<S>| select(value.simd_lt(zero), -one, one);
-        let sign = [sign_of(local[0]), sign_of(local[1]), sign_of(local[2])];
-        let beyond =
-            [local[0] * sign[0] - half[0], local[1] * sign[1] - half[1], local[2] * sign[2] - half[2]];
-        let outside = [
-            lanes::positive(simd, beyond[0]),
-            lanes::positive(simd, beyond[1]),
-            lanes::positive(simd, beyond[2]),
-        ];
-        let length = dot(outside, outside).sqrt();
-        let is_outside = length.simd_gt(zero);
-        let scale = one / select(is_outside, length, one);
-        // Inside, the face that is nearest.
-        let x_first = beyond[0].simd_ge(beyond[1]) & beyond[0].simd_ge(beyond[2]);
-        let y_first = !x_first & beyond[1].simd_ge(beyond[2]);
-        let z_first = !x_first & !y_first;
-        let face = [select(x_first, one, zero), select(y_first, one, zero), select(z_first, one, zero)];
-        let depth = select(x_first, beyond[0], select(y_first, beyond[1], beyond[2]));
-        let unsigned = choose(is_outside, times(outside, scale), face);
-        let normal = [sign[0] * unsigned[0], sign[1] * unsigned[1], sign[2] * unsigned[2]];
-        (select(is_outside, length, depth), normal)
-    }
+#[inline(always)]
+fn cuboid<S: Simd>(simd: S, local: Vec3x8<S>, half_extents: Vec3) -> (f32x8<S>, Vec3x8<S>) {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let half = vector::splat(simd, half_extents.to_array());
+    let sign_of = |value: f32x8<S>| select(value.simd_lt(zero), -one, one);
+    let sign = [sign_of(local[0]), sign_of(local[1]), sign_of(local[2])];
+    let beyond = [local[0] * sign[0] - half[0], local[1] * sign[1] - half[1], local[2] * sign[2] - half[2]];
+    let outside = [
+        lanes::positive(simd, beyond[0]),
+        lanes::positive(simd, beyond[1]),
+        lanes::positive(simd, beyond[2]),
+    ];
+    let length = dot(outside, outside).sqrt();
+    let is_outside = length.simd_gt(zero);
+    let scale = one / select(is_outside, length, one);
+    // Inside, the face that is nearest.
+    let x_first = beyond[0].simd_ge(beyond[1]) & beyond[0].simd_ge(beyond[2]);
+    let y_first = !x_first & beyond[1].simd_ge(beyond[2]);
+    let z_first = !x_first & !y_first;
+    let face = [select(x_first, one, zero), select(y_first, one, zero), select(z_first, one, zero)];
+    let depth = select(x_first, beyond[0], select(y_first, beyond[1], beyond[2]));
+    let unsigned = choose(is_outside, times(outside, scale), face);
+    let normal = [sign[0] * unsigned[0], sign[1] * unsigned[1], sign[2] * unsigned[2]];
+    (select(is_outside, length, depth), normal)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{LANES, SimdLevel, dispatch};
+    use crate::lanes::{SimdLevel, dispatch};
 
     fn body(shape: Shape) -> Body {
         let state = BodyState {
@@ -264,7 +333,7 @@ mod tests {
             linear_velocity: Vec3::X,
             angular_velocity: Vec3::new(0.0, 0.0, 2.0),
         };
-        Body { shape, kind: BodyKind::Fixed, state, friction: 0.5, touches_nodes: true }
+        Body { shape, kind: BodyKind::Fixed, state, friction: 0.5, touches_nodes: true, no_slip: false }
     }
 
     /// Distance and normal at one world point, the same on every level.

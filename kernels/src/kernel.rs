@@ -24,8 +24,12 @@ pub enum Need {
     Obstacles,
     /// Rigid bodies.
     Bodies,
-    /// Fluid with surface tension.
+    /// Fluid with surface tension from the colour field.
     SurfaceTension,
+    /// Fluid with surface tension from an energy of the surface.
+    Cohesion,
+    /// Walls or bodies that the fluid does not slide along.
+    NoSlip,
     /// Pressure by an equation of state.
     EquationOfState,
     /// Pressure by a solve that keeps the density.
@@ -47,7 +51,9 @@ impl Need {
             Self::Projection => "no sponge with solver sbd or xpbd_neo_hookean",
             Self::Obstacles => "no walls and no bodies",
             Self::Bodies => "no bodies",
-            Self::SurfaceTension => "surface tension is zero",
+            Self::SurfaceTension => "no surface tension from the colour field",
+            Self::Cohesion => "no surface tension by cohesion",
+            Self::NoSlip => "fluid slides along everything",
             Self::EquationOfState => "pressure is solved for",
             Self::Incompressible => "pressure by an equation of state",
             Self::Porous => "coupling of the paper",
@@ -79,8 +85,11 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::pressure::KERNEL,
     &sph::forces::KERNEL,
     &sph::surface_tension::KERNEL,
+    &sph::deficit::KERNEL,
+    &sph::cohesion::KERNEL,
     &sph::repulsion::KERNEL,
     &sph::boundary_pressure::KERNEL,
+    &sph::wall_friction::KERNEL,
     &sph::kick::KERNEL,
     &sph::predict::KERNEL,
     &sph::boundary::KERNEL,
@@ -90,6 +99,7 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::pressure_residual::KERNEL,
     &sph::pressure_kick::KERNEL,
     &sph::boundary_reaction::KERNEL,
+    &sph::sweep::KERNEL,
     &sph::advect::KERNEL,
     &pbd::gravity::KERNEL,
     &pbd::predict::KERNEL,

@@ -20,6 +20,7 @@ pub mod pbd;
 pub mod reduce;
 pub mod smoothing;
 pub mod sph;
+mod sweep;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

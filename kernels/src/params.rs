@@ -15,6 +15,8 @@ pub struct Params {
     pub domain: Domain,
     /// Walls of the container: corners of the box that everything stays in.
     pub walls: Option<(Vec3, Vec3)>,
+    /// Whether the fluid at those walls rests (no-slip); else it slides along them.
+    pub no_slip: bool,
     /// The fluid.
     pub fluid: FluidParams,
     /// The sponges, in the order of the scene.
@@ -59,6 +61,29 @@ pub struct Incompressible {
     pub boundary_share: f32,
 }
 
+/// An energy of the surface of the fluid (`sph::deficit`, `sph::cohesion`).
+#[derive(Clone, Debug)]
+pub struct Cohesion {
+    /// Energy density per squared deficit \[Pa\].
+    pub stiffness: f32,
+    /// What deficits are measured with: twice as wide as that between particles.
+    pub smoothing: Wendland,
+    /// Volume of a particle with which a lattice at rest has no deficit \[m^3\].
+    pub volume: f32,
+    /// Distance at which walls and bodies begin to count \[m\].
+    pub boundary_range: f32,
+    /// Their share at the surface \[1\].
+    pub boundary_share: f32,
+}
+
+impl FluidParams {
+    /// How far the neighbours in the lists may be \[m\].
+    #[must_use]
+    pub fn list_radius(&self) -> f32 {
+        self.cohesion.as_ref().map_or(self.smoothing.support_radius, |own| own.smoothing.support_radius)
+    }
+}
+
 /// The fluid.
 #[derive(Clone, Debug)]
 pub struct FluidParams {
@@ -82,8 +107,12 @@ pub struct FluidParams {
     pub central_viscosity: f32,
     /// Compression that is allowed for the roughness of the pressure, over that roughness \[s^2\]; see `sph::factors`.
     pub roughness: f32,
-    /// Surface tension \[N/m\].
+    /// Dynamic viscosity between the fluid and walls and bodies that it does not slide along \[Pa s\].
+    pub wall_viscosity: f32,
+    /// Surface tension, where it comes from the colour field \[N/m\].
     pub surface_tension: f32,
+    /// Surface tension from an energy of the surface.
+    pub cohesion: Option<Cohesion>,
     /// Distance at which walls and bodies begin to push \[m\].
     pub repulsion_range: f32,
     /// Acceleration per depth into that range \[1/s^2\].

@@ -16,6 +16,7 @@ const COURANT: u32 = 2u;
 const ACCELERATION: u32 = 3u;
 const SPONGE_SPEED: u32 = 8u;
 const PRESSURE: u32 = 9u;
+const BODY_SPEED: u32 = 10u;
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;
@@ -43,6 +44,11 @@ fn choose_step() {
         if (clock.fluid_acceleration > 0.0) {
             offer(0.25 * sqrt(radius / clock.fluid_acceleration), ACCELERATION);
         }
+    }
+    if (clock.body_speed > 0.0) {
+        // No shorter than ten of the shortest: what is faster is swept.
+        let reach = min(select(0.25 * params.edge, params.courant * radius, params.particle_mass > 0.0), 0.25 * params.edge);
+        offer(max(reach / clock.body_speed, 10.0 * params.minimum_step), BODY_SPEED);
     }
     if (clock.node_speed > 0.0) {
         offer(0.25 * params.edge / clock.node_speed, SPONGE_SPEED);

@@ -17,7 +17,7 @@ struct Body {
     extents: vec4<f32>,
     // Shape, first face plane, face planes, 1 if sponge nodes are kept out.
     info: vec4<u32>,
-    // x: Coulomb friction.
+    // x: Coulomb friction; y: 1 if the fluid does not slide along it.
     surface: vec4<f32>,
 }
 

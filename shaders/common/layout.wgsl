@@ -60,6 +60,18 @@ struct Params {
     incompressible: u32,
     // Step over the time in which pressure moves a particle by a spacing.
     pressure_courant: f32,
+    // The energy of the surface, as `Cohesion`.
+    cohesion: Smoothing,
+    cohesion_stiffness: f32,
+    cohesion_volume: f32,
+    cohesion_range: f32,
+    cohesion_share: f32,
+    // How far the neighbours in the lists of particles may be.
+    list_radius: f32,
+    wall_viscosity: f32,
+    // 1 where the fluid does not slide along the walls of the container.
+    no_slip: u32,
+    unused: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.
@@ -107,9 +119,10 @@ struct Clock {
     most_rounds: vec4<u32>,
     // Root of the mean square of the pressure over rest density in the last step, where it is solved for.
     fluid_pressure: f32,
+    // Largest speed of a body's surface.
+    body_speed: f32,
     unused_0: u32,
     unused_1: u32,
-    unused_2: u32,
 }
 
 // Threads of a group, for passes whose threads have nothing to do with each other: with few rows, small groups keep more

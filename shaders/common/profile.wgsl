@@ -28,19 +28,3 @@ fn body_share(body: Body, point: vec3<f32>) -> vec4<f32> {
     let share = share_at(surface.distance);
     return vec4<f32>(surface.normal * -share.y, share.x);
 }
-
-fn turned(turn: vec4<f32>, axis: vec4<f32>) -> vec4<f32> {
-    let v = axis.xyz;
-    return vec4<f32>(v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v), 0.0);
-}
-
-// The body where it will be at the end of the step.
-fn at_end(body: Body) -> Body {
-    var moved = body;
-    moved.position = vec4<f32>(body.position.xyz + clock.step * body.linear.xyz, 0.0);
-    let turn = normalize(vec4<f32>(0.5 * clock.step * body.angular.xyz, 1.0));
-    moved.x = turned(turn, body.x);
-    moved.y = turned(turn, body.y);
-    moved.z = turned(turn, body.z);
-    return moved;
-}

@@ -71,3 +71,19 @@ fn body_surface(body: Body, point: vec3<f32>) -> Surface {
     let normal = surface.normal.x * body.x.xyz + surface.normal.y * body.y.xyz + surface.normal.z * body.z.xyz;
     return Surface(normal, surface.distance);
 }
+
+fn turned(turn: vec4<f32>, axis: vec4<f32>) -> vec4<f32> {
+    let v = axis.xyz;
+    return vec4<f32>(v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v), 0.0);
+}
+
+// The body where it will be at the end of the step.
+fn at_end(body: Body) -> Body {
+    var moved = body;
+    moved.position = vec4<f32>(body.position.xyz + clock.step * body.linear.xyz, 0.0);
+    let turn = normalize(vec4<f32>(0.5 * clock.step * body.angular.xyz, 1.0));
+    moved.x = turned(turn, body.x);
+    moved.y = turned(turn, body.y);
+    moved.z = turned(turn, body.z);
+    return moved;
+}

@@ -41,7 +41,11 @@ fn main(
     }
     let inverse = weight_inside(interior[row]);
     let beside = velocity[row].xyz - sum * inverse;
-    let rate = (drag_rate[row].x + drag_rate[row].y * length(beside)) * clock.step;
+    // The speed that the drag leaves.
+    let speed = length(beside);
+    let slowed = 1.0 + drag_rate[row].x * clock.step;
+    let root = sqrt(slowed * slowed + 4.0 * clock.step * drag_rate[row].y * speed);
+    let rate = (drag_rate[row].x + drag_rate[row].y * (2.0 * speed / (slowed + root))) * clock.step;
     // The column holds impulses and masses over chi.
     let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
     drag[row] = vec4<f32>(beside * strength, strength);

@@ -25,7 +25,7 @@ fn main(
         return;
     }
     let point = position[row].xyz;
-    let radius = params.smoothing.radius;
+    let radius = params.list_radius;
     let square = radius * radius;
     let cell_square = square * grid.origin.w * grid.origin.w;
     let reach = radius * grid.origin.w;

@@ -91,7 +91,11 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::repulsion: body surface wrench;
     sph::solve_begin: sums solve;
     sph::solve_round: sums solve;
+    sph::cohesion: smoothing;
+    sph::deficit: smoothing body surface;
     sph::surface_tension: smoothing;
+    sph::sweep: body surface wrench sweep;
+    sph::wall_friction: body surface wrench;
 };
 
 /// The same passes with subgroup operations, for adapters that have them.

@@ -33,6 +33,8 @@ pub struct Body {
     pub angular_velocity: Vec3,
     /// Coulomb friction. Range 0 to 10; default 0.5.
     pub friction: f32,
+    /// Whether water at its surface moves with it; default false: it slides along it.
+    pub no_slip: bool,
     /// Share of the approach speed that a bounce gives back. Range 0 to 1; default 0.1.
     pub restitution: f32,
     /// Scripted motions of a kinematic body; default none.
@@ -54,6 +56,7 @@ impl Default for Body {
             linear_velocity: Vec3::ZERO,
             angular_velocity: Vec3::ZERO,
             friction: 0.5,
+            no_slip: false,
             restitution: 0.1,
             motions: Vec::new(),
             grip: false,

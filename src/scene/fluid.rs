@@ -48,7 +48,12 @@ pub struct Fluid {
     /// Below 0.01 the pressure is noisy; above 0.2 the water looks like oil.
     pub artificial_viscosity: f32,
     /// Surface tension. Range 0 to 10 N/m; default 0 (off; water has 0.072).
+    ///
+    /// With `dfsph` it follows from an energy of the surface, with `wcsph` from the colour field, as in the paper.
     pub surface_tension: f32,
+    /// Whether water rests at the walls of the container; default false: it slides along them. Bodies have a key of their
+    /// own. Matters where the viscosity is felt over a spacing.
+    pub no_slip: bool,
     /// Fraction of the normal velocity that the elastic walls and bodies take away. Range 0 to 1; default 0.1.
     pub repulsion_damping: f32,
     /// Blocks of water at time zero; they must not overlap.
@@ -72,6 +77,7 @@ impl Default for Fluid {
             viscosity_form: ViscosityForm::Morris,
             artificial_viscosity: 0.05,
             surface_tension: 0.0,
+            no_slip: false,
             repulsion_damping: 0.1,
             blocks: Vec::new(),
         }

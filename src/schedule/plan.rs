@@ -26,8 +26,12 @@ pub struct Content {
     pub walls: bool,
     /// Rigid bodies.
     pub bodies: bool,
-    /// Surface tension above zero.
+    /// Surface tension from the colour field.
     pub surface_tension: bool,
+    /// Surface tension from an energy of the surface.
+    pub cohesion: bool,
+    /// Walls or bodies that the fluid does not slide along.
+    pub no_slip: bool,
     /// Most solver iterations that a sponge asks for.
     pub iterations: u32,
     /// Sponges as porous media.

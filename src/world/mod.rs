@@ -11,7 +11,7 @@ mod views;
 use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
-    body::Wrench,
+    body::{Body, Wrench},
     columns::{BodyStore, Column, Columns},
     couple,
     cpu::Cpu,
@@ -146,6 +146,9 @@ impl World {
             walls: params.walls.is_some(),
             bodies: columns.rows.bodies > 0,
             surface_tension: params.fluid.surface_tension > 0.0,
+            cohesion: params.fluid.cohesion.is_some(),
+            no_slip: params.fluid.wall_viscosity > 0.0
+                && (params.no_slip || columns.bodies.states.0.iter().any(|body| body.no_slip)),
             porous: params.solid.is_some(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
@@ -179,10 +182,11 @@ impl World {
             #[cfg(feature = "gpu")]
             options: options.clone(),
         };
-        let Columns { rows, fluid, nodes, .. } = &world.stores.host;
+        let Columns { rows, fluid, nodes, bodies, .. } = &world.stores.host;
         world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
         world.clock.fluid_acceleration = scene.gravity.length();
         world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
+        world.clock.body_speed = fastest_body(&bodies.states.0);
         if world.params.fluid.incompressible.is_some() {
             world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], scene.gravity);
         }
@@ -369,6 +373,7 @@ impl World {
         self.clock.fluid_acceleration = fluid.acceleration_squared.sqrt();
         self.clock.node_speed = nodes.speed_squared.sqrt();
         self.clock.fluid_pressure = columns.fluid.pressure_solve.pressure();
+        self.clock.body_speed = fastest_body(&columns.bodies.states.0);
         Ok(())
     }
 }
@@ -384,6 +389,11 @@ fn default_threads() -> usize {
 
 fn fastest(velocities: &[[f32; 4]]) -> f32 {
     velocities.iter().map(|v| Vec3::new(v[0], v[1], v[2]).length()).fold(0.0, f32::max)
+}
+
+/// Largest speed of a surface.
+fn fastest_body(bodies: &[Body]) -> f32 {
+    bodies.iter().map(Body::fastest).fold(0.0, f32::max)
 }
 
 /// Root of the mean square of the pressure over density in a column at rest that is as deep as the fluid \[m^2/s^2\]: what a

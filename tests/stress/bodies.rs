@@ -31,9 +31,8 @@ fn bodies_a_thousand_times_as_heavy_as_each_other() {
             let known = if is_known { LIGHT } else { &[] };
             let name = format!("{}: balls of {name}", scene.name);
             let scene = scene.clone().with_body(ball("low", 0.061, low)).with_body(ball("high", 0.087, high));
-            // Water between a sponge and a ball that weighs a hundred times as much is pressed out fast.
-            let fastest = if scene.fluid.is_some() { 2.0 * WAVE } else { WAVE };
-            cases.push(Case { fastest, known, ..Case::new(name, scene, pick(0.3, 2.0)) });
+            // Nodes and water between a sponge and a ball that weighs a hundred times as much are pressed out fast.
+            cases.push(Case { fastest: 2.0 * WAVE, known, ..Case::new(name, scene, pick(0.3, 2.0)) });
         }
     }
     table(cases);
@@ -94,8 +93,9 @@ fn behind(world: &World) -> f64 {
     100.0 * rows().filter(|row| row[0] < wall).count() as f64 / rows().count() as f64
 }
 
-/// Why things get through a wall, or are run over and pressed out again.
-const TUNNEL: &str = "steps are not bounded by the speed of bodies, which move by more than their thickness or a spacing at once";
+/// Why nodes get through a wall, or are run over and pressed out again.
+const TUNNEL: &str =
+    "contact moves a node out of a body to the side that is nearest, not to the one that it came from";
 
 #[test]
 fn a_thin_wall_sweeps_through() {
@@ -105,9 +105,13 @@ fn a_thin_wall_sweeps_through() {
         for (thickness, speed) in [(2.0, 1.0), (2.0, 3.0), (2.0, 10.0), (12.0, 1.0), (12.0, 3.0)] {
             for step in &steps {
                 let is_thin = thickness < 5.0 && speed > if scene.fluid.is_some() { 2.0 } else { 5.0 };
-                let is_slow = scene.name == "pool" && thickness > 5.0 && speed < 2.0;
-                let lets_through = (*step > 1.0 && !is_slow) || is_thin;
-                let known: &[_] = if lets_through { &[(Check::Figure, TUNNEL)] } else { &[] };
+                let is_borne = scene.name == "wet" && thickness > 5.0 && speed > 2.0;
+                let lets_through = !scene.sponges.is_empty() && ((*step > 1.0 && !is_borne) || is_thin);
+                let known: &[_] = match (lets_through, scene.name.as_str()) {
+                    (true, "wet") if speed > 5.0 => &[(Check::Figure, TUNNEL), (Check::Speed, TUNNEL)],
+                    (true, _) => &[(Check::Figure, TUNNEL)],
+                    (false, _) => &[],
+                };
                 let name =
                     format!("{}: a wall of {thickness} mm at {speed} m/s, steps up to {step} ms", scene.name);
                 let mut scene = swept(scene.clone(), 1e-3 * thickness, speed);
@@ -161,17 +165,21 @@ fn spilled(world: &World) -> f64 {
     100.0 * rows.iter().filter(outside).count() as f64 / rows.len() as f64
 }
 
+/// Why a cup that is shaken flings water about faster than it moves.
+const TURNS: &str =
+    "walls that turn round at once shut water in between them and what follows: pressed out, it gains speed";
+
 /// What is broken, and why.
 type Faults = &'static [(Check, &'static str)];
 
 /// Faults of the cup: speed \[m/s\], longest step \[ms\], and what is broken.
 const CUPS: &[(f32, f32, Faults)] = &[
-    (0.5, 4.0, &[(Check::Speed, TUNNEL), (Check::Energy, TUNNEL), (Check::Figure, TUNNEL)]),
-    (0.5, 0.1, &[(Check::Speed, TUNNEL)]),
-    (2.0, 4.0, &[(Check::Speed, TUNNEL), (Check::Energy, TUNNEL), (Check::Figure, TUNNEL)]),
-    (2.0, 0.1, &[(Check::Speed, TUNNEL), (Check::Figure, TUNNEL)]),
-    (5.0, 4.0, &[(Check::Speed, TUNNEL), (Check::Energy, TUNNEL), (Check::Figure, TUNNEL)]),
-    (5.0, 0.1, &[(Check::Speed, TUNNEL), (Check::Figure, TUNNEL)]),
+    (0.5, 4.0, &[(Check::Speed, TURNS), (Check::Energy, TURNS)]),
+    (0.5, 0.1, &[(Check::Speed, TURNS)]),
+    (2.0, 4.0, &[(Check::Speed, TURNS), (Check::Energy, TURNS)]),
+    (2.0, 0.1, &[(Check::Speed, TURNS)]),
+    (5.0, 4.0, &[(Check::Speed, TURNS)]),
+    (5.0, 0.1, &[(Check::Speed, TURNS)]),
 ];
 
 #[test]
@@ -189,6 +197,9 @@ fn a_cup_is_shaken() {
     table(cases);
 }
 
+/// Fastest that things may be that are hit at 100 m/s \[m/s\]: a node in a corner is pushed on by its neighbours.
+const HIT: f64 = 500.0;
+
 #[test]
 fn bodies_that_are_somewhere_else_at_once() {
     let mut cases = Vec::new();
@@ -204,12 +215,12 @@ fn bodies_that_are_somewhere_else_at_once() {
         let ball = Body::kinematic("ball", ball, Vec3::new(0.002, 0.085, 0.001), motions);
         let name = format!("{}: a ball appears inside, goes and comes", scene.name);
         let case = Case::new(name, scene.clone().with_body(ball), pick(0.3, 2.0));
-        // What it appears in is compressed at once: that energy is in no budget.
-        cases.push(Case { fastest: WAVE, excess: None, ..case });
+        // It hits what is in its way at 100 m/s: that energy is in no budget.
+        cases.push(Case { fastest: HIT, excess: None, ..case });
         let mut passed = swept(scene.clone(), THIN, 82.0);
         passed.time.minimum_step = 1e-8;
         let name = format!("{}: a wall of 2 mm passes at 82 m/s", scene.name);
-        cases.push(Case { fastest: WAVE, excess: None, ..Case::new(name, passed, pick(0.15, 1.0)) });
+        cases.push(Case { fastest: HIT, excess: None, ..Case::new(name, passed, pick(0.15, 1.0)) });
     }
     table(cases);
 }

@@ -51,6 +51,8 @@ caught! {
     dam_spheric
     taylor_green
     floating
+    drop
+    channel
     patch
     cantilever
     uniaxial

@@ -101,7 +101,7 @@ fn plan_says_what_is_skipped_and_why() {
 
 #[test]
 fn plan_follows_changes_of_the_scene() {
-    let skips = |set: &str| sorb(&["plan", "water", "--set", set]).out.contains("skip  sph::surface_tension");
+    let skips = |set: &str| sorb(&["plan", "water", "--set", set]).out.contains("skip  sph::cohesion");
     assert!(skips("fluid.surface_tension=0"));
     assert!(!skips("fluid.surface_tension=0.072"));
 }

@@ -2,9 +2,12 @@
 //!
 //! ```text
 //! u_i = sum_a w_ia u_a,   w_ia = V_a W_ia / chi_i             velocity of the sponge at the particle
-//! b_i = beta_i + gamma_i |v_i - u_i|,   k_i = m h b_i / (1 + h b_i)       implicit in the particle, but for the speed in b
+//! b_i = beta_i + gamma_i s_i,   k_i = m h b_i / (1 + h b_i)       implicit in the particle
 //! J_i = k_i (v_i - u_i)
+//! s_i = 2 |v_i - u_i| / (1 + h beta_i + sqrt((1 + h beta_i)^2 + 4 h gamma_i |v_i - u_i|))
 //! ```
+//!
+//! with the speed s that the drag leaves, `s (1 + h beta + h gamma s) = |v - u|`: with the speed before, drag would grow with the step.
 //!
 //! `couple::drag_target` makes of it where the nodes are taken, `couple::drag_kick` what the particles lose.
 
@@ -61,7 +64,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
                 let beside = minus([vx, vy, vz], times(sum, inverse));
                 let [linear, inertial, _, _] = lanes::load_rows(simd, drag_rate, first + row);
-                let rate = (linear + inertial * dot(beside, beside).sqrt()) * step;
+                let speed = dot(beside, beside).sqrt();
+                let slowed = one + linear * step;
+                let root = (slowed * slowed + inertial * speed * (4.0 * step)).sqrt();
+                let left = (speed + speed) / (slowed + root);
+                let rate = (linear + inertial * left) * step;
                 // The column holds impulses and masses over chi.
                 let strength = rate / (one + rate) * mass * inverse;
                 let [jx, jy, jz] = times(beside, strength);

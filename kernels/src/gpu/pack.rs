@@ -6,7 +6,7 @@ use crate::{
     body::{Body, Shape},
     columns::RowCounts,
     grid::cells::Domain,
-    params::{EquationOfState, Params, Solver, SpongeParams},
+    params::{Cohesion, EquationOfState, Params, Solver, SpongeParams},
     pbd::{
         lattice::{COLORS, Topology},
         stars::{NEIGHBORS, Stars},
@@ -107,6 +107,15 @@ pub(super) fn params(
             .floats(&[limits.pressure_courant]),
         None => bytes.words(&[0; 8]),
     };
+    let (own, numbers) = fluid.cohesion.as_ref().map_or((&fluid.smoothing, [0.0; 4]), |cohesion| {
+        let Cohesion { stiffness, volume, boundary_range, boundary_share, .. } = *cohesion;
+        (&cohesion.smoothing, [stiffness, volume, boundary_range, boundary_share])
+    });
+    bytes
+        .floats(&smoothing_factors(own))
+        .floats(&numbers)
+        .floats(&[fluid.list_radius(), fluid.wall_viscosity])
+        .words(&[u32::from(params.no_slip), 0]);
     bytes.0
 }
 
@@ -174,7 +183,7 @@ pub(super) fn bodies(bodies: &[Body]) -> (Vec<u8>, Vec<u8>) {
             .vector(state.angular_velocity, 0.0)
             .vector(extents, radius)
             .words(&[shape, first, faces, u32::from(body.touches_nodes)])
-            .floats(&[body.friction, 0.0, 0.0, 0.0]);
+            .floats(&[body.friction, if body.no_slip { 1.0 } else { 0.0 }, 0.0, 0.0]);
     }
     (all.0, planes.0)
 }

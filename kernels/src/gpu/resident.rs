@@ -19,11 +19,12 @@ use crate::{
     body::Body,
     columns::{Columns, RowCounts},
     params::Params,
-    smoothing::Wendland,
 };
 
 /// Bytes of what a pressure solve keeps from round to round.
 pub(super) const SOLVE_BYTES: u64 = 32;
+/// Where the clock has the largest speed of a body's surface.
+const BODY_SPEED_AT: u64 = 41 * 4;
 /// Most cells of a grid: their counts and starts are one binding each.
 const MOST_CELLS: u64 = 1 << 28;
 
@@ -75,7 +76,7 @@ impl Resident {
         let rows = columns.rows;
         // Counts and starts are padded to pages.
         let most = (gpu.limits.max_storage_buffer_binding_size / 4).saturating_sub(8192).min(MOST_CELLS);
-        let fluid = params.fluid.smoothing.support_radius;
+        let fluid = params.fluid.list_radius();
         let grids = [
             Grid::new(params.domain, fluid, rows.fluid, most),
             Grid::new(params.domain, params.coupling.support_radius, rows.nodes, most),
@@ -148,6 +149,7 @@ impl Resident {
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
+        let tense = if self.params.fluid.cohesion.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
@@ -155,7 +157,7 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 272, uniform),
+            ("params", 336, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),
@@ -173,6 +175,7 @@ impl Resident {
             ("fluid_acceleration", fluid * 16, plain),
             ("fluid_predicted", solved * 16, plain),
             ("fluid_boundary", solved * 16, plain),
+            ("fluid_deficit", tense * 4, plain),
             ("fluid_factors", solved * 16, plain),
             ("fluid_pressure_rows", solved * 16, plain),
             ("fluid_correction", solved * 16, plain),
@@ -289,11 +292,19 @@ impl Resident {
         }
     }
 
-    /// Shapes, poses and velocities of the bodies.
-    pub fn upload_bodies(&self, bodies: &[Body]) {
-        let (bodies, planes) = pack::bodies(bodies);
-        self.write("bodies", &bodies);
+    /// Shapes, poses and velocities of the bodies, and the largest speed of their surfaces, which bounds the next step.
+    pub fn upload_bodies(&mut self, bodies: &[Body]) {
+        let fastest = bodies.iter().map(Body::fastest).fold(0.0, f32::max);
+        let (bytes, planes) = pack::bodies(bodies);
+        self.write("bodies", &bytes);
         self.write("planes", &planes);
+        self.gpu.queue.write_buffer(self.buffer("clock"), BODY_SPEED_AT, &fastest.to_ne_bytes());
+        // The clock has chosen the next step before the bodies moved.
+        let reach =
+            (self.limits.courant * self.params.fluid.smoothing.support_radius).min(0.25 * self.limits.edge);
+        if fastest * self.limits.constant > reach {
+            self.has_begun = false;
+        }
     }
 
     /// Makes lists longer, with a quarter to spare; `longest` is 0 for those that fit.
@@ -325,10 +336,9 @@ pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
         let entries = (1.5 * ball(radius) / volume).ceil() as u32;
         entries.next_multiple_of(8).max(32).min(most.next_multiple_of(8) as u32)
     };
-    let (fluid, coupling): (&Wendland, &Wendland) = (&params.fluid.smoothing, &params.coupling);
-    let radius = coupling.support_radius;
+    let radius = params.coupling.support_radius;
     [
-        if rows.fluid > 0 { entries(fluid.support_radius, spacing, rows.fluid) } else { 0 },
+        if rows.fluid > 0 { entries(params.fluid.list_radius(), spacing, rows.fluid) } else { 0 },
         if rows.fluid > 0 { entries(radius, pitch, rows.nodes) } else { 0 },
         if rows.fluid > 0 { entries(radius, spacing, rows.fluid) } else { 0 },
     ]

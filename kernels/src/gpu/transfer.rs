@@ -42,6 +42,7 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
         Column::FluidPredicted => ("fluid_predicted", Rows(&mut fluid.predicted, FAR_ROW)),
         Column::FluidBoundary => ("fluid_boundary", Rows(&mut fluid.boundary, zero)),
+        Column::FluidDeficit => ("fluid_deficit", Values(&mut fluid.deficit)),
         Column::FluidFactors => ("fluid_factors", Rows(&mut fluid.factors, zero)),
         // Padding rows have a diagonal, by which they are divided.
         Column::FluidPressureRows => {
@@ -204,7 +205,7 @@ impl Resident {
         move |k, row| if which == 2 { row * length + k } else { k * rows + row }
     }
 
-    fn upload_other(&self, columns: &Columns, column: Column) {
+    fn upload_other(&mut self, columns: &Columns, column: Column) {
         let bodies = columns.rows.bodies;
         match column {
             Column::BodyStates => self.upload_bodies(&columns.bodies.states.0),

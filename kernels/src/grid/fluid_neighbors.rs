@@ -20,5 +20,5 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let points = columns.rows.fluid;
     let Fluid { position, cells, neighbors, .. } = &mut columns.fluid;
     let particles = (&position[..], points);
-    neighbors.build(cpu, particles, particles, cells, params.fluid.smoothing.support_radius);
+    neighbors.build(cpu, particles, particles, cells, params.fluid.list_radius());
 }

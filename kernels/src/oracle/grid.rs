@@ -20,7 +20,7 @@ pub(super) fn sort_fluid(_params: &Params, columns: &mut Columns) {
 
 pub(super) fn fluid_neighbors(params: &Params, columns: &mut Columns) {
     let points = vectors(&columns.fluid.position, columns.rows.fluid);
-    let radius = params.fluid.smoothing.support_radius;
+    let radius = params.fluid.list_radius();
     columns.fluid.neighbors = lists(&points, &points, columns.fluid.position.len(), radius);
 }
 

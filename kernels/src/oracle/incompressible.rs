@@ -18,7 +18,8 @@ fn pairs(params: &Params, fluid: &Fluid, count: usize) -> Vec<Vec<(usize, f64)>>
         let u = closeness(radius, end[i].distance(end[j]));
         (j, volume * 210.0 / super::pi_power(radius, 5) * u.powi(3))
     };
-    let near = |i: usize, j: usize| x[i].distance(x[j]) < f64::from(radius);
+    let reach = f64::from(params.fluid.list_radius());
+    let near = |i: usize, j: usize| x[i].distance(x[j]) < reach;
     (0..count).map(|i| (0..count).filter(|j| near(i, *j)).map(|j| factor(i, j)).collect()).collect()
 }
 
@@ -61,6 +62,16 @@ fn solid(params: &Params, body: &Body, x: DVec3) -> (DVec3, f64) {
     let (distance, normal) = shapes::distance(body, x);
     let (share, slope) = profile(params, distance);
     (normal * -slope, share)
+}
+
+/// Share of walls and bodies where they are at the beginning of the step, by a profile of its own.
+pub(super) fn share(params: &Params, bodies: &[Body], [range, share]: [f64; 2], x: DVec3) -> f64 {
+    let at = |distance: f64| share * (1.0 - distance / range).clamp(0.0, 1.25).powi(6);
+    let walls = params.walls.map_or(0.0, |(low, high)| {
+        let (below, above) = (x - low.as_dvec3(), high.as_dvec3() - x);
+        below.to_array().into_iter().chain(above.to_array()).map(at).sum()
+    });
+    walls + bodies.iter().map(|body| at(shapes::distance(body, x).0)).sum::<f64>()
 }
 
 fn at_end(params: &Params, columns: &Columns) -> Vec<Body> {

@@ -13,10 +13,12 @@ mod couple;
 mod descent;
 mod grid;
 mod incompressible;
+mod obstacles;
 mod pbd;
 mod porous;
 mod shapes;
 mod sph;
+mod surface;
 
 /// A kernel as a plain loop in f64.
 pub type Oracle = fn(&Params, &mut Columns);
@@ -31,8 +33,11 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::pressure" => sph::pressure,
         "sph::forces" => sph::forces,
         "sph::surface_tension" => sph::surface_tension,
+        "sph::deficit" => surface::deficit,
+        "sph::cohesion" => surface::cohesion,
         "sph::repulsion" => sph::repulsion,
         "sph::boundary_pressure" => incompressible::boundary_pressure,
+        "sph::wall_friction" => obstacles::wall_friction,
         "sph::kick" => sph::kick,
         "sph::predict" => incompressible::predict,
         "sph::boundary" => incompressible::boundary,
@@ -42,6 +47,7 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::pressure_residual" => incompressible::pressure_residual,
         "sph::pressure_kick" => incompressible::pressure_kick,
         "sph::boundary_reaction" => incompressible::boundary_reaction,
+        "sph::sweep" => obstacles::sweep_fluid,
         "sph::advect" => sph::advect,
         "pbd::gravity" => pbd::gravity,
         "pbd::predict" => pbd::predict,

@@ -125,7 +125,15 @@ pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
             .sum();
         let apart = vector(columns.fluid.velocity[particle]) - sponge;
         let [linear, inertial, ..] = columns.fluid.drag_rate[particle].map(f64::from);
-        let rate = f64::from(params.step) * (linear + inertial * apart.length());
+        let h = f64::from(params.step);
+        // What is left of the speed, as the root of s (1 + h beta + h gamma s) = |v - u|.
+        let (mut low, mut high) = (0.0, apart.length());
+        for _ in 0..80 {
+            let middle: f64 = 0.5 * (low + high);
+            let is_high = middle * (1.0 + h * (linear + inertial * middle)) > apart.length();
+            (low, high) = if is_high { (low, middle) } else { (middle, high) };
+        }
+        let rate = h * (linear + inertial * low);
         let mass = f64::from(params.fluid.particle_mass) * rate / (1.0 + rate);
         // The column holds impulses and masses over the interior value.
         columns.fluid.drag[particle] = row(mass * inverse * apart, mass * inverse);

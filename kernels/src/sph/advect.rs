@@ -24,7 +24,7 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 /// Distance from the walls at which a particle is stopped, over the spacing.
-const STOP: f32 = 0.05;
+pub(super) const STOP: f32 = 0.05;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

@@ -8,7 +8,7 @@
 //! its neighbours does not push it into the wall: share and slope there are those that `boundary_profile` finds.
 //! Nothing has to be stored on the surface.
 
-use glam::{DVec3, Quat};
+use glam::DVec3;
 
 use crate::{
     body::{Body, Placed, Wrench},
@@ -65,20 +65,11 @@ fn fill(cpu: &Cpu, params: &Params, bodies: &[Body], points: &[[f32; 4]], bounda
 
 /// The bodies where they will be at the end of the step.
 pub(super) fn at_end(bodies: &[Body], step: f32) -> Vec<Body> {
-    let moved = |body: &Body| {
-        let mut body = body.clone();
-        let state = &mut body.state;
-        state.position += step * state.linear_velocity;
-        let [x, y, z] = (0.5 * step * state.angular_velocity).to_array();
-        let turn = Quat::from_xyzw(x, y, z, 1.0).normalize();
-        state.rotation = (turn * state.rotation).normalize();
-        body
-    };
-    bodies.iter().map(moved).collect()
+    bodies.iter().map(|body| body.at_end(step)).collect()
 }
 
 /// Bodies whose bounding ball comes within `range` of the box of the points.
-pub(super) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usize> {
+pub(crate) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usize> {
     if bodies.is_empty() {
         return Vec::new();
     }
@@ -88,7 +79,7 @@ pub(super) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usiz
         high = [0, 1, 2].map(|axis| high[axis].max(point[axis]));
     }
     let is_near = |body: &Body| {
-        let reach = body.shape.bounding_radius() + range;
+        let reach = body.shape.reach(range);
         let centre = body.state.position.to_array();
         (0..3).all(|axis| centre[axis] + reach > low[axis] && centre[axis] - reach < high[axis])
     };
@@ -102,7 +93,7 @@ const DEEPEST: f32 = 1.25;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
     pub(super) range: f32,
-    share: f32,
+    pub(super) share: f32,
 }
 
 impl Profile {

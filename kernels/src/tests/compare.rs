@@ -125,6 +125,7 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::FluidAcceleration => rows(&fluid.acceleration, &by_id),
         Column::FluidPredicted => rows(&fluid.predicted, &by_id),
         Column::FluidBoundary => rows(&fluid.boundary, &by_id),
+        Column::FluidDeficit => values(&fluid.deficit, &by_id),
         Column::FluidFactors => rows(&fluid.factors, &by_id),
         Column::FluidCorrection => rows(&fluid.correction, &by_id),
         Column::FluidPressureRows => planes(&fluid.pressure_rows, &by_id),

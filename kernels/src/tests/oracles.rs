@@ -18,7 +18,7 @@ use crate::{
 /// Rounding to f32 is 6e-8 of a value; sums of tens of terms and the Tait equation (seventh power) lose a little
 /// more. Displacements of nodes are differences of positions that are a hundred times larger. Each bound is about
 /// four times what was found; that of the strain is 6e-8 m, eight units in the last place of a position. Few particles hardly move
-/// the target of a node.
+/// the target of a node. Near the axis of a thin capsule the way out of it is known less well than the place.
 const BOUNDS: &[(&str, f64)] = &[
     ("grid::sort_fluid", 0.0),
     ("grid::fluid_neighbors", 0.0),
@@ -26,8 +26,11 @@ const BOUNDS: &[(&str, f64)] = &[
     ("sph::pressure", 4e-6),
     ("sph::forces", 2e-6),
     ("sph::surface_tension", 1e-5),
+    ("sph::deficit", 1e-5),
+    ("sph::cohesion", 2e-5),
     ("sph::repulsion", 4e-6),
     ("sph::boundary_pressure", 4e-6),
+    ("sph::wall_friction", 4e-6),
     ("sph::kick", 1e-6),
     ("sph::predict", 1e-6),
     ("sph::boundary", 2e-5),
@@ -37,9 +40,10 @@ const BOUNDS: &[(&str, f64)] = &[
     ("sph::pressure_residual", 5e-6),
     ("sph::pressure_kick", 4e-6),
     ("sph::boundary_reaction", 2e-5),
+    ("sph::sweep", 2e-3),
     ("sph::advect", 1e-5),
     ("pbd::gravity", 0.0),
-    ("pbd::predict", 4e-6),
+    ("pbd::predict", 2e-5),
     ("pbd::guess", 2e-5),
     ("pbd::strain", 5e-4),
     ("pbd::xpbd_neo_hookean", 1.5e-4),
@@ -169,6 +173,7 @@ fn scale_values(columns: &mut Columns, column: Column, factor: f32) -> bool {
     let values = match column {
         Column::FluidDensity => &mut columns.fluid.density,
         Column::FluidInterior => &mut columns.fluid.interior,
+        Column::FluidDeficit => &mut columns.fluid.deficit,
         Column::NodeVolume => &mut columns.nodes.volume,
         Column::NodeSuction => &mut columns.nodes.suction,
         Column::NodeInterior => &mut columns.nodes.interior,
@@ -209,6 +214,7 @@ fn a_small_fault_in_any_column_that_a_kernel_reads_is_noticed() {
             let mut faulty = before.clone();
             // Drag, its moments about the nodes, and contact are a small part of what a sponge lacks.
             let factor = match column {
+                _ if kernel.name == "sph::sweep" => 1.05,
                 Column::NodeDragMoment => 1.5,
                 Column::NodeReaction | Column::NodeDrag => 1.01,
                 _ => 1.001,

@@ -10,7 +10,7 @@ use crate::{
     grid::cells::Domain,
     kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
-    params::{EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
+    params::{Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
     pbd::stars::Stars,
     smoothing::Wendland,
     sph::{boundary::boundary_profile, factors::lattice_diagonal},
@@ -35,8 +35,11 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::zero_distance",
     "sph::forces",
     "sph::surface_tension",
+    "sph::deficit",
+    "sph::cohesion",
     "sph::repulsion",
     "sph::boundary_pressure",
+    "sph::wall_friction",
     "couple::suction",
     "couple::solid_pressure",
     "sph::kick",
@@ -72,6 +75,7 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::velocity_filter",
     "couple::drag",
     "couple::exchange",
+    "sph::sweep",
     "sph::advect",
 ];
 
@@ -87,6 +91,7 @@ pub(crate) struct Options {
     pub(crate) equation_of_state: EquationOfState,
     pub(crate) incompressible: bool,
     pub(crate) porous: bool,
+    pub(crate) cohesion: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -99,6 +104,7 @@ pub(crate) const FULL: Options = Options {
     equation_of_state: EquationOfState::Tait,
     incompressible: false,
     porous: false,
+    cohesion: false,
 };
 
 impl Options {
@@ -108,7 +114,12 @@ impl Options {
         let of_fluid = |column: &Column| matches!(column, Column::NodeFree | Column::NodeTarget);
         let touched = || kernel.reads.iter().chain(kernel.writes).any(of_fluid);
         let porous = kernel.needs.contains(&Need::Porous) || touched();
-        Self { incompressible: porous || kernel.needs.contains(&Need::Incompressible), porous, ..self }
+        // Walls and bodies are part of the surface where pressure is solved for.
+        let solves = [Need::Incompressible, Need::Cohesion, Need::NoSlip]
+            .iter()
+            .any(|need| kernel.needs.contains(need));
+        let cohesion = kernel.needs.contains(&Need::Cohesion);
+        Self { incompressible: porous || solves, porous, cohesion, ..self }
     }
 
     /// Sites per site of the coarse block, along each axis.
@@ -204,6 +215,8 @@ impl Scene {
             Need::Obstacles => self.options.walls || self.options.bodies,
             Need::Bodies => self.options.bodies,
             Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
+            Need::Cohesion => self.params.fluid.cohesion.is_some(),
+            Need::NoSlip => self.params.no_slip,
             Need::EquationOfState => !self.options.incompressible,
             Need::Incompressible => self.options.incompressible,
             Need::Porous => self.options.porous,
@@ -310,6 +323,7 @@ fn params(options: Options) -> Params {
         gravity: Vec3::new(0.5, -9.81, 0.25),
         domain: if options.bounded { domain } else { Domain::Unbounded },
         walls: options.walls.then_some((low, high)),
+        no_slip: true,
         fluid: FluidParams {
             spacing,
             rest_density: 1000.0,
@@ -321,7 +335,9 @@ fn params(options: Options) -> Params {
             viscosity: 0.5,
             central_viscosity: 0.3,
             roughness: if options.incompressible { 5.0e-7 } else { 0.0 },
+            wall_viscosity: 5.0,
             surface_tension: 0.07,
+            cohesion: options.cohesion.then(|| cohesion(radius, spacing)),
             repulsion_range: spacing,
             repulsion_stiffness: 1.0e5,
             repulsion_damping: 50.0,
@@ -344,6 +360,13 @@ fn incompressible(radius: f32, spacing: f32) -> Incompressible {
         boundary_range,
         boundary_share,
     }
+}
+
+fn cohesion(radius: f32, spacing: f32) -> Cohesion {
+    let smoothing = Wendland::new(1.5 * radius);
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    let sum = Wendland::lattice_sum(1.5 * f64::from(radius), f64::from(spacing)) as f32;
+    Cohesion { stiffness: 500.0, smoothing, volume: spacing.powi(3) / sum, boundary_range, boundary_share }
 }
 
 fn sponges() -> Vec<SpongeParams> {
@@ -408,7 +431,7 @@ fn bodies() -> Vec<Body> {
     let mut all = vec![
         body(Shape::Sphere { radius: 0.008 }, [0.03, 0.02, 0.02], 0.0),
         body(Shape::Cuboid { half_extents }, [0.06, 0.03, 0.03], 0.7),
-        body(capsule, [0.015, 0.035, 0.03], -0.4),
+        body(capsule, [0.0162, 0.035, 0.03], -0.4),
         body(hull, [0.045, 0.012, 0.035], 0.3),
         // The solid side is +x, where padding rows lie as well.
         body(Shape::Plane, [0.066, 0.0, 0.0], 1.62),
@@ -416,6 +439,9 @@ fn bodies() -> Vec<Body> {
     ];
     all[4].kind = BodyKind::Kinematic;
     all[GRIPPER].touches_nodes = false;
+    all[1].no_slip = false;
+    // Faster than contact and pressure are made for.
+    all[1].state.linear_velocity = Vec3::new(2.0, -1.0, 1.5);
     all
 }
 
@@ -432,6 +458,7 @@ fn body(shape: Shape, position: [f32; 3], angle: f32) -> Body {
         },
         friction: 0.3,
         touches_nodes: true,
+        no_slip: true,
     }
 }
 

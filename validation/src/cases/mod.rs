@@ -2,9 +2,11 @@
 
 mod bar;
 mod cantilever;
+mod channel;
 mod consolidation;
 mod dam_break;
 mod dam_spheric;
+mod drop;
 mod duct;
 mod floating;
 mod hydrostatic;
@@ -26,6 +28,8 @@ pub const CASES: &[&Case] = &[
     &dam_spheric::CASE,
     &taylor_green::CASE,
     &floating::CASE,
+    &drop::CASE,
+    &channel::CASE,
     &patch::CASE,
     &cantilever::CANTILEVER,
     &strain::UNIAXIAL,

@@ -1,7 +1,9 @@
 //! Tables and formulas with their sources.
 
 pub mod beam;
+pub mod channel;
 pub mod darcy;
+pub mod drop;
 pub mod floating;
 pub mod kleefsman;
 pub mod martin_moyce;

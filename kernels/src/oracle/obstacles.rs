@@ -1,0 +1,122 @@
+//! Bodies in the way of particles, and friction at walls, one by one.
+
+use glam::DVec3;
+
+use super::{row, shapes, vector};
+use crate::{
+    body::{Body, Wrench},
+    columns::Columns,
+    params::Params,
+    sweep,
+};
+
+/// What other kernels gave to every body before.
+fn given(wrenches: &[Wrench], bodies: usize) -> Vec<Wrench> {
+    let mut total = vec![Wrench::default(); bodies];
+    for chunk in wrenches.chunks(bodies.max(1)) {
+        for (wrench, part) in total.iter_mut().zip(chunk) {
+            wrench.impulse += part.impulse;
+            wrench.angular_impulse += part.angular_impulse;
+        }
+    }
+    total
+}
+
+/// A place in the frame of one body, in that of the other.
+fn carried(from: &Body, to: &Body, point: DVec3) -> DVec3 {
+    let local = shapes::rotation(from).transpose() * (point - from.state.position.as_dvec3());
+    shapes::rotation(to) * local + to.state.position.as_dvec3()
+}
+
+/// What has to be added to the end of a way that a body is in: everything is looked at where the body began.
+fn correction([before, after]: [&Body; 2], margin: f64, nearly: f64, from: DVec3, to: DVec3) -> DVec3 {
+    let end = carried(after, before, to);
+    let way = end - from;
+    let (mut time, mut at) = (0.0, from);
+    let look = |at| {
+        let (distance, normal) = shapes::distance(before, at);
+        (distance - margin, normal)
+    };
+    let (mut distance, mut normal) = look(from);
+    for _ in 0..sweep::ADVANCES {
+        if distance <= nearly || time >= 1.0 {
+            break;
+        }
+        let length = way.length();
+        time = if length > 0.0 { f64::min(time + distance / length, 1.0) } else { 1.0 };
+        at = from + way * time;
+        (distance, normal) = look(at);
+    }
+    let beyond = (distance.max(0.0) + (end - at).dot(normal)).min(0.0);
+    let turned = shapes::rotation(after) * shapes::rotation(before).transpose() * normal;
+    turned * -beyond
+}
+
+fn pairs(params: &Params, columns: &Columns) -> Vec<[Body; 2]> {
+    let bodies = &columns.bodies.states.0;
+    bodies.iter().map(|body| [body.clone(), body.at_end(params.step)]).collect()
+}
+
+pub(super) fn sweep_fluid(params: &Params, columns: &mut Columns) {
+    let pairs = pairs(params, columns);
+    let mut wrenches = given(&columns.bodies.fluid_wrenches.0, pairs.len());
+    let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
+    let spacing = f64::from(params.fluid.spacing);
+    let nearly = f64::from(sweep::NEARLY) * spacing;
+    for i in 0..columns.rows.fluid {
+        let x = vector(columns.fluid.position[i]);
+        let mut v = vector(columns.fluid.velocity[i]);
+        for (wrench, pair) in wrenches.iter_mut().zip(&pairs) {
+            let moved = correction(pair.each_ref(), 0.05 * spacing, nearly, x, x + h * v);
+            v += moved / h;
+            wrench.add(-mass * moved / h, x + h * v - pair[1].state.position.as_dvec3());
+        }
+        columns.fluid.velocity[i] = row(v, f64::from(columns.fluid.velocity[i][3]));
+    }
+    columns.bodies.fluid_wrenches.0 = wrenches;
+}
+
+/// Integral of `lap W z / y` over a half-space at the distance y, for the kernel of the viscosity, slice by slice.
+fn half_space(radius: f64, distance: f64) -> f64 {
+    const SLICES: usize = 4000;
+    let y = distance.max(radius / 8.0);
+    let thickness = (radius - y).max(0.0) / SLICES as f64;
+    let slice = |k: usize| {
+        let z = y + (k as f64 + 0.5) * thickness;
+        // 2 pi int r lap W dr from z to H, with lap W = 45 / (pi H^5) (1 - r / H).
+        let ring = (radius * radius - z * z) / 2.0 - (radius.powi(3) - z.powi(3)) / (3.0 * radius);
+        90.0 / radius.powi(5) * ring * z / y * thickness
+    };
+    (0..SLICES).map(slice).sum()
+}
+
+pub(super) fn wall_friction(params: &Params, columns: &mut Columns) {
+    let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
+    let mut wrenches = given(&columns.bodies.fluid_wrenches.0, bodies.len());
+    let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
+    let radius = f64::from(params.fluid.smoothing.support_radius);
+    let kinematic = f64::from(params.fluid.wall_viscosity) / f64::from(params.fluid.rest_density);
+    let slowed = |distance: f64, slide: DVec3, normal: DVec3| {
+        let rate = if distance < radius { kinematic * half_space(radius, distance) } else { 0.0 };
+        (slide - normal * slide.dot(normal)) * rate.min(1.0 / h)
+    };
+    for i in 0..columns.rows.fluid {
+        let (x, v) = (vector(fluid.position[i]), vector(fluid.velocity[i]));
+        let mut sum = DVec3::ZERO;
+        if let Some((low, high)) = params.walls.filter(|_| params.no_slip) {
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                sum += slowed((x - low.as_dvec3()).dot(axis), v, axis);
+                sum += slowed((high.as_dvec3() - x).dot(axis), v, axis);
+            }
+        }
+        for (body, wrench) in bodies.iter().zip(&mut wrenches).filter(|(body, _)| body.no_slip) {
+            let (distance, normal) = shapes::distance(body, x);
+            let own = slowed(distance, v - shapes::velocity(body, x), normal);
+            sum += own;
+            wrench.add(own * (mass * h), x - body.state.position.as_dvec3());
+        }
+        let allowed = f64::from(fluid.acceleration[i][3]);
+        fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - sum, allowed);
+    }
+    columns.bodies.fluid_wrenches.0 = wrenches;
+}

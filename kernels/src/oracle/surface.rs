@@ -1,0 +1,36 @@
+//! Surface tension from an energy of the surface, pair by pair.
+
+use glam::DVec3;
+
+use super::{gradient, incompressible, row, smoothing, vector, vectors};
+use crate::{columns::Columns, params::Params, sph::deficit};
+
+pub(super) fn deficit(params: &Params, columns: &mut Columns) {
+    let Some(cohesion) = &params.fluid.cohesion else { return };
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let x = vectors(&fluid.position, count);
+    let (radius, volume) = (cohesion.smoothing.support_radius, f64::from(cohesion.volume));
+    let profile = [cohesion.boundary_range, cohesion.boundary_share].map(f64::from);
+    fluid.deficit.resize(fluid.position.len(), 0.0);
+    for i in 0..count {
+        let there: f64 = x.iter().map(|other| volume * smoothing(radius, x[i].distance(*other))).sum();
+        let share = incompressible::share(params, &columns.bodies.states.0, profile, x[i]);
+        fluid.deficit[i] = (f64::from(deficit::FULL) - there - share).max(0.0) as f32;
+    }
+}
+
+pub(super) fn cohesion(params: &Params, columns: &mut Columns) {
+    let Some(cohesion) = &params.fluid.cohesion else { return };
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let x = vectors(&fluid.position, count);
+    let lacks = |row: usize| f64::from(fluid.deficit[row]);
+    let (volume, mass) = (f64::from(cohesion.volume), f64::from(params.fluid.particle_mass));
+    let factor = f64::from(cohesion.stiffness) * volume * volume / mass;
+    for i in 0..count {
+        let pull =
+            |j: usize| (lacks(i) + lacks(j)) * gradient(cohesion.smoothing.support_radius, x[i] - x[j]);
+        let sum: DVec3 = (0..count).map(pull).sum();
+        let allowed = f64::from(fluid.acceleration[i][3]);
+        fluid.acceleration[i] = row(vector(fluid.acceleration[i]) + factor * sum, allowed);
+    }
+}

@@ -1,0 +1,68 @@
+//! Surface tension: what an energy of the surface does to the particles.
+//!
+//! ```text
+//! E = k / 2 sum_i V e_i^2
+//! a_i = -dE/dx_i / m = k V^2 / m sum_j (e_i + e_j) grad W_ij
+//! ```
+//!
+//! with the deficits e of `sph::deficit`. As the fluid keeps its volume, this energy grows with its surface alone. Forces are equal
+//! and opposite and act along the line between particles, which keeps momentum and angular momentum; deep inside there are
+//! none, so that the fluid stays a fluid there.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    grid::neighbors::ChunkLists,
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, with_lanes},
+    params::{Cohesion, Params},
+    vector::{dot, plus, times},
+};
+
+/// `sph::cohesion`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::cohesion",
+    needs: &[Need::Fluid, Need::Cohesion],
+    reads: &[FluidPosition, FluidNeighbors, FluidDeficit, FluidAcceleration],
+    writes: &[FluidAcceleration],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(cohesion) = &params.fluid.cohesion else { return };
+    let Fluid { position, neighbors, deficit, acceleration, .. } = &mut columns.fluid;
+    let mass = params.fluid.particle_mass;
+    cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
+        let lists = neighbors.chunk(first);
+        with_lanes!(cpu, simd =>
+            chunk(simd, (cohesion, mass), first, (position, deficit), lists, acceleration));
+    });
+}
+
+#[inline(always)]
+fn chunk<S: Simd>(
+    simd: S,
+    (cohesion, mass): (&Cohesion, f32),
+    first: usize,
+    (position, deficit): (&[[f32; 4]], &[f32]),
+    lists: &ChunkLists,
+    acceleration: &mut [[f32; 4]],
+) {
+    let kernel = cohesion.smoothing.lanes(simd);
+    let scale = kernel.gradient_scale() * (cohesion.stiffness * cohesion.volume * (cohesion.volume / mass));
+    for row in (0..acceleration.len()).step_by(LANES) {
+        let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+        let lacks = lanes::load(simd, deficit, first + row);
+        let mut sum = [lanes::splat(simd, 0.0); 3];
+        for entry in lists.group(row) {
+            let [xj, yj, zj, _] = lanes::gather_rows(simd, position, entry);
+            let apart = [x - xj, y - yj, z - zj];
+            let u = kernel.closeness(dot(apart, apart));
+            let both = lacks + lanes::gather(simd, deficit, entry);
+            sum = plus(sum, times(apart, u * u * u * both));
+        }
+        let pull = times(sum, scale);
+        let [ax, ay, az, aw] = lanes::load_rows(simd, acceleration, row);
+        lanes::store_rows(acceleration, row, [ax - pull[0], ay - pull[1], az - pull[2], aw]);
+    }
+}

@@ -1,0 +1,119 @@
+//! Velocities with which no particle goes through a body in the step (`sweep.rs`).
+//!
+//! ```text
+//! v <- v + dq / h,   impulse of the body = -m dq / h
+//! ```
+//!
+//! Pressure keeps particles half a spacing away from what they had time to see coming; this is for what is faster.
+
+use glam::DVec3;
+
+use crate::{
+    body::{Body, Wrench},
+    columns::{Column::*, Columns, Fluid},
+    cpu::{Cpu, PerChunk},
+    kernel::{Kernel, Need},
+    lanes::{self, LANES, Simd, prelude::*, with_lanes},
+    params::Params,
+    sweep::Swept,
+    vector::{Vec3x8, dot, minus, plus, splat, times},
+};
+
+use super::{
+    advect::STOP,
+    boundary::{at_end, near},
+    boundary_pressure::per_chunk,
+};
+
+/// `sph::sweep`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::sweep",
+    needs: &[Need::Fluid, Need::Bodies],
+    reads: &[FluidPosition, FluidVelocity, BodyStates, BodyFluidWrenches],
+    writes: &[FluidVelocity, BodyFluidWrenches],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
+    let Fluid { position, velocity, .. } = &mut columns.fluid;
+    let bodies = &columns.bodies.states.0;
+    let ends = at_end(bodies, params.step);
+    let fastest = bodies.iter().map(Body::fastest).fold(0.0, f32::max);
+    let mut wrenches = per_chunk(&mut columns.bodies.fluid_wrenches.0, velocity.len(), bodies.len());
+    cpu.for_chunks((&mut velocity[..], PerChunk(&mut wrenches)), |first, (velocity, wrenches)| {
+        let used = count.saturating_sub(first).min(velocity.len());
+        let points = &position[first..first + velocity.len()];
+        let reach = params.step * (fastest + speed(&velocity[..used])) + params.fluid.spacing;
+        let near = near(bodies, points, reach);
+        if near.is_empty() {
+            return;
+        }
+        let task = Task { params, bodies: [bodies, &ends], near: &near };
+        with_lanes!(cpu, simd => task.chunk(simd, points, &mut velocity[..used.next_multiple_of(LANES)], used, wrenches.0[0]));
+    });
+}
+
+/// The largest speed.
+fn speed(velocity: &[[f32; 4]]) -> f32 {
+    let square = |v: &[f32; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    velocity.iter().map(square).fold(0.0, f32::max).sqrt()
+}
+
+struct Task<'a> {
+    params: &'a Params,
+    /// Before and after the step.
+    bodies: [&'a [Body]; 2],
+    near: &'a [usize],
+}
+
+impl Task<'_> {
+    #[inline(always)]
+    fn chunk<S: Simd>(
+        &self,
+        simd: S,
+        points: &[[f32; 4]],
+        velocity: &mut [[f32; 4]],
+        used: usize,
+        wrenches: &mut [Wrench],
+    ) {
+        let fluid = &self.params.fluid;
+        let (step, rate) = (lanes::splat(simd, self.params.step), 1.0 / self.params.step);
+        for body in self.near {
+            let pair = [&self.bodies[0][*body], &self.bodies[1][*body]];
+            let swept = Swept::new(simd, pair, STOP * fluid.spacing, fluid.spacing);
+            for row in (0..velocity.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, points, row);
+                let [vx, vy, vz, w] = lanes::load_rows(simd, velocity, row);
+                let (from, v) = ([x, y, z], [vx, vy, vz]);
+                let to = plus(from, times(v, step));
+                let correction = swept.correction(from, to);
+                if !dot(correction, correction).simd_gt(lanes::splat(simd, 0.0)).any_true() {
+                    continue;
+                }
+                let change = times(correction, lanes::splat(simd, rate));
+                let mut stored = [[0.0; 4]; LANES];
+                let [vx, vy, vz] = plus(v, change);
+                lanes::store_rows(&mut stored, 0, [vx, vy, vz, w]);
+                // Padding rows lie where a plane may be solid, and must not move.
+                let lanes = used.saturating_sub(row).min(LANES);
+                velocity[row..row + lanes].copy_from_slice(&stored[..lanes]);
+                let centre = splat(simd, pair[1].state.position.to_array());
+                let arm = minus(plus(to, correction), centre);
+                give(&mut wrenches[*body], change, arm, lanes, fluid.particle_mass);
+            }
+        }
+    }
+}
+
+/// Adds the opposite of changes of velocity to a wrench.
+#[inline(always)]
+fn give<S: Simd>(wrench: &mut Wrench, change: Vec3x8<S>, arm: Vec3x8<S>, lanes: usize, mass: f32) {
+    for lane in 0..lanes {
+        let vector = |of: Vec3x8<S>| DVec3::new(of[0][lane].into(), of[1][lane].into(), of[2][lane].into());
+        let change = vector(change);
+        if change != DVec3::ZERO {
+            wrench.add(change * -f64::from(mass), vector(arm));
+        }
+    }
+}

@@ -1,0 +1,39 @@
+// Surface tension: what an energy of the surface does to the particles.
+//
+//     E = k / 2 sum_i V e_i^2,   a_i = k V^2 / m sum_j (e_i + e_j) grad W_ij
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(4) var<storage, read> deficit: array<f32>;
+@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let lacks = deficit[row];
+    let end = list[row];
+    var slot = row;
+    var sum = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let apart = point - position[other].xyz;
+        let u = closeness(params.cohesion, dot(apart, apart));
+        sum += apart * (u * u * u * (lacks + deficit[other]));
+    }
+    let volume = params.cohesion_volume;
+    let factor = params.cohesion_stiffness * volume * (volume / params.particle_mass);
+    let own = acceleration[row];
+    acceleration[row] = vec4<f32>(own.xyz - sum * (params.cohesion.gradient * factor), own.w);
+}

@@ -1,0 +1,56 @@
+// What particles near the surface of the fluid are short of neighbours.
+//
+//     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> list: array<u32>;
+@group(0) @binding(4) var<storage, read> bodies: array<Body>;
+@group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> deficit: array<f32>;
+
+// Share of a surface at a distance, as in `boundary.rs`.
+fn share_of(distance: f32) -> f32 {
+    let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, 1.25);
+    let cube = depth * depth * depth;
+    return params.cohesion_share * cube * cube;
+}
+
+fn share_at(point: vec3<f32>) -> f32 {
+    var share = 0.0;
+    if (params.wall_low.w > 0.0) {
+        for (var axis = 0u; axis < 3u; axis += 1u) {
+            share += share_of(point[axis] - params.wall_low[axis]);
+            share += share_of(params.wall_high[axis] - point[axis]);
+        }
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        share += share_of(body_surface(bodies[index], point).distance);
+    }
+    return share;
+}
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let end = list[row];
+    var slot = row;
+    var sum = 0.0;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let apart = point - position[list[slot]].xyz;
+        sum += shape(closeness(params.cohesion, dot(apart, apart)));
+    }
+    let there = sum * (params.cohesion.value * params.cohesion_volume);
+    deficit[row] = max(0.98 - there - share_at(point), 0.0);
+}

@@ -1,0 +1,52 @@
+// Velocities with which no particle goes through a body in the step; bodies receive the opposite impulse.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> bodies: array<Body>;
+@group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let is_row = row < params.fluid_rows;
+    var start = vec3<f32>(0.0);
+    var own = vec4<f32>(0.0);
+    if (is_row) {
+        start = position[row].xyz;
+        own = velocity[row];
+    }
+    let margin = params.spacing * 0.05;
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let before = bodies[index];
+        let after = at_end(before);
+        let end = start + clock.step * own.xyz;
+        var moved = vec3<f32>(0.0);
+        if (is_row) {
+            moved = swept(before, after, margin, NEARLY * params.spacing, start, end);
+        }
+        if (group_touches(lane, any(moved != vec3<f32>(0.0)))) {
+            let change = moved * clock.inverse_step;
+            let impulse = change * -params.particle_mass;
+            let all = group_sum(lane, Wrench(impulse, cross(end + moved - after.position.xyz, impulse)));
+            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            if (lane == 0u) {
+                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+            }
+            own = vec4<f32>(own.xyz + change, own.w);
+        }
+    }
+    if (is_row) {
+        velocity[row] = own;
+    }
+}

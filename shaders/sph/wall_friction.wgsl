@@ -1,0 +1,78 @@
+// Friction of the fluid at walls and bodies that it does not slide along; `wall_friction.rs` has the integral.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> bodies: array<Body>;
+@group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+const NEAREST: f32 = 0.125;
+
+fn friction_rate(distance: f32) -> f32 {
+    let radius = params.smoothing.radius;
+    let kinematic = 90.0 * params.wall_viscosity / (params.rest_density * radius * radius);
+    let q = clamp(distance * (1.0 / radius), NEAREST, 1.0);
+    let square = q * q;
+    let fourth = square * square;
+    let integral = 0.025 - square * (1.0 / 12.0) + fourth * 0.125 - fourth * q * (1.0 / 15.0);
+    return max(min(integral * kinematic / q, clock.inverse_step), 0.0);
+}
+
+fn wall_friction(point: vec3<f32>, v: vec3<f32>) -> vec3<f32> {
+    if (params.wall_low.w == 0.0 || params.no_slip == 0u) {
+        return vec3<f32>(0.0);
+    }
+    var rates = vec3<f32>(0.0);
+    for (var axis = 0u; axis < 3u; axis += 1u) {
+        rates[axis] = friction_rate(point[axis] - params.wall_low[axis])
+            + friction_rate(params.wall_high[axis] - point[axis]);
+    }
+    return v * vec3<f32>(rates.y + rates.z, rates.x + rates.z, rates.x + rates.y);
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let is_row = row < params.fluid_rows;
+    var point = vec3<f32>(0.0);
+    var v = vec3<f32>(0.0);
+    var sum = vec3<f32>(0.0);
+    if (is_row) {
+        point = position[row].xyz;
+        v = velocity[row].xyz;
+        sum = wall_friction(point, v);
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let body = bodies[index];
+        var slowed = vec3<f32>(0.0);
+        if (is_row && body.surface.y > 0.0) {
+            let surface = body_surface(body, point);
+            let slide = v - body_velocity(body, point);
+            slowed = (slide - surface.normal * dot(slide, surface.normal)) * friction_rate(surface.distance);
+        }
+        sum += slowed;
+        if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
+            let impulse = slowed * (clock.step * params.particle_mass);
+            let all = group_sum(lane, Wrench(impulse, cross(point - body.position.xyz, impulse)));
+            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            if (lane == 0u) {
+                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+            }
+        }
+    }
+    if (is_row) {
+        let own = acceleration[row];
+        acceleration[row] = vec4<f32>(own.xyz - sum, own.w);
+    }
+}
