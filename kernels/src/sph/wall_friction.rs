@@ -96,7 +96,7 @@ impl Task<'_> {
             let above = self.rate(simd, lanes::splat(simd, high[axis]) - point[axis]);
             for other in 0..3 {
                 if other != axis {
-                    sum[other] = sum[other] + velocity[other] * (below + above);
+                    sum[other] += velocity[other] * (below + above);
                 }
             }
         }
