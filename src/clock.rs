@@ -135,14 +135,12 @@ impl Steps {
     pub(crate) fn new(scene: &Scene, params: &Params) -> Self {
         let mut bounds = vec![(scene.time.maximum_step, Bound::Maximum)];
         let fluid = &params.fluid;
-        if scene.fluid.is_some() {
+        if let Some(water) = &scene.fluid {
             let h = fluid.smoothing.support_radius;
             // Along the line between particles the central form is as stiff as five times the other.
             let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
-            let tension =
-                fluid.surface_tension.max(scene.fluid.as_ref().map_or(0.0, |fluid| fluid.surface_tension));
-            let capillary = fluid.rest_density * h * h * h / (2.0 * PI * tension);
+            let capillary = fluid.rest_density * h * h * h / (2.0 * PI * water.surface_tension);
             bounds.push((CAPILLARY_COURANT * capillary.sqrt(), Bound::SurfaceTension));
             for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
                 if params.solid.is_some() {
