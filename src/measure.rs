@@ -154,11 +154,21 @@ impl Measures {
     }
 }
 
+/// Volume of a tet over that at rest below which the logarithm in the energy of `vbd` goes on as a polynomial.
+const SOLID: f64 = 0.2;
+
 /// Energy of a tet over its volume at rest \[Pa\], as the solver of its sponge defines it; zero at rest.
 fn energy_density(sponge: &SpongeParams, columns: [DVec3; 3], ratio: f64) -> f64 {
-    if sponge.solver != Solver::Sbd {
-        let (mu, lambda) = (f64::from(sponge.mu), f64::from(sponge.lambda));
-        let square: f64 = columns.iter().map(|column| column.length_squared()).sum();
+    let (mu, lambda) = (f64::from(sponge.mu), f64::from(sponge.lambda));
+    let square: f64 = columns.iter().map(|column| column.length_squared()).sum();
+    if sponge.solver == Solver::Vbd {
+        let least = ratio.max(SOLID);
+        let beyond = ratio / least - 1.0;
+        let logarithm = libm::log(least) + beyond - 0.5 * beyond * beyond;
+        let volume = (lambda - mu) * (ratio - 1.0).powi(2);
+        return 0.5 * (mu * (square - 3.0 - 2.0 * logarithm) + volume);
+    }
+    if sponge.solver == Solver::XpbdNeoHookean {
         let alpha = 1.0 + mu / lambda;
         let rest = (1.0 - alpha).powi(2);
         return 0.5 * (mu * (square - 3.0) + lambda * ((ratio - alpha).powi(2) - rest));

@@ -100,8 +100,7 @@ impl Run {
         // Free fall through the container and the fastest body reach 2 m/s; a blow-up knows no bound. Grips that spin fling out
         // single particles at up to three times their own speed (docs/stress.md).
         let (_, fastest) = self.range(0.0..f64::INFINITY, |sample| sample.measures.maximum_speed);
-        let most = if self.name == "wring" { 8.0 } else { 5.0 };
-        claims.claim(fastest < most, format!("something moves at {fastest:.1} m/s"));
+        claims.claim(fastest < 5.0, format!("something moves at {fastest:.1} m/s"));
         claims
     }
 
@@ -216,8 +215,10 @@ fn squeezed(
     let tight = Run::of(&tight, compared);
     claims.claim(tight.broken.is_none(), format!("a hundredth of the permeability: {:?}", tight.broken));
     let (_, fastest) = tight.range(0.0..compared, |sample| sample.measures.maximum_speed);
+    // A single node that a plate or a ball lets go springs back about as fast as an elastic wave.
+    let wave = f64::from(scene.sponges[0].young_modulus / scene.sponges[0].density).sqrt();
     claims.claim(
-        fastest < 5.0,
+        fastest < 1.5 * wave,
         format!("a hundredth of the permeability: something moves at {fastest:.1} m/s"),
     );
     // Loss against what each run holds when the compression begins; a mean over a bounce of the ball.
@@ -237,10 +238,10 @@ fn ball_drop() {
     let run = squeezed("ball_drop", 0.1, 0.1..0.25, 1.0, &mut claims);
     let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(10.0)));
     let (least, _) = run.range(0.1..2.0, absorbed);
-    claims.claim(least < 0.8 * early, format!("absorbed: {early:.4} kg, pressed out to {least:.4} kg"));
+    claims.claim(least < 0.9 * early, format!("absorbed: {early:.4} kg, pressed out to {least:.4} kg"));
     // What lies around it is drunk again, but not where the ball lies.
     claims.claim(
-        late > 1.05 * least && late < 0.95 * early,
+        late > 1.02 * least && late < 0.95 * early,
         format!("absorbed: {early:.4} kg, {least:.4} kg under the ball, {late:.4} kg in the end"),
     );
     run.finish(claims);

@@ -139,9 +139,9 @@ pub struct SpongeParams {
     pub edge: f32,
     /// How it is solved.
     pub solver: Solver,
-    /// Shear constant mu of the stable Neo-Hookean energy \[Pa\]; of `vbd` and `xpbd_neo_hookean`, like the next two.
+    /// Shear constant mu of the Neo-Hookean energies \[Pa\]; of `vbd` and `xpbd_neo_hookean`, like the next two.
     pub mu: f32,
-    /// Volume constant lambda of that energy, the first Lame constant plus mu \[Pa\].
+    /// Volume constant lambda of those energies, the first Lame constant plus mu \[Pa\].
     pub lambda: f32,
     /// Ratio of viscous to elastic stress per strain rate \[s\].
     pub damping: f32,
@@ -174,9 +174,9 @@ pub struct SpongeParams {
 }
 
 impl SpongeParams {
-    /// Constants of the stable Neo-Hookean energy, `mu` and `lambda` \[Pa\], of Young's modulus \[Pa\] and Poisson's ratio.
+    /// Constants of the Neo-Hookean energies, `mu` and `lambda` \[Pa\], of Young's modulus \[Pa\] and Poisson's ratio.
     ///
-    /// Near rest the energy is that of a linear material with `mu` and a first Lame constant of `lambda - mu`.
+    /// Near rest the energies are that of a linear material with `mu` and a first Lame constant of `lambda - mu`.
     #[must_use]
     pub fn neo_hookean(young_modulus: f32, poisson_ratio: f32) -> (f32, f32) {
         let (young, poisson) = (f64::from(young_modulus), f64::from(poisson_ratio));

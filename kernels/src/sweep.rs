@@ -1,16 +1,21 @@
-//! The way of particles through a step, stopped where it would lead into a body.
+//! The way of points through a step, and the body that it would lead into.
 //!
 //! In the frame of the body, which moves and turns itself, a point goes straight from p to q. It is followed by steps that
-//! are safe \[H96\], and may not go deeper than the surface where it meets the body first:
+//! are safe \[H96\] until it meets the body at x:
 //!
 //! ```text
-//! x = p + t (q - p),   t <- t + D(x) / |q - p|   until D(x) is nearly 0
-//! q <- q - min(0, max(0, D(x)) + (q - x) . n) n
+//! x = p,   x <- x + D(x) (q - p) / |q - p|   until D(x) is nearly 0, or more than what is left of the way
 //! ```
 //!
-//! D is the distance from the surface less a margin, n the normal there. What begins below the margin goes no deeper. No
-//! speed and no wall is too thin for this: shapes are convex, so that what is outside of the plane at x is outside of the
-//! body.
+//! D is the distance from the surface less a margin, n the normal there. What counts is how far q lies behind the plane
+//! through the surface at x, `D(x) + (q - x) . n`, and not the distance of q, which may have passed the body: shapes are
+//! convex, so that what is outside of the plane is outside of the body, at any speed and of any thickness.
+//!
+//! Particles are followed to where the body is at the end of the step, and what begins below the margin goes no deeper:
+//!
+//! ```text
+//! q <- q - min(0, max(0, D(x)) + (q - x) . n) n
+//! ```
 
 use crate::{
     body::{Body, Placed},
@@ -20,8 +25,49 @@ use crate::{
 
 /// Most steps along a way: one that passes a surface at a grazing angle ends as if it met it where they end.
 pub(crate) const ADVANCES: usize = 12;
-/// Distance that counts as nothing, over the length that points are apart.
+/// Distance that counts as nothing, over the length of the way.
 pub(crate) const NEARLY: f32 = 1.0e-3;
+
+/// Where ways meet a body.
+pub(crate) struct Met<S: Simd> {
+    /// D(x) \[m\].
+    pub(crate) distance: f32x8<S>,
+    /// `(q - x) . n` \[m\].
+    pub(crate) beyond: f32x8<S>,
+    /// n, in the frame of the body.
+    pub(crate) normal: Vec3x8<S>,
+}
+
+/// Follows ways from `from` to `to` in the frame of a body, to `margin` above its surface \[m\].
+#[inline(always)]
+pub(crate) fn met<S: Simd>(
+    simd: S,
+    body: &Placed<'_, S>,
+    [from, to]: [Vec3x8<S>; 2],
+    margin: f32x8<S>,
+) -> Met<S> {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let way = minus(to, from);
+    let length = dot(way, way).sqrt();
+    let direction = times(way, one / select(length.simd_gt(zero), length, one));
+    let nearly = length * NEARLY;
+    let (mut at, mut left) = (from, length);
+    let (distance, mut normal) = body.local_distance(from);
+    let mut distance = distance - margin;
+    for _ in 0..ADVANCES {
+        let goes = distance.simd_gt(nearly) & distance.simd_lt(left);
+        if !goes.any_true() {
+            break;
+        }
+        // Points that have arrived stay: the same place gives the same distance.
+        let advance = select(goes, distance, zero);
+        at = plus(at, times(direction, advance));
+        left -= advance;
+        let (next, next_normal) = body.local_distance(at);
+        (distance, normal) = (next - margin, next_normal);
+    }
+    Met { distance, beyond: dot(minus(to, at), normal), normal }
+}
 
 /// A body before and after a step.
 pub(crate) struct Swept<'a, S: Simd> {
@@ -29,19 +75,17 @@ pub(crate) struct Swept<'a, S: Simd> {
     before: Placed<'a, S>,
     after: Placed<'a, S>,
     margin: f32x8<S>,
-    nearly: f32x8<S>,
 }
 
 impl<'a, S: Simd> Swept<'a, S> {
-    /// Points are kept `margin` away from the surface \[m\]; they are about `spacing` apart \[m\].
+    /// Points are kept `margin` away from the surface \[m\].
     #[inline(always)]
-    pub(crate) fn new(simd: S, [before, after]: [&'a Body; 2], margin: f32, spacing: f32) -> Self {
+    pub(crate) fn new(simd: S, [before, after]: [&'a Body; 2], margin: f32) -> Self {
         Self {
             simd,
             before: Placed::new(simd, before),
             after: Placed::new(simd, after),
             margin: lanes::splat(simd, margin),
-            nearly: lanes::splat(simd, NEARLY * spacing),
         }
     }
 
@@ -49,27 +93,10 @@ impl<'a, S: Simd> Swept<'a, S> {
     #[inline(always)]
     pub(crate) fn correction(&self, from: Vec3x8<S>, to: Vec3x8<S>) -> Vec3x8<S> {
         let simd = self.simd;
-        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        let (from, to) = (self.before.local(from), self.after.local(to));
-        let way = minus(to, from);
-        let length = dot(way, way).sqrt();
-        let rate = one / select(length.simd_gt(zero), length, one);
-        let (distance, mut normal) = self.before.local_distance(from);
-        let mut distance = distance - self.margin;
-        let (mut at, mut time) = (from, zero);
-        for _ in 0..ADVANCES {
-            let goes = distance.simd_gt(self.nearly) & time.simd_lt(one);
-            if !goes.any_true() {
-                break;
-            }
-            // Points that have arrived stay: the same place gives the same distance.
-            let advanced = (time + distance * rate).min(one);
-            time = select(goes, advanced, time);
-            at = plus(from, times(way, time));
-            let (next, next_normal) = self.before.local_distance(at);
-            (distance, normal) = (next - self.margin, next_normal);
-        }
-        let beyond = lanes::positive(simd, distance) + dot(minus(to, at), normal);
+        let zero = lanes::splat(simd, 0.0);
+        let way = [self.before.local(from), self.after.local(to)];
+        let Met { distance, beyond, normal } = met(simd, &self.before, way, self.margin);
+        let beyond = lanes::positive(simd, distance) + beyond;
         let beyond = select(beyond.simd_lt(zero), beyond, zero);
         self.after.turned(times(normal, -beyond))
     }

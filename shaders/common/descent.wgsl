@@ -2,6 +2,7 @@
 // formulas. Uses the bindings `stars`, `position`, `predicted`, and `bodies`.
 
 const LEAST_COMPLIANCE: f32 = 0.1;
+const SOLID: f32 = 0.2;
 
 struct Local {
     force: vec3<f32>,
@@ -70,7 +71,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     let inverse_edge = 1.0 / sponge.edge;
     let shear = sponge.edge * sponge.mu / 12.0;
     let volume = sponge.edge * sponge.lambda / 12.0;
-    let alpha = 1.0 + sponge.mu / sponge.lambda;
+    let lame = volume - shear;
     let rate = sponge.damping / step;
     var rings = RINGS;
     var pull = vec3<f32>(0.0);
@@ -94,8 +95,9 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             count += 2.0;
             let area = cross(q - u, r - u) * (2.0 * inverse_edge * inverse_edge);
             let ratio = dot(u - x, area) * inverse_edge;
-            pressure += area * (ratio - alpha);
-            stiffness += outer(area, area);
+            let inverse = 1.0 / max(ratio, SOLID);
+            pressure += area * (lame * (ratio - 1.0) - shear * inverse * (2.0 - ratio * inverse));
+            stiffness += outer(area * (lame + shear * inverse * inverse), area);
             if (rate > 0.0) {
                 let f = columns_of(x, u, q, r);
                 let g = columns_of(old, position[partner].xyz, position[q_row].xyz, position[r_row].xyz);
@@ -105,8 +107,8 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             }
         }
     }
-    let force = pull * shear + pressure * (volume * sponge.edge) + damping.force;
-    return Local(force, stiffness * volume + diagonal(count * shear) + damping.stiffness);
+    let force = pull * shear + pressure * sponge.edge + damping.force;
+    return Local(force, stiffness + diagonal(count * shear) + damping.stiffness);
 }
 
 // Where the energy is least without obstacles.
@@ -143,15 +145,17 @@ fn push_by_body(
     quadratic: Quadratic,
     point: vec3<f32>,
     old: vec3<f32>,
+    clearance: f32,
     step: f32,
 ) -> Reaction {
     let drift = body_velocity(body, point) * step;
     // The body stands where it began the step: so is the node, in the body's frame.
-    let surface = body_surface(body, point - drift);
-    if (surface.distance >= 0.0 || body.info.w == 0u) {
+    let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
+    let depth = -(met.distance + met.beyond);
+    if (depth <= 0.0 || body.info.w == 0u) {
         return Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
     }
-    return react(quadratic, -surface.distance, surface.normal, point - old - drift, body.surface.x);
+    return react(quadratic, depth, out_of_body(body, met.normal), point - old - drift, body.surface.x);
 }
 
 // Where the walls leave a point, as `change` from it, and their force.
@@ -182,6 +186,5 @@ fn push_by_walls(
             force += reaction.force;
         }
     }
-    // One obstacle may have pushed into another: walls have the last word.
-    return Reaction(clamp(point, low, high) - start, force);
+    return Reaction(point - start, force);
 }

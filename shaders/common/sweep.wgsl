@@ -1,33 +1,49 @@
-// The way of a point through a step, stopped where it would lead into a body; `sweep.rs` has the rules.
+// The way of a point through a step, and the body that it would lead into; `sweep.rs` has the rules.
 
 const ADVANCES: u32 = 12u;
 const NEARLY: f32 = 1.0e-3;
+// Distance that nodes keep from bodies, in edges.
+const CLEARANCE: f32 = 1.0e-3;
+
+// Where a way meets a body: the distance there, and that of the end of the way from the plane less it.
+struct Met {
+    distance: f32,
+    beyond: f32,
+    normal: vec3<f32>,
+}
 
 fn into_body(body: Body, point: vec3<f32>) -> vec3<f32> {
     let arm = point - body.position.xyz;
     return vec3<f32>(dot(body.x.xyz, arm), dot(body.y.xyz, arm), dot(body.z.xyz, arm));
 }
 
-// What has to be added to the place `end` of a point that begins the step at `start`.
-fn swept(before: Body, after: Body, margin: f32, nearly: f32, start: vec3<f32>, end: vec3<f32>) -> vec3<f32> {
-    let first = into_body(before, start);
-    let last = into_body(after, end);
-    let way = last - first;
+fn out_of_body(body: Body, direction: vec3<f32>) -> vec3<f32> {
+    return direction.x * body.x.xyz + direction.y * body.y.xyz + direction.z * body.z.xyz;
+}
+
+// Follows a way in the frame of the body.
+fn way_meets(body: Body, margin: f32, start: vec3<f32>, end: vec3<f32>) -> Met {
+    let way = end - start;
     let length = sqrt(dot(way, way));
-    var place = first;
-    var time = 0.0;
-    var surface = local_surface(before, place);
+    var place = start;
+    var left = length;
+    var surface = local_surface(body, place);
     surface.distance -= margin;
     for (var k = 0u; k < ADVANCES; k += 1u) {
-        if (surface.distance <= nearly || time >= 1.0) {
+        if (surface.distance <= NEARLY * length || surface.distance >= left) {
             break;
         }
-        time = select(1.0, min(time + surface.distance / length, 1.0), length > 0.0);
-        place = first + way * time;
-        surface = local_surface(before, place);
+        place += way * (surface.distance / length);
+        left -= surface.distance;
+        surface = local_surface(body, place);
         surface.distance -= margin;
     }
-    let beyond = min(max(surface.distance, 0.0) + dot(last - place, surface.normal), 0.0);
-    let out = surface.normal * -beyond;
-    return out.x * after.x.xyz + out.y * after.y.xyz + out.z * after.z.xyz;
+    return Met(surface.distance, dot(end - place, surface.normal), surface.normal);
+}
+
+// What has to be added to the place `end` of a point that begins the step at `start`.
+fn swept(before: Body, after: Body, margin: f32, start: vec3<f32>, end: vec3<f32>) -> vec3<f32> {
+    let surface = way_meets(before, margin, into_body(before, start), into_body(after, end));
+    let beyond = min(max(surface.distance, 0.0) + surface.beyond, 0.0);
+    return out_of_body(after, surface.normal * -beyond);
 }

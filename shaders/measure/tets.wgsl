@@ -7,6 +7,9 @@
 @group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
 
+// Volume over that at rest below which the logarithm of `descent.rs` goes on as a polynomial.
+const SOLID: f32 = 0.2;
+
 @compute @workgroup_size(256)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -32,7 +35,15 @@ fn main(
         var energy = sponge.stretch_modulus * dot(lengths, lengths)
             + sponge.shear_modulus * dot(shears, shears)
             + sponge.volume_modulus * (ratio - 1.0) * (ratio - 1.0);
-        if (sponge.solver != SBD) {
+        if (sponge.solver == VBD) {
+            // mu (|F|^2 - 3 - 2 ln J) + (lambda - mu) (J - 1)^2, in differences from rest.
+            let least = max(ratio, SOLID);
+            let beyond = ratio / least - 1.0;
+            let logarithm = log(least) + beyond - 0.5 * beyond * beyond;
+            let first_order = lengths.x + lengths.y + lengths.z - logarithm;
+            energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
+                + (sponge.lambda - sponge.mu) * (ratio - 1.0) * (ratio - 1.0);
+        } else if (sponge.solver == XPBD_NEO_HOOKEAN) {
             // mu (|F|^2 - 3) + lambda ((J - alpha)^2 - (1 - alpha)^2), in differences from rest.
             let first_order = lengths.x + lengths.y + lengths.z - (ratio - 1.0);
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)

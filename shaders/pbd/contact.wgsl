@@ -53,21 +53,27 @@ fn main(
     var point = vec3<f32>(0.0);
     var old = vec3<f32>(0.0);
     var w = 0.0;
+    var clearance = 0.0;
     // Held nodes, and those that meet obstacles in their own solver, stay where they are.
     var moves = false;
     if (is_row) {
         point = predicted[row].xyz;
         w = predicted[row].w;
         old = position[row].xyz;
+        clearance = sponges.all[node_sponge[row]].edge * CLEARANCE;
         moves = w > 0.0 && sponges.all[node_sponge[row]].solver != VBD;
+    }
+    let meets_walls = is_row && moves && params.wall_low.w > 0.0;
+    if (meets_walls) {
+        point = walls(point, old, sponges.all[node_sponge[row]].friction);
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = bodies[index];
         let drift = body_velocity(body, point) * clock.step;
         // The body stands where it began the step: so is the node, in the body's frame.
-        let surface = body_surface(body, point - drift);
-        let depth = select(0.0, max(-surface.distance, 0.0), moves && body.info.w != 0u);
-        let change = contact(depth, surface.normal, point - old - drift, body.surface.x);
+        let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
+        let depth = select(0.0, max(-(met.distance + met.beyond), 0.0), moves && body.info.w != 0u);
+        let change = contact(depth, out_of_body(body, met.normal), point - old - drift, body.surface.x);
         point += change;
         if (group_touches(lane, depth > 0.0)) {
             var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
@@ -84,8 +90,10 @@ fn main(
         }
     }
     if (is_row) {
-        if (params.wall_low.w > 0.0 && moves) {
-            point = walls(point, old, sponges.all[node_sponge[row]].friction);
+        if (meets_walls) {
+            // One obstacle may have pushed into another: walls have the last word.
+            point = select(point, params.wall_low.xyz, point < params.wall_low.xyz);
+            point = select(point, params.wall_high.xyz, point > params.wall_high.xyz);
         }
         predicted[row] = vec4<f32>(point, w);
     }

@@ -32,6 +32,11 @@ fn main(
     if (reaction[row].w > 0.0) {
         let turn = cross(motions[sponge * 3u + 2u].xyz, x - motions[sponge * 3u].xyz);
         y += (motions[sponge * 3u + 1u].xyz + turn) * clock.step;
+        if (params.wall_low.w > 0.0) {
+            // What is not a number stays so.
+            y = select(y, params.wall_low.xyz, y < params.wall_low.xyz);
+            y = select(y, params.wall_high.xyz, y > params.wall_high.xyz);
+        }
     }
     predicted[row] = vec4<f32>(y, start.w);
     let v = velocity[row].xyz;

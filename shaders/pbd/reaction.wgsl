@@ -14,7 +14,7 @@
 
 const MARGIN: f32 = 1.0e-2;
 
-fn is_near(point: vec3<f32>, margin: f32) -> bool {
+fn is_near(point: vec3<f32>, old: vec3<f32>, margin: f32) -> bool {
     if (params.wall_low.w > 0.0) {
         let low = point - params.wall_low.xyz;
         let high = params.wall_high.xyz - point;
@@ -26,7 +26,8 @@ fn is_near(point: vec3<f32>, margin: f32) -> bool {
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = bodies[index];
         let drift = body_velocity(body, point) * clock.step;
-        if (body.info.w != 0u && body_surface(body, point - drift).distance < margin) {
+        let way = point - drift - old;
+        if (body.info.w != 0u && body_surface(body, old).distance - sqrt(dot(way, way)) < margin) {
             return true;
         }
     }
@@ -54,7 +55,7 @@ fn main(
         counts = sponge.solver == VBD;
     }
     let free = x.w > 0.0;
-    let near = counts && free && is_near(x.xyz, sponge.edge * MARGIN);
+    let near = counts && free && is_near(x.xyz, old, sponge.edge * MARGIN);
     var local = Local(vec3<f32>(0.0), diagonal(1.0));
     var quadratic = Quadratic(x.xyz, diagonal(1.0), diagonal(1.0));
     if (near || (counts && !free)) {
@@ -63,12 +64,20 @@ fn main(
     if (near) {
         quadratic = least(local, x.xyz, goal[row], clock.step);
     }
+    let low = params.wall_low.xyz;
+    let high = params.wall_high.xyz;
+    let meets_walls = near && params.wall_low.w > 0.0;
     var point = quadratic.point;
     var force = vec3<f32>(0.0);
+    if (meets_walls) {
+        let pushed = push_by_walls(low, high, quadratic, point, old, sponge.friction);
+        point += pushed.change;
+        force += pushed.force;
+    }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         var pushed = Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
         if (near) {
-            pushed = push_by_body(bodies[index], quadratic, point, old, clock.step);
+            pushed = push_by_body(bodies[index], quadratic, point, old, sponge.edge * CLEARANCE, clock.step);
         }
         point += pushed.change;
         force += pushed.force;
@@ -82,10 +91,8 @@ fn main(
             }
         }
     }
-    if (near && params.wall_low.w > 0.0) {
-        let low = params.wall_low.xyz;
-        let high = params.wall_high.xyz;
-        force += push_by_walls(low, high, quadratic, point, old, sponge.friction).force;
+    if (meets_walls) {
+        force += push_by_walls(low, high, quadratic, point, old, 0.0).force;
     }
     if (counts && !free) {
         force = -local.force;

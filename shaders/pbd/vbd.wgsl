@@ -37,15 +37,21 @@ fn main(
     let old = position[row].xyz;
     let local = local_energy(row, x.xyz, old, sponge, clock.step);
     let quadratic = least(local, x.xyz, goal[row], clock.step);
+    let low = params.wall_low.xyz;
+    let high = params.wall_high.xyz;
+    let has_walls = params.wall_low.w > 0.0;
     var point = quadratic.point;
-    for (var index = 0u; index < params.body_rows; index += 1u) {
-        point += push_by_body(bodies[index], quadratic, point, old, clock.step).change;
-    }
-    if (params.wall_low.w > 0.0) {
-        let low = params.wall_low.xyz;
-        let high = params.wall_high.xyz;
+    if (has_walls) {
         point += push_by_walls(low, high, quadratic, point, old, sponge.friction).change;
-        point = clamp(point, low, high);
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        point += push_by_body(bodies[index], quadratic, point, old, sponge.edge * CLEARANCE, clock.step).change;
+    }
+    if (has_walls) {
+        point += push_by_walls(low, high, quadratic, point, old, 0.0).change;
+        // One obstacle may have pushed into another: walls have the last word.
+        point = select(point, low, point < low);
+        point = select(point, high, point > high);
     }
     predicted[row] = vec4<f32>(point, x.w);
 }

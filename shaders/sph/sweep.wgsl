@@ -32,7 +32,7 @@ fn main(
         let end = start + clock.step * own.xyz;
         var moved = vec3<f32>(0.0);
         if (is_row) {
-            moved = swept(before, after, margin, NEARLY * params.spacing, start, end);
+            moved = swept(before, after, margin, start, end);
         }
         if (group_touches(lane, any(moved != vec3<f32>(0.0)))) {
             let change = moved * clock.inverse_step;

@@ -62,15 +62,15 @@ pub static SHADERS: &[Shader] = shaders! {
     measure::nodes: sums partial_sums;
     measure::tets: sponges sums partial_sums;
     measure::total: sums;
-    pbd::contact: body surface sponges wrench;
+    pbd::contact: body surface sweep sponges wrench;
     pbd::gravity: ;
     pbd::guess: sponges;
     pbd::momentum: sponges;
     pbd::momentum_sums: sponges;
     pbd::predict: body;
-    pbd::reaction: body surface sponges wrench star descent;
+    pbd::reaction: body surface sweep sponges wrench star descent;
     pbd::strain: sponges;
-    pbd::vbd: body surface sponges star descent;
+    pbd::vbd: body surface sweep sponges star descent;
     pbd::velocity: ;
     pbd::xpbd_neo_hookean: sponges;
     sph::advect: ;

@@ -56,7 +56,7 @@ pub enum Solver {
     /// Strain based dynamics, the model of the paper: `stretch_modulus`, `shear_modulus`, `volume_modulus` and
     /// `damping_time`.
     Sbd,
-    /// Two coupled Neo-Hookean constraints per tet: the material of `vbd`, at short steps of one sweep.
+    /// Two coupled Neo-Hookean constraints per tet: at small strain the material of `vbd`, at short steps of one sweep.
     XpbdNeoHookean,
 }
 

@@ -25,8 +25,8 @@ fn crushed_flat_and_to_a_point_and_let_go() {
         (dry(), "flat, to a twelfth", flat, 0.004, &[][..]),
         (dry(), "to a rod, a third by a third", rod, 0.016, &[]),
         (dry(), "to a point, a quarter in every direction", point, 0.012, &[]),
-        (wet(), "flat, to a twelfth", flat, 0.004, FLUNG),
-        (wet(), "to a rod, a third by a third", rod, 0.016, FLUNG),
+        (wet(), "flat, to a twelfth", flat, 0.004, &[]),
+        (wet(), "to a rod, a third by a third", rod, 0.016, &[]),
         // A minute: hundreds of neighbours each.
         (wet(), "to a point, a quarter in every direction", point, 0.012, FLUNG),
     ]
@@ -58,10 +58,10 @@ fn turned_inside_out_and_back() {
     let case = |scene: Scene, known| {
         let name = format!("{}: turned inside out and back", scene.name);
         let case = Case::new(name, inside_out(scene), 1.2);
-        // The work of grips is not counted.
-        Case { fastest: WAVE, excess: None, recovery: Some((0.5, 0.5)), known, ..case }
+        // The work of grips is not counted. Tets go through no volume, where they are stiff, and spring back as fast.
+        Case { fastest: 4.0 * WAVE, excess: None, recovery: Some((0.5, 0.5)), known, ..case }
     };
-    table([case(dry(), &[]), case(wet(), FLUNG)]);
+    table([case(dry(), &[]), case(wet(), &[])]);
 }
 
 /// Two full balls of sponge at the same place: nodes and particles lie on top of each other, to the bit or nearly.

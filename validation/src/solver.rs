@@ -115,10 +115,16 @@ impl Solvers {
         }
     }
 
+    /// Name of the solver of the sponge.
+    #[must_use]
+    pub fn sponge_name(&self) -> String {
+        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name())
+    }
+
     /// Whether the sponge is solved by the strain constraints of the paper.
     #[must_use]
     pub fn is_strain_based(&self) -> bool {
-        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name()) == "sbd"
+        self.sponge_name() == "sbd"
     }
 
     /// Names of those that matter to a case, for tables.

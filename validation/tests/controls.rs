@@ -58,6 +58,7 @@ caught! {
     uniaxial
     confined
     torsion
+    squash
     vibration
     washburn
     imbibition

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{pbd::SHAPE, row, shapes, vector};
+use super::{obstacles, pbd::SHAPE, row, shapes, vector};
 use crate::{
     body::Wrench,
     columns::{Columns, Nodes},
@@ -74,8 +74,11 @@ fn local(
         let sum = |columns: &[DVec3; 3]| -> DVec3 { (0..3).map(|k| columns[k] * n[k]).sum() };
         let slope = sum(&cofactor);
         let square: f64 = n.iter().map(|n| n * n).sum();
-        force -= volume * (mu * sum(&f) + lambda * (ratio - 1.0 - mu / lambda) * slope);
-        stiffness += volume * (mu * square * DMat3::IDENTITY + lambda * outer(slope, slope));
+        let least = ratio.max(0.2);
+        let logarithm = (1.0 / least) - (ratio - least) / (least * least);
+        force -= volume * (mu * sum(&f) + ((lambda - mu) * (ratio - 1.0) - mu * logarithm) * slope);
+        let bulk = lambda - mu + mu / (least * least);
+        stiffness += volume * (mu * square * DMat3::IDENTITY + bulk * outer(slope, slope));
         // The viscous part: twice mu and lambda - mu times the strain since the beginning of the step.
         let g = columns_of(before, *tet, edge);
         let strain = |k: usize, l: usize| 0.5 * (g[k].dot(f[l] - g[l]) + g[l].dot(f[k] - g[k]));
@@ -108,7 +111,7 @@ fn least(
     (places[node] + stiffness.inverse() * pull, stiffness)
 }
 
-/// Moves a node out of everything; gives the forces on it by bodies, and by the walls last.
+/// Moves a node out of everything, out of walls twice; gives the forces on it by bodies, and by the walls last.
 fn push(
     params: &Params,
     columns: &Columns,
@@ -118,31 +121,38 @@ fn push(
 ) -> (Vec<DVec3>, DVec3) {
     let h = f64::from(params.step);
     let old = vector(columns.nodes.position[node]);
+    let friction = f64::from(params.sponges[columns.nodes.sponge[node] as usize].friction);
+    let mut by_walls = push_by_walls(params, stiffness, friction, old, point);
     let mut by_bodies = Vec::new();
     for body in &columns.bodies.states.0 {
         let mut force = DVec3::ZERO;
         if body.touches_nodes {
             let drift = h * shapes::velocity(body, *point);
-            let (distance, normal) = shapes::distance(body, *point - drift);
-            let slide = *point - old - drift;
-            force = react(stiffness, -distance, normal, slide, f64::from(body.friction), point);
+            let clearance = 1e-3 * f64::from(params.sponges[columns.nodes.sponge[node] as usize].edge);
+            let (distance, beyond, normal) = obstacles::met(body, clearance, old, *point - drift);
+            let (depth, slide) = (-(distance + beyond), *point - old - drift);
+            force = react(stiffness, depth, normal, slide, f64::from(body.friction), point);
         }
         by_bodies.push(force);
     }
-    let mut by_walls = DVec3::ZERO;
+    by_walls += push_by_walls(params, stiffness, 0.0, old, point);
     if let Some((low, high)) = params.walls {
-        let (low, high) = (low.as_dvec3(), high.as_dvec3());
-        let friction = f64::from(params.sponges[columns.nodes.sponge[node] as usize].friction);
-        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-            for (normal, wall) in [(axis, low), (-axis, high)] {
-                let depth = (wall - *point).dot(normal);
-                let slide = *point - old;
-                by_walls += react(stiffness, depth, normal, slide, friction, point);
-            }
-        }
-        *point = point.clamp(low, high);
+        *point = point.clamp(low.as_dvec3(), high.as_dvec3());
     }
     (by_bodies, by_walls)
+}
+
+fn push_by_walls(params: &Params, stiffness: DMat3, friction: f64, old: DVec3, point: &mut DVec3) -> DVec3 {
+    let mut force = DVec3::ZERO;
+    let Some((low, high)) = params.walls else { return force };
+    for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+        for (normal, wall) in [(axis, low), (-axis, high)] {
+            let depth = (wall.as_dvec3() - *point).dot(normal);
+            let slide = *point - old;
+            force += react(stiffness, depth, normal, slide, friction, point);
+        }
+    }
+    force
 }
 
 fn react(
@@ -193,17 +203,18 @@ pub(super) fn vbd(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Whether a node is within a hundredth of an edge of an obstacle.
+/// Whether a node may have come within a hundredth of an edge of an obstacle on its way.
 fn is_near(params: &Params, columns: &Columns, node: usize, point: DVec3) -> bool {
     let margin = 0.01 * f64::from(params.sponges[columns.nodes.sponge[node] as usize].edge);
     let walls = params.walls.is_some_and(|(low, high)| {
         (point - low.as_dvec3()).min_element().min((high.as_dvec3() - point).min_element()) < margin
     });
     let bodies = columns.bodies.states.0.iter().filter(|body| body.touches_nodes);
+    let old = vector(columns.nodes.position[node]);
     walls
         || bodies.into_iter().any(|body| {
             let drift = f64::from(params.step) * shapes::velocity(body, point);
-            shapes::distance(body, point - drift).0 < margin
+            shapes::distance(body, old).0 - (point - drift - old).length() < margin
         })
 }
 
@@ -289,6 +300,9 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
             let mut place = vector(y);
             if nodes.reaction[node][3] > 0.0 {
                 place += h * (lacking / mass + turn.cross(vector(x) - centre));
+                if let Some((low, high)) = params.walls {
+                    place = place.max(low.as_dvec3()).min(high.as_dvec3());
+                }
             }
             nodes.predicted[node] = row(place, w);
             let a = vector(nodes.acceleration[node]);

@@ -28,26 +28,31 @@ fn carried(from: &Body, to: &Body, point: DVec3) -> DVec3 {
     shapes::rotation(to) * local + to.state.position.as_dvec3()
 }
 
-/// What has to be added to the end of a way that a body is in: everything is looked at where the body began.
-fn correction([before, after]: [&Body; 2], margin: f64, nearly: f64, from: DVec3, to: DVec3) -> DVec3 {
-    let end = carried(after, before, to);
-    let way = end - from;
-    let (mut time, mut at) = (0.0, from);
+/// Follows a way to a body that stands still: the distance where it ends, that of the end of the way from the plane there less
+/// it, and the normal.
+pub(super) fn met(body: &Body, margin: f64, from: DVec3, to: DVec3) -> (f64, f64, DVec3) {
+    let length = (to - from).length();
+    let (mut gone, mut at) = (0.0, from);
     let look = |at| {
-        let (distance, normal) = shapes::distance(before, at);
+        let (distance, normal) = shapes::distance(body, at);
         (distance - margin, normal)
     };
     let (mut distance, mut normal) = look(from);
     for _ in 0..sweep::ADVANCES {
-        if distance <= nearly || time >= 1.0 {
+        if distance <= f64::from(sweep::NEARLY) * length || gone + distance >= length {
             break;
         }
-        let length = way.length();
-        time = if length > 0.0 { f64::min(time + distance / length, 1.0) } else { 1.0 };
-        at = from + way * time;
+        gone += distance;
+        at = from + (to - from) * (gone / length);
         (distance, normal) = look(at);
     }
-    let beyond = (distance.max(0.0) + (end - at).dot(normal)).min(0.0);
+    (distance, (to - at).dot(normal), normal)
+}
+
+/// What has to be added to the end of a way that a body is in: everything is looked at where the body began.
+fn correction([before, after]: [&Body; 2], margin: f64, from: DVec3, to: DVec3) -> DVec3 {
+    let (distance, beyond, normal) = met(before, margin, from, carried(after, before, to));
+    let beyond = (distance.max(0.0) + beyond).min(0.0);
     let turned = shapes::rotation(after) * shapes::rotation(before).transpose() * normal;
     turned * -beyond
 }
@@ -62,12 +67,11 @@ pub(super) fn sweep_fluid(params: &Params, columns: &mut Columns) {
     let mut wrenches = given(&columns.bodies.fluid_wrenches.0, pairs.len());
     let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
     let spacing = f64::from(params.fluid.spacing);
-    let nearly = f64::from(sweep::NEARLY) * spacing;
     for i in 0..columns.rows.fluid {
         let x = vector(columns.fluid.position[i]);
         let mut v = vector(columns.fluid.velocity[i]);
         for (wrench, pair) in wrenches.iter_mut().zip(&pairs) {
-            let moved = correction(pair.each_ref(), 0.05 * spacing, nearly, x, x + h * v);
+            let moved = correction(pair.each_ref(), 0.05 * spacing, x, x + h * v);
             v += moved / h;
             wrench.add(-mass * moved / h, x + h * v - pair[1].state.position.as_dvec3());
         }

@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::{row, shapes, vector};
+use super::{obstacles, row, shapes, vector};
 use crate::{
     body::{Body, Wrench},
     columns::Columns,
@@ -176,11 +176,6 @@ pub(super) fn contact(params: &Params, columns: &mut Columns) {
             continue;
         }
         let (mut point, old) = (vector(nodes.predicted[node]), vector(nodes.position[node]));
-        for (body, wrench) in bodies.iter().zip(&mut wrenches).filter(|(body, _)| body.touches_nodes) {
-            let change = touch(body, point, old, h);
-            point += change;
-            wrench.add(change / (-w * h), point - body.state.position.as_dvec3());
-        }
         if let Some((low, high)) = params.walls {
             let friction = f64::from(params.sponges[nodes.sponge[node] as usize].friction);
             for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -190,16 +185,25 @@ pub(super) fn contact(params: &Params, columns: &mut Columns) {
                 }
             }
         }
+        for (body, wrench) in bodies.iter().zip(&mut wrenches).filter(|(body, _)| body.touches_nodes) {
+            let clearance = 1e-3 * f64::from(params.sponges[nodes.sponge[node] as usize].edge);
+            let change = touch(body, clearance, [point, old], h);
+            point += change;
+            wrench.add(change / (-w * h), point - body.state.position.as_dvec3());
+        }
+        if let Some((low, high)) = params.walls {
+            point = point.max(low.as_dvec3()).min(high.as_dvec3());
+        }
         nodes.predicted[node] = row(point, w);
     }
     columns.bodies.node_wrenches.0 = wrenches;
 }
 
 /// Change of position by one body, which stands where it began the step.
-fn touch(body: &Body, point: DVec3, old: DVec3, h: f64) -> DVec3 {
+fn touch(body: &Body, clearance: f64, [point, old]: [DVec3; 2], h: f64) -> DVec3 {
     let drift = h * shapes::velocity(body, point);
-    let (distance, normal) = shapes::distance(body, point - drift);
-    resolve(-distance, normal, point - old - drift, f64::from(body.friction))
+    let (distance, beyond, normal) = obstacles::met(body, clearance, old, point - drift);
+    resolve(-(distance + beyond), normal, point - old - drift, f64::from(body.friction))
 }
 
 /// Out along the normal, and back along the surface as far as friction reaches.

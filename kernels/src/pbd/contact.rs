@@ -1,8 +1,8 @@
 //! Contact of nodes with walls and bodies, with friction (the paper, sections 3.2 and 3.3).
 //!
-//! A node inside a body is moved to its surface along the normal, and its motion along the surface, relative to
-//! the body, is undone as far as Coulomb friction reaches: up to `mu` times the depth. Bodies receive the
-//! opposite impulse `-m dy / h`.
+//! A node whose way leads into a body (`sweep.rs`) is moved to the plane of the surface that it meets, and its motion along
+//! the surface, relative to the body, is undone as far as Coulomb friction reaches: up to `mu` times the depth. Bodies
+//! receive the opposite impulse `-m dy / h`.
 
 use glam::{DVec3, Vec3};
 
@@ -12,7 +12,9 @@ use crate::{
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::{Params, Solver},
+    params::{Params, Solver, SpongeParams},
+    pbd::obstacles::CLEARANCE,
+    sweep::met,
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
@@ -59,19 +61,26 @@ impl Task<'_> {
             let [x, y, z, w] = lanes::load_rows(simd, predicted, row);
             let [ox, oy, oz, _] = lanes::load_rows(simd, self.position, first + row);
             let (mut point, old) = ([x, y, z], [ox, oy, oz]);
+            // Eight nodes may belong to several sponges, or to none where rows are padding.
+            let clearance = f32x8::from_fn(simd, |lane| {
+                self.sponge_of(first + row + lane).map_or(0.0, |sponge| CLEARANCE * sponge.edge)
+            });
             let moves = self.moves(simd, first + row, w);
+            self.walls(simd, first + row, moves, old, &mut point);
             for (index, placed) in &placed {
                 let body = &self.bodies[*index];
                 let drift = times(placed.velocity(point), lanes::splat(simd, self.params.step));
                 // The body stands where it began the step: so is the node, in the body's frame.
-                let (distance, normal) = placed.distance(minus(point, drift));
-                let depth = lanes::positive(simd, -distance) * moves;
+                let way = [placed.local(old), placed.local(minus(point, drift))];
+                let met = met(simd, placed, way, clearance);
+                let normal = placed.turned(met.normal);
+                let depth = lanes::positive(simd, -(met.distance + met.beyond)) * moves;
                 let slide = minus(minus(point, old), drift);
                 let change = contact(simd, depth, normal, slide, lanes::splat(simd, body.friction));
                 point = plus(point, change);
                 self.react(depth.to_array(), change, w, point, body.state.position, &mut wrenches[*index]);
             }
-            self.walls(simd, first + row, moves, old, &mut point);
+            self.stays_inside(simd, moves, &mut point);
             lanes::store_rows(predicted, row, [point[0], point[1], point[2], w]);
         }
     }
@@ -91,18 +100,19 @@ impl Task<'_> {
         free * here
     }
 
+    /// The sponge of a node.
+    fn sponge_of(&self, row: usize) -> Option<&SpongeParams> {
+        self.sponge.get(row).and_then(|sponge| self.params.sponges.get(*sponge as usize))
+    }
+
     #[inline(always)]
     fn walls<S: Simd>(&self, simd: S, row: usize, moves: f32x8<S>, old: Vec3x8<S>, point: &mut Vec3x8<S>) {
         let Some((minimum, maximum)) = self.params.walls else {
             return;
         };
         let zero = lanes::splat(simd, 0.0);
-        // Eight nodes may belong to several sponges, or to none where rows are padding.
-        let friction = f32x8::from_fn(simd, |lane| {
-            let sponge =
-                self.sponge.get(row + lane).and_then(|sponge| self.params.sponges.get(*sponge as usize));
-            sponge.map_or(0.0, |sponge| sponge.friction)
-        });
+        let friction =
+            f32x8::from_fn(simd, |lane| self.sponge_of(row + lane).map_or(0.0, |sponge| sponge.friction));
         for axis in 0..3 {
             for (sign, wall) in [(1.0, minimum[axis]), (-1.0, maximum[axis])] {
                 let distance = (point[axis] - wall) * sign;
@@ -113,6 +123,19 @@ impl Task<'_> {
                 let change = contact(simd, depth, normal, slide, friction);
                 *point = plus(*point, change);
             }
+        }
+    }
+
+    /// One obstacle may have pushed into another: walls have the last word.
+    #[inline(always)]
+    fn stays_inside<S: Simd>(&self, simd: S, moves: f32x8<S>, point: &mut Vec3x8<S>) {
+        let Some((minimum, maximum)) = self.params.walls else { return };
+        let can_move = moves.simd_gt(lanes::splat(simd, 0.0));
+        for axis in 0..3 {
+            let (low, high) = (lanes::splat(simd, minimum[axis]), lanes::splat(simd, maximum[axis]));
+            // What is not a number stays so.
+            point[axis] = select(can_move & point[axis].simd_lt(low), low, point[axis]);
+            point[axis] = select(can_move & point[axis].simd_gt(high), high, point[axis]);
         }
     }
 

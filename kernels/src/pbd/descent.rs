@@ -1,21 +1,33 @@
 //! The energy of one node while all others stand still: what vertex block descent minimises.
 //!
-//! Energy density of a tet \[SGK18, without the logarithm; MM21\], with F the deformation gradient and J its determinant:
+//! Energy density of a tet, the compressible Neo-Hookean material of \[BW08, section 6.4.3\], with F the deformation gradient
+//! and J its determinant:
 //!
 //! ```text
-//! psi = mu / 2 (|F|^2 - 3) + lambda / 2 (J - alpha)^2,   alpha = 1 + mu / lambda
+//! psi = mu / 2 (|F|^2 - 3) - mu ln J + (lambda - mu) / 2 (J - 1)^2
 //! ```
 //!
-//! J is linear in the place x of one node and |F|^2 quadratic, so the energy is exactly quadratic in x. With the corners
-//! of the star `p_k` in `c_k` tets each, and per tet the partner u and the consecutive corners r and q of its ring:
+//! Below a fifth of its volume, where hardly more than solid is left of a sponge, a tet goes on with the first three terms of
+//! the logarithm's series there: with `K = max(J, 1/5)`,
+//!
+//! ```text
+//! dpsi/dJ = p = (lambda - mu) (J - 1) - mu (2 K - J) / K^2,   dp/dJ = k = lambda - mu + mu / K^2
+//! ```
+//!
+//! so that it is finite for any places of the nodes, inverted tets included. Without Poisson's ratio every axis is on its own
+//! down to there: a sponge that is squeezed does not get narrower. The energies without a logarithm \[SGK18, MM21\] draw a sponge that is pressed to
+//! half its thickness together to half its width, and one that is pressed further into a single point.
+//!
+//! J is linear in the place x of one node and |F|^2 quadratic, so the energy is convex in x. With the corners of the star
+//! `p_k` in `c_k` tets each, and per tet the partner u and the consecutive corners r and q of its ring:
 //!
 //! ```text
 //! G = 2 (q - u) x (r - u) / a^2,   J = (u - x) . G / a
-//! -dE/dx = a mu / 12 sum_k c_k (p_k - x) + a^2 lambda / 12 sum_tets (J - alpha) G
-//! H      = a mu / 12 sum_k c_k 1         + a   lambda / 12 sum_tets G G^T
+//! -dE/dx = a mu / 12 sum_k c_k (p_k - x) + a^2 / 12 sum_tets p G
+//! H      = a mu / 12 sum_k c_k 1         + a   / 12 sum_tets k G G^T
 //! ```
 //!
-//! H plus the inertia m / h^2 is positive definite for any places of the nodes, inverted tets included.
+//! H plus the inertia m / h^2 is positive definite. As p is concave, Newton's method goes too far once at most.
 //!
 //! Damping is that of a Kelvin-Voigt material with the strain rate of the deformation at the beginning of the step, so
 //! that it is linear in x, and acts along that configuration: it keeps linear and angular momentum. With the columns g
@@ -27,11 +39,14 @@
 //! ```
 
 use crate::{
-    lanes::{self, LANES, Simd, f32x8},
+    lanes::{self, LANES, Simd, f32x8, prelude::*},
     params::{Params, Solver, SpongeParams},
     pbd::stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
     vector::{Vec3x8, cross, dot, minus, plus, times},
 };
+
+/// Volume of a tet over that at rest below which its energy goes on as a polynomial \[1\].
+const SOLID: f32 = 0.2;
 
 /// A symmetric matrix of three rows: xx, yy, zz, xy, xz, yz.
 pub(super) type Symmetric<S> = [f32x8<S>; 6];
@@ -81,7 +96,6 @@ pub(super) struct Material<S: Simd> {
     pub(super) friction: f32x8<S>,
     inverse_edge: f32x8<S>,
     pub(super) edge: f32x8<S>,
-    alpha: f32x8<S>,
     /// a mu / 12.
     shear: f32x8<S>,
     /// a lambda / 12.
@@ -92,14 +106,13 @@ pub(super) struct Material<S: Simd> {
 }
 
 /// The constants of one sponge, in the order of [`Material`].
-fn constants(sponge: &SpongeParams, step: f32) -> [f32; 8] {
+fn constants(sponge: &SpongeParams, step: f32) -> [f32; 7] {
     let own = if sponge.solver == Solver::Vbd { 1.0 } else { 0.0 };
     [
         own,
         sponge.friction,
         1.0 / sponge.edge,
         sponge.edge,
-        1.0 + sponge.mu / sponge.lambda,
         sponge.edge * sponge.mu / 12.0,
         sponge.edge * sponge.lambda / 12.0,
         own * sponge.damping / step,
@@ -108,10 +121,10 @@ fn constants(sponge: &SpongeParams, step: f32) -> [f32; 8] {
 
 /// The constants of the sponges of eight nodes; most often that is one.
 #[inline(never)]
-pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]) -> [[f32; LANES]; 8] {
-    let mut columns = [[0.0; LANES]; 8];
+pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]) -> [[f32; LANES]; 7] {
+    let mut columns = [[0.0; LANES]; 7];
     let mut last = None;
-    let mut values = [0.0; 8];
+    let mut values = [0.0; 7];
     for (lane, node) in nodes.iter().enumerate() {
         let sponge = sponge[*node as usize];
         if last != Some(sponge) {
@@ -128,18 +141,17 @@ pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]
 impl<S: Simd> Material<S> {
     /// From the constants of eight nodes.
     #[inline(always)]
-    pub(super) fn new(simd: S, columns: &[[f32; LANES]; 8]) -> Self {
+    pub(super) fn new(simd: S, columns: &[[f32; LANES]; 7]) -> Self {
         let vector = |column: usize| lanes::load_array(simd, &columns[column]);
         Self {
             own: vector(0),
             friction: vector(1),
             inverse_edge: vector(2),
             edge: vector(3),
-            alpha: vector(4),
-            shear: vector(5),
-            volume: vector(6),
-            damping: vector(7),
-            damps: columns[7] != [0.0; LANES],
+            shear: vector(4),
+            volume: vector(5),
+            damping: vector(6),
+            damps: columns[6] != [0.0; LANES],
         }
     }
 }
@@ -177,7 +189,9 @@ impl<'a, S: Simd> Star<'a, S> {
             pull = plus(pull, times(minus(self.around[corner], x), share));
             count += share;
         }
-        let (mut pressure, mut outer) = ([zero; 3], [zero; 6]);
+        let (mut pressure, mut stiffness) = ([zero; 3], [zero; 6]);
+        let (shear, lame) = (material.shear, material.volume - material.shear);
+        let (one, two) = (lanes::splat(simd, 1.0), lanes::splat(simd, 2.0));
         let twice = material.inverse_edge * material.inverse_edge * lanes::splat(simd, 2.0);
         for (direction, ring) in self.shape.rings.iter().enumerate() {
             let partner = self.around[CORNERS + direction];
@@ -190,17 +204,14 @@ impl<'a, S: Simd> Star<'a, S> {
                 let present = lanes::load_array(simd, &self.group.tets[4 * direction + k]);
                 let own = times(area, present);
                 let ratio = dot(out, area) * material.inverse_edge;
-                pressure = plus(pressure, times(own, ratio - material.alpha));
-                add_outer(&mut outer, own, area);
+                let inverse = one / ratio.max(lanes::splat(simd, SOLID));
+                let slope = lame * (ratio - one) - shear * inverse * (two - ratio * inverse);
+                pressure = plus(pressure, times(own, slope));
+                add_outer(&mut stiffness, times(own, lame + shear * inverse * inverse), area);
                 r = q;
             }
         }
-        let (shear, volume) = (material.shear, material.volume);
-        let force = plus(times(pull, shear), times(pressure, volume * material.edge));
-        let mut stiffness = [zero; 6];
-        for k in 0..6 {
-            stiffness[k] = outer[k] * volume;
-        }
+        let force = plus(times(pull, shear), times(pressure, material.edge));
         for diagonal in &mut stiffness[..3] {
             *diagonal += count * shear;
         }

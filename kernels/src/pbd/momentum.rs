@@ -13,7 +13,7 @@
 //! `sum x x m v` is the angular momentum of the new velocities whatever the new places are. Nodes that touch something or
 //! are held do not take part; M, I and the centre c count them with the mass `h^2 k` that resists like their stiffness k,
 //! so that a sponge that stands on something is not shaken. Free nodes move with the mass of the fluid that their drag
-//! takes along. A free sponge keeps both momenta to rounding.
+//! takes along. A free sponge keeps both momenta to rounding. No node is moved through a wall of the container.
 //!
 //! The share of the external acceleration that a node followed is kept for the next `pbd::guess`.
 
@@ -87,10 +87,24 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             if reaction[node][3] > 0.0 {
                 let change = motions[sponge[node] as usize].at(x);
                 (0..3).for_each(|axis| y[axis] += step * change[axis]);
+                if let Some((low, high)) = params.walls {
+                    (0..3).for_each(|axis| y[axis] = inside(y[axis], [low[axis], high[axis]]));
+                }
             }
             v[3] = followed(x, *y, *v, acceleration[node], step);
         }
     });
+}
+
+/// A coordinate between two walls; what is not a number stays so.
+fn inside(value: f32, [low, high]: [f32; 2]) -> f32 {
+    if value < low {
+        low
+    } else if value > high {
+        high
+    } else {
+        value
+    }
 }
 
 /// Share of the external acceleration that a node followed.

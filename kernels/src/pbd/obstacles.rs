@@ -1,7 +1,8 @@
 //! Walls and bodies in the way of a node that has an energy of its own.
 //!
 //! A node at x with stiffness H that lies `depth` below a surface with normal n is pushed by a force r to the place where
-//! its energy is least of all that are not below the surface:
+//! its energy is least of all that are not below the surface. The surface is that which its way through the step meets
+//! first (`sweep.rs`), in the frame of the body:
 //!
 //! ```text
 //! dx = H^-1 r,   n . dx = depth
@@ -17,10 +18,13 @@ use crate::{
     cpu::Cpu,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
-    pbd::descent::{Symmetric, product},
+    pbd::descent::{Material, Symmetric, product},
+    sweep::met,
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
+/// Distance that nodes keep from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
+pub(super) const CLEARANCE: f32 = 1.0e-3;
 /// Smallest part of the compliance along the normal that friction may leave.
 const LEAST_COMPLIANCE: f32 = 0.1;
 
@@ -55,6 +59,8 @@ pub(super) struct Contact {
     pub(super) friction: [f32; LANES],
     /// 1 for nodes that obstacles may move, else 0.
     pub(super) own: [f32; LANES],
+    /// Distance that they keep from bodies \[m\].
+    pub(super) clearance: [f32; LANES],
 }
 
 impl<'a> Obstacles<'a> {
@@ -62,15 +68,21 @@ impl<'a> Obstacles<'a> {
         Self { cpu, step: params.step, walls: params.walls.map_or_else(Vec::new, walls), bodies }
     }
 
-    /// 1 for points closer than `margin` to an obstacle, else 0.
+    /// 1 for points that may have come closer than `margin` to an obstacle on the way from `old`, else 0.
     #[inline(never)]
-    pub(super) fn near(&self, point: &Lanes3, margin: &[f32; LANES]) -> [f32; LANES] {
-        with_lanes!(self.cpu, simd => self.near_lanes(simd, point, margin))
+    pub(super) fn near(&self, point: &Lanes3, old: &Lanes3, margin: &[f32; LANES]) -> [f32; LANES] {
+        with_lanes!(self.cpu, simd => self.near_lanes(simd, [point, old], margin))
     }
 
     #[inline(always)]
-    fn near_lanes<S: Simd>(&self, simd: S, point: &Lanes3, margin: &[f32; LANES]) -> [f32; LANES] {
-        let (point, margin) = (vector(simd, point), lanes::load_array(simd, margin));
+    fn near_lanes<S: Simd>(
+        &self,
+        simd: S,
+        [point, old]: [&Lanes3; 2],
+        margin: &[f32; LANES],
+    ) -> [f32; LANES] {
+        let (point, old) = (vector(simd, point), vector(simd, old));
+        let margin = lanes::load_array(simd, margin);
         let one = lanes::splat(simd, 1.0);
         let mut near = lanes::splat(simd, 0.0);
         for (axis, sign, wall) in &self.walls {
@@ -79,7 +91,9 @@ impl<'a> Obstacles<'a> {
         for body in self.bodies.iter().filter(|body| body.touches_nodes) {
             let placed = Placed::new(simd, body);
             let drift = times(placed.velocity(point), lanes::splat(simd, self.step));
-            near = select(placed.distance(minus(point, drift)).0.simd_lt(margin), one, near);
+            let way = minus(minus(point, drift), old);
+            let length = dot(way, way).sqrt();
+            near = select((placed.distance(old).0 - length).simd_lt(margin), one, near);
         }
         near.to_array()
     }
@@ -100,29 +114,37 @@ impl<'a> Obstacles<'a> {
     ) -> Lanes3 {
         let zero = lanes::splat(simd, 0.0);
         let own = lanes::load_array(simd, &contact.own);
+        let clearance = lanes::load_array(simd, &contact.clearance);
         let quadratic = Quadratic::load(simd, contact);
         let old = vector(simd, &contact.old);
         let mut point = vector(simd, &contact.point);
         let mut total = [zero; 3];
-        for index in 0..self.bodies.len() + self.walls.len() {
+        // What sticks to the floor does not hold out against a plate: bodies come after the walls, and what they push into a
+        // wall slides along it.
+        let walls = self.walls.len();
+        for index in 0..2 * walls + self.bodies.len() {
+            let is_again = index >= walls + self.bodies.len();
+            let body = index.checked_sub(walls).filter(|_| !is_again);
             let mut drift = [zero; 3];
             let (distance, normal, friction);
-            if let Some(body) = self.bodies.get(index) {
+            if let Some(body) = body.map(|body| &self.bodies[body]) {
                 if !body.touches_nodes {
                     continue;
                 }
                 let placed = Placed::new(simd, body);
                 drift = times(placed.velocity(point), lanes::splat(simd, self.step));
                 // The body stands where it began the step: so is the node, in the body's frame.
-                (distance, normal) = placed.distance(minus(point, drift));
+                let way = [placed.local(old), placed.local(minus(point, drift))];
+                let met = met(simd, &placed, way, clearance);
+                (distance, normal) = (met.distance + met.beyond, placed.turned(met.normal));
                 friction = lanes::splat(simd, body.friction);
             } else {
-                let (axis, sign, wall) = self.walls[index - self.bodies.len()];
+                let (axis, sign, wall) = self.walls[index % (walls + self.bodies.len())];
                 distance = (point[axis] - wall) * sign;
                 let mut along = [zero; 3];
                 along[axis] = lanes::splat(simd, sign);
                 normal = along;
-                friction = lanes::load_array(simd, &contact.friction);
+                friction = if is_again { zero } else { lanes::load_array(simd, &contact.friction) };
             }
             let depth = lanes::positive(simd, -distance) * own;
             if !depth.simd_gt(zero).any_true() {
@@ -132,8 +154,9 @@ impl<'a> Obstacles<'a> {
             let (change, force) = react(simd, &quadratic, depth, normal, slide, friction);
             point = plus(point, change);
             total = plus(total, force);
-            if let (Some(wrenches), Some(body)) = (wrenches.as_deref_mut(), self.bodies.get(index)) {
-                give(&array(force), &contact.old, (self.step, body.state.position), &mut wrenches[index]);
+            if let (Some(wrenches), Some(body)) = (wrenches.as_deref_mut(), body) {
+                let centre = self.bodies[body].state.position;
+                give(&array(force), &contact.old, (self.step, centre), &mut wrenches[body]);
             }
         }
         // One obstacle may have pushed into another: walls have the last word.
@@ -179,15 +202,17 @@ impl<S: Simd> Quadratic<S> {
     pub(super) fn contact(
         &self,
         (point, old): (Vec3x8<S>, Vec3x8<S>),
-        (friction, own): (f32x8<S>, f32x8<S>),
+        material: &Material<S>,
+        own: f32x8<S>,
     ) -> Contact {
         let mut contact = Contact {
             point: array(point),
             old: array(old),
             stiffness: [[0.0; LANES]; 6],
             inverse: [[0.0; LANES]; 6],
-            friction: friction.to_array(),
+            friction: material.friction.to_array(),
             own: own.to_array(),
+            clearance: (material.edge * CLEARANCE).to_array(),
         };
         for k in 0..6 {
             contact.stiffness[k] = self.stiffness[k].to_array();

@@ -108,20 +108,21 @@ impl Task<'_> {
         let free = w.simd_gt(zero);
         let mass = one / select(free, w, one);
         let own = select(free, counts, zero);
-        let near =
-            lanes::load_array(simd, &obstacles.near(&array(x), &(material.edge * MARGIN).to_array())) * own;
+        let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
+        let old = [ox, oy, oz];
+        let near = obstacles.near(&array(x), &array(old), &(material.edge * MARGIN).to_array());
+        let near = lanes::load_array(simd, &near) * own;
         let is_held = !free & counts.simd_gt(zero);
         if !(is_held | near.simd_gt(zero)).any_true() {
             return [zero, zero, zero, mass * own];
         }
-        let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
         let [tx, ty, tz, drawn] = lanes::gather_rows(simd, self.target, &group.own);
-        let (old, target) = ([ox, oy, oz], [tx, ty, tz]);
+        let target = [tx, ty, tz];
         let places = (self.predicted, self.position);
         let step = self.params.step;
         let (elastic, stiffness) = local(simd, (group, &self.stars.shape), material, places, (x, old));
         let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, drawn), step);
-        let mut contact = quadratic.contact((point, old), (material.friction, near));
+        let mut contact = quadratic.contact((point, old), material, near);
         let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));
         let force = choose(free, pushed, times(negative(elastic), counts));
         let touches = dot(force, force).simd_gt(zero) | is_held;

@@ -96,7 +96,7 @@ impl Task<'_> {
         let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
         let (point, quadratic) = least(simd, energy, (x, target, mass), self.params.step);
         let own = select(moves, lanes::splat(simd, 1.0), zero);
-        let mut contact = quadratic.contact((point, old), (material.friction, own));
+        let mut contact = quadratic.contact((point, old), material, own);
         obstacles.push(&mut contact, None);
         let [x, y, z] = choose(moves, vector(simd, &contact.point), x);
         [x, y, z, w]

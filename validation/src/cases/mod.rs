@@ -15,6 +15,7 @@ mod momentum;
 mod patch;
 mod permeameter;
 mod rest;
+mod squash;
 mod squeeze;
 mod strain;
 mod taylor_green;
@@ -35,6 +36,7 @@ pub const CASES: &[&Case] = &[
     &strain::UNIAXIAL,
     &strain::CONFINED,
     &strain::TORSION,
+    &squash::CASE,
     &cantilever::VIBRATION,
     &imbibition::WASHBURN,
     &imbibition::BATH,
