@@ -161,6 +161,24 @@ impl Profile {
     }
 }
 
+/// Adds vectors of the first `lanes` of eight particles to a wrench, times a scale, at arms from the centre of the body.
+#[inline(always)]
+pub(super) fn give<S: Simd>(
+    wrench: &mut Wrench,
+    vectors: Vec3x8<S>,
+    arms: Vec3x8<S>,
+    lanes: usize,
+    scale: f64,
+) {
+    for lane in 0..lanes {
+        let of = |of: Vec3x8<S>| DVec3::new(of[0][lane].into(), of[1][lane].into(), of[2][lane].into());
+        let vector = of(vectors);
+        if vector != DVec3::ZERO {
+            wrench.add(vector * scale, of(arms));
+        }
+    }
+}
+
 /// Range over which walls count, and their share at the surface, for a lattice of given spacing that begins half a
 /// spacing from the wall, and the mass of whose particles is such that it is at rest density far from walls.
 ///

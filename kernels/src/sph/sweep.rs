@@ -6,8 +6,6 @@
 //!
 //! Pressure keeps particles half a spacing away from what they had time to see coming; this is for what is faster.
 
-use glam::DVec3;
-
 use crate::{
     body::{Body, Wrench},
     columns::{Column::*, Columns, Fluid},
@@ -16,12 +14,12 @@ use crate::{
     lanes::{self, LANES, Simd, prelude::*, with_lanes},
     params::Params,
     sweep::Swept,
-    vector::{Vec3x8, dot, minus, plus, splat, times},
+    vector::{dot, minus, plus, splat, times},
 };
 
 use super::{
     advect::STOP,
-    boundary::{at_end, near},
+    boundary::{at_end, give, near},
     boundary_pressure::per_chunk,
 };
 
@@ -100,20 +98,8 @@ impl Task<'_> {
                 velocity[row..row + lanes].copy_from_slice(&stored[..lanes]);
                 let centre = splat(simd, pair[1].state.position.to_array());
                 let arm = minus(plus(to, correction), centre);
-                give(&mut wrenches[*body], change, arm, lanes, fluid.particle_mass);
+                give(&mut wrenches[*body], change, arm, lanes, -f64::from(fluid.particle_mass));
             }
-        }
-    }
-}
-
-/// Adds the opposite of changes of velocity to a wrench.
-#[inline(always)]
-fn give<S: Simd>(wrench: &mut Wrench, change: Vec3x8<S>, arm: Vec3x8<S>, lanes: usize, mass: f32) {
-    for lane in 0..lanes {
-        let vector = |of: Vec3x8<S>| DVec3::new(of[0][lane].into(), of[1][lane].into(), of[2][lane].into());
-        let change = vector(change);
-        if change != DVec3::ZERO {
-            wrench.add(change * -f64::from(mass), vector(arm));
         }
     }
 }

@@ -13,8 +13,6 @@
 //!
 //! but no more than stops the particle in the step, and no more than at an eighth of H.
 
-use glam::DVec3;
-
 use crate::{
     body::{Body, Placed, Wrench},
     columns::{Column::*, Columns, Fluid},
@@ -25,7 +23,10 @@ use crate::{
     vector::{Vec3x8, dot, minus, plus, splat, times},
 };
 
-use super::{boundary::near, boundary_pressure::per_chunk};
+use super::{
+    boundary::{give, near},
+    boundary_pressure::per_chunk,
+};
 
 /// `sph::wall_friction`.
 pub static KERNEL: Kernel = Kernel {
@@ -78,7 +79,7 @@ impl Task<'_> {
                 let slowed = times(slide, self.rate(simd, distance));
                 sum = plus(sum, slowed);
                 let centre = splat(simd, self.bodies[*body].state.position.to_array());
-                let impulse = fluid.particle_mass * self.params.step;
+                let impulse = f64::from(fluid.particle_mass * self.params.step);
                 give(&mut wrenches[*body], slowed, minus(point, centre), used, impulse);
             }
             let [ax, ay, az, aw] = lanes::load_rows(simd, acceleration, row);
@@ -124,16 +125,4 @@ impl Task<'_> {
 #[inline(always)]
 fn along<S: Simd>(vector: Vec3x8<S>, normal: Vec3x8<S>) -> Vec3x8<S> {
     minus(vector, times(normal, dot(vector, normal)))
-}
-
-/// Adds what slows particles down to a wrench.
-#[inline(always)]
-fn give<S: Simd>(wrench: &mut Wrench, slowed: Vec3x8<S>, arm: Vec3x8<S>, lanes: usize, impulse: f32) {
-    for lane in 0..lanes {
-        let vector = |of: Vec3x8<S>| DVec3::new(of[0][lane].into(), of[1][lane].into(), of[2][lane].into());
-        let slowed = vector(slowed);
-        if slowed != DVec3::ZERO {
-            wrench.add(slowed * f64::from(impulse), vector(arm));
-        }
-    }
 }

@@ -1,0 +1,174 @@
+//! Parameters of the kernels from the keys of a scene.
+
+use sorb_kernels::{
+    grid::cells::Domain,
+    params::{Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
+    smoothing::Wendland,
+    sph::{boundary::boundary_profile, deficit::cohesion_stiffness, factors::lattice_diagonal},
+};
+
+use crate::scene::{self, Scene};
+
+pub(super) fn params(scene: &Scene) -> Params {
+    let (domain, walls) = match scene.domain {
+        scene::Domain::Box { minimum, maximum } => {
+            (Domain::Bounded { minimum, maximum }, Some((minimum, maximum)))
+        }
+        scene::Domain::Open => (Domain::Unbounded, None),
+    };
+    let radius = scene.sponges.iter().map(|sponge| sponge.suction_radius * sponge.edge).fold(0.0, f32::max);
+    Params {
+        step: scene.time.maximum_step,
+        gravity: scene.gravity,
+        domain,
+        walls,
+        no_slip: scene.fluid.as_ref().is_some_and(|fluid| fluid.no_slip),
+        fluid: fluid_params(scene),
+        sponges: scene.sponges.iter().map(|sponge| sponge_params(scene, sponge)).collect(),
+        coupling: Wendland::new(if radius > 0.0 { radius } else { 1.0 }),
+        solid: solid(scene),
+    }
+}
+
+/// Support radius of the volume of the material, over the edge of a cell: the least at which the nodes blend into one
+/// body (between them its share is 0.96 to 1.17 of the mean). A smaller one makes wells, a larger one blurs the faces.
+const SOLID_RADIUS: f32 = 1.2;
+
+fn solid(scene: &Scene) -> Option<Wendland> {
+    let edge = scene.sponges.iter().map(|sponge| sponge.edge).fold(0.0, f32::max);
+    let is_porous = edge > 0.0 && scene.coupling() == scene::Coupling::Porous;
+    is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
+}
+
+/// Support radius of the energy of the surface over that of the fluid: with as few neighbours as the pressure has, particles at the
+/// surface find places where they lack nothing, in rows, and the tension is a tenth of what it should be.
+const COHESION_SUPPORT: f32 = 2.0;
+
+/// Compression that is allowed for the roughness of the pressure, over the square of the time that sound takes for a
+/// spacing: enough that particles in rows do not have pressures that are higher and lower by turns.
+const ROUGHNESS: f32 = 2.0;
+
+fn fluid_params(scene: &Scene) -> FluidParams {
+    let Some(fluid) = &scene.fluid else {
+        return FluidParams {
+            spacing: 1.0,
+            rest_density: 1.0,
+            particle_mass: 0.0,
+            smoothing: Wendland::new(1.0),
+            equation_of_state: EquationOfState::Linear,
+            sound_speed: 1.0,
+            incompressible: None,
+            viscosity: 0.0,
+            central_viscosity: 0.0,
+            roughness: 0.0,
+            wall_viscosity: 0.0,
+            surface_tension: 0.0,
+            cohesion: None,
+            repulsion_range: 0.0,
+            repulsion_stiffness: 0.0,
+            repulsion_damping: 0.0,
+        };
+    };
+    let support = fluid.support_radius();
+    let lattice_sum = Wendland::lattice_sum(f64::from(support), f64::from(fluid.spacing));
+    let mass = f64::from(fluid.rest_density) * f64::from(fluid.spacing).powi(3) / lattice_sum;
+    let sound_speed = fluid.sound_speed.unwrap_or_else(|| scene.default_sound_speed());
+    // Monaghan's alpha as a kinematic viscosity in three dimensions, alpha c h / 10 with the smoothing length
+    // h = H / 2 [M05, eq. 8.8].
+    let numerical = fluid.rest_density * fluid.artificial_viscosity * sound_speed * support / 20.0;
+    let is_incompressible = fluid.solver != scene::FluidSolver::Wcsph;
+    let (viscosity, central_viscosity) = match (is_incompressible, fluid.viscosity_form) {
+        (_, scene::ViscosityForm::Monaghan) => (0.0, fluid.viscosity + numerical),
+        (true, scene::ViscosityForm::Morris) => (fluid.viscosity, numerical),
+        // As the paper has it.
+        (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
+    };
+    // Half a spacing, where the first layer of a lattice lies. A particle at half the speed of sound is stopped
+    // at the surface.
+    let range = 0.5 * fluid.spacing;
+    let frequency = 0.5 * sound_speed / range;
+    FluidParams {
+        spacing: fluid.spacing,
+        rest_density: fluid.rest_density,
+        particle_mass: mass as f32,
+        smoothing: Wendland::new(support),
+        equation_of_state: match fluid.equation_of_state {
+            scene::EquationOfState::Tait => EquationOfState::Tait,
+            scene::EquationOfState::Linear => EquationOfState::Linear,
+        },
+        sound_speed,
+        incompressible: incompressible(fluid, &Wendland::new(support), sound_speed),
+        viscosity,
+        central_viscosity,
+        roughness: if is_incompressible { ROUGHNESS * (fluid.spacing / sound_speed).powi(2) } else { 0.0 },
+        wall_viscosity: fluid.viscosity,
+        surface_tension: if is_incompressible { 0.0 } else { fluid.surface_tension },
+        cohesion: cohesion(fluid).filter(|_| is_incompressible),
+        repulsion_range: range,
+        repulsion_stiffness: frequency * frequency,
+        repulsion_damping: 2.0 * fluid.repulsion_damping * frequency,
+    }
+}
+
+/// Surface tension from an energy of the surface, if there is any.
+fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
+    let (spacing, smoothing) = (fluid.spacing, Wendland::new(COHESION_SUPPORT * fluid.support_radius()));
+    let sum = Wendland::lattice_sum(f64::from(smoothing.support_radius), f64::from(spacing));
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    (fluid.surface_tension > 0.0).then(|| Cohesion {
+        stiffness: cohesion_stiffness(&smoothing, spacing, fluid.surface_tension),
+        smoothing,
+        volume: (f64::from(spacing).powi(3) / sum) as f32,
+        boundary_range,
+        boundary_share,
+    })
+}
+
+fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) -> Option<Incompressible> {
+    if fluid.solver == scene::FluidSolver::Wcsph {
+        return None;
+    }
+    let (boundary_range, boundary_share) = boundary_profile(smoothing, fluid.spacing);
+    Some(Incompressible {
+        tolerance: fluid.density_tolerance,
+        rounds: fluid.rounds,
+        lattice_diagonal: lattice_diagonal(smoothing, fluid.spacing),
+        // The speed of sound is ten times what the fastest water is expected to reach.
+        correction_speed: 0.1 * sound_speed,
+        boundary_range,
+        boundary_share,
+    })
+}
+
+fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
+    let (viscosity, density) =
+        scene.fluid.as_ref().map_or((0.0, 1.0), |fluid| (fluid.viscosity, fluid.rest_density));
+    let (mu, lambda) = SpongeParams::neo_hookean(sponge.young_modulus, sponge.poisson_ratio);
+    SpongeParams {
+        edge: sponge.edge,
+        solver: match sponge.solver {
+            scene::Solver::Sbd => Solver::Sbd,
+            scene::Solver::Vbd => Solver::Vbd,
+            scene::Solver::XpbdNeoHookean => Solver::XpbdNeoHookean,
+        },
+        mu,
+        lambda,
+        damping: sponge.damping,
+        stretch_modulus: sponge.stretch_modulus,
+        shear_modulus: sponge.shear_modulus,
+        volume_modulus: sponge.volume_modulus,
+        damping_time: sponge.damping_time,
+        iterations: match sponge.solver {
+            scene::Solver::XpbdNeoHookean => 1,
+            _ => sponge.iterations,
+        },
+        friction: sponge.friction,
+        porosity: sponge.porosity,
+        drag_rate: viscosity * sponge.porosity / (density * sponge.permeability),
+        inertial_drag: sponge.forchheimer * sponge.porosity * sponge.porosity / sponge.permeability.sqrt(),
+        pores_close: scene.coupling() == scene::Coupling::Porous,
+        entry_pressure: sponge.entry_pressure,
+        saturation_gain: sponge.saturation_gain,
+        reaction: sponge.reaction,
+    }
+}

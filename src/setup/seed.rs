@@ -1,0 +1,123 @@
+//! Particles of blocks of water and of sponges that are wet at first.
+
+use glam::Vec3;
+use sorb_kernels::{
+    columns::{Columns, FAR_ROW, padded},
+    params::Params,
+};
+
+use super::mask;
+use crate::scene::{self, Scene};
+
+/// Displacement of seeded particles over the spacing: a perfect lattice hides errors of order.
+const JITTER: f32 = 0.01;
+/// Distance from a body, over the spacing, at which no particle is seeded.
+const CLEARANCE: f32 = 0.4;
+
+pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
+    let Some(fluid) = &scene.fluid else { return };
+    let spacing = fluid.spacing;
+    let mut seeds = Seeds { columns, clearance: CLEARANCE * spacing, jitter: JITTER * spacing };
+    for block in &fluid.blocks {
+        let counts = block.counts(spacing);
+        // What a sponge holds at time zero is its saturation, whatever block of water it stands in.
+        let dry = |point: Vec3| !scene.sponges.iter().any(|sponge| holds(sponge, point));
+        seeds.fill(block.minimum, [spacing; 3], counts, block.velocity, dry);
+    }
+    let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
+    for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| sponge.saturation > 0.0) {
+        // As many particles as fill the pores, evenly over the inside of the true tets: boundary squares are pits
+        // of half an edge, a sixth of an edge on average.
+        let inset = Vec3::splat(sponge.edge / 6.0);
+        let size = sponge.size() - inset * 2.0;
+        let fraction = f64::from(sponge.porosity * sponge.saturation);
+        let pitch = (volume / fraction).cbrt() as f32;
+        let wanted = size.to_array().map(|size| size / pitch);
+        let counts = match fluid.solver {
+            // A few too many yield slowly to an equation of state.
+            scene::FluidSolver::Wcsph => wanted.map(|count| count.round().max(1.0) as u32),
+            scene::FluidSolver::Dfsph => filling(wanted),
+        };
+        let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
+        let first_of = |other: &scene::Sponge, point: Vec3| other.saturation > 0.0 && holds(other, point);
+        let keep = |point: Vec3| {
+            holds(sponge, point) && !scene.sponges[..index].iter().any(|other| first_of(other, point))
+        };
+        seeds.fill(sponge.position + inset, pitch, counts, sponge.velocity, keep);
+    }
+    let count = columns.fluid.position.len();
+    columns.rows.fluid = count;
+    if count > 0 {
+        columns.fluid.id = (0..count as u32).collect();
+        columns.fluid.position.resize(padded(count), FAR_ROW);
+        columns.fluid.velocity.resize(padded(count), [0.0; 4]);
+    }
+}
+
+/// Whole numbers of particles along the axes, next to the given ones: as many particles as possible, but no more than
+/// fit. A solve for the pressure presses out one too many in a row at the first step.
+fn filling(wanted: [f32; 3]) -> [u32; 3] {
+    let most = wanted.iter().product::<f32>() * 1.001;
+    let corner = |bits: u32| {
+        let mut counts = [1; 3];
+        for (axis, count) in counts.iter_mut().enumerate() {
+            *count = (wanted[axis].floor() as u32 + (bits >> axis & 1)).max(1);
+        }
+        counts
+    };
+    let particles = |counts: &[u32; 3]| counts.iter().product::<u32>();
+    let fitting = (0..8).map(corner).filter(|counts| particles(counts) as f32 <= most);
+    fitting.max_by_key(particles).unwrap_or_else(|| corner(0))
+}
+
+/// Whether a point lies inside the outline of a sponge.
+fn holds(sponge: &scene::Sponge, point: Vec3) -> bool {
+    let relative = (point - sponge.position) / sponge.size();
+    let inside = relative.cmpge(Vec3::ZERO).all() && relative.cmple(Vec3::ONE).all();
+    inside && mask(sponge.shape)(relative)
+}
+
+struct Seeds<'a> {
+    columns: &'a mut Columns,
+    clearance: f32,
+    jitter: f32,
+}
+
+impl Seeds<'_> {
+    /// A lattice of particles, those that `keep` refuses or that lie in bodies left out.
+    fn fill(
+        &mut self,
+        corner: Vec3,
+        pitch: [f32; 3],
+        counts: [u32; 3],
+        velocity: Vec3,
+        keep: impl Fn(Vec3) -> bool,
+    ) {
+        for z in 0..counts[2] {
+            for y in 0..counts[1] {
+                for x in 0..counts[0] {
+                    let steps = Vec3::new(x as f32, y as f32, z as f32) + 0.5;
+                    let point = corner + steps * Vec3::from_array(pitch);
+                    let bodies = &self.columns.bodies.states.0;
+                    if !keep(point) || bodies.iter().any(|body| body.distance(point) < self.clearance) {
+                        continue;
+                    }
+                    let fluid = &mut self.columns.fluid;
+                    let point = point + jitter(fluid.position.len() as u64) * self.jitter;
+                    fluid.position.push([point.x, point.y, point.z, 0.0]);
+                    fluid.velocity.push([velocity.x, velocity.y, velocity.z, 0.0]);
+                }
+            }
+        }
+    }
+}
+
+/// A displacement in [-1, 1]^3 that is a function of the index alone (splitmix64).
+fn jitter(index: u64) -> Vec3 {
+    let mut bits = index.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^= bits >> 31;
+    let unit = |shift: u32| ((bits >> shift) & 0xffff) as f32 / 32767.5 - 1.0;
+    Vec3::new(unit(0), unit(16), unit(32))
+}
