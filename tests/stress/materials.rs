@@ -86,7 +86,10 @@ fn permeability_over_nine_decades() {
     for exponent in decades(&[-14, -11, -8, -5], -14..=-5) {
         let scene = with(&wet(), &[format!("sponges[0].permeability=1e{exponent}")]);
         let name = format!("wet: permeability 1e{exponent} m^2");
-        cases.push(Case::new(name, with_ball(scene, 2000.0, 0.0), pick(0.3, 2.0)));
+        let case = Case::new(name, with_ball(scene, 2000.0, 0.0), pick(0.3, 2.0));
+        // Where drag does not bear the ball, nodes that it lets go spring back.
+        let fastest = if exponent > -8 { 0.5 * WAVE } else { case.fastest };
+        cases.push(Case { fastest, ..case });
     }
     table(cases);
 }
