@@ -109,14 +109,14 @@ fn a_thin_wall_sweeps_through() {
             for step in &steps {
                 let name =
                     format!("{}: a wall of {thickness} mm at {speed} m/s, steps up to {step} ms", scene.name);
-                let scene_is_wet = scene.name == "wet" && thickness < 5.0;
+                let is_between = scene.name == "wet" && thickness < 5.0 && speed > 5.0 && *step < 1.0;
                 let mut scene = swept(scene.clone(), 1e-3 * thickness, speed);
                 scene.time.maximum_step = 1e-3 * step;
                 let figure = Figure { name: "behind the wall %", of: behind, most: 0.0 };
                 // The work of the wall is not counted.
                 let (fastest, excess) = (f64::from(5.0 * speed).max(1.5 * WAVE), None);
                 let case = Case::new(name, scene, f64::from((WAY.1 - WAY.0) / speed) + 0.1);
-                let known = if scene_is_wet && speed > 5.0 && *step < 1.0 { BETWEEN } else { &[] };
+                let known = if is_between { BETWEEN } else { &[] };
                 cases.push(Case { fastest, excess, known, figure: Some(figure), ..case });
             }
         }
