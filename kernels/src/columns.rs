@@ -156,7 +156,8 @@ columns! {
     fluid: Fluid {
         /// Centre of the particle; w: pressure over density squared, p/rho^2 \[Pa m^6/kg^2\].
         FluidPosition = position: Vec<[f32; 4]>, "m", State;
-        /// Velocity of the particle; w: its volume m/rho \[m^3\].
+        /// Velocity of the particle; w: its volume m/rho \[m^3\], or, where pressure is solved for, the compression that
+        /// it is allowed \[1\].
         FluidVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
         /// Identity of the particle, kept while rows are re-ordered.
         FluidId = id: Vec<u32>, "1", State;

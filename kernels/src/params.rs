@@ -76,11 +76,27 @@ pub struct Cohesion {
     pub boundary_share: f32,
 }
 
+/// The most of the roughness that the compression of one step follows, over the square of the step \[1\].
+const PROMPT_ROUGHNESS: f32 = 0.2;
+
 impl FluidParams {
     /// How far the neighbours in the lists may be \[m\].
     #[must_use]
     pub fn list_radius(&self) -> f32 {
         self.cohesion.as_ref().map_or(self.smoothing.support_radius, |own| own.smoothing.support_radius)
+    }
+
+    /// Volume of a particle at rest density \[m^3\].
+    #[must_use]
+    pub fn rest_volume(&self) -> f32 {
+        self.particle_mass / self.rest_density
+    }
+
+    /// What of [`roughness`](Self::roughness) the compression of a single step may follow \[s^2\]; see `sph::predict`.
+    #[must_use]
+    pub fn prompt_roughness(&self, step: f32) -> f32 {
+        let most = PROMPT_ROUGHNESS * step * step;
+        if most < self.roughness { most } else { self.roughness }
     }
 }
 

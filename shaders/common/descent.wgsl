@@ -7,6 +7,8 @@ const SOLID: f32 = 0.2;
 struct Local {
     force: vec3<f32>,
     stiffness: mat3x3<f32>,
+    // The largest change of the volume of a tet, of either sign, over that at rest.
+    strain: f32,
 }
 
 struct Quadratic {
@@ -57,7 +59,7 @@ fn viscosity(f: mat3x3<f32>, g: mat3x3<f32>, sponge: Sponge, rate: f32) -> Local
     var stiffness = outer(n * (rate * inverse_square * volume), n);
     let both = rate * inverse_square * 2.0 * shear;
     stiffness += outer(g[0] * both, g[0]) + outer(g[1] * both, g[1]) + outer(g[2] * both, g[2]);
-    return Local(first + second + third, stiffness);
+    return Local(first + second + third, stiffness, 0.0);
 }
 
 fn columns_of(x: vec3<f32>, u: vec3<f32>, q: vec3<f32>, r: vec3<f32>) -> mat3x3<f32> {
@@ -78,7 +80,8 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     var count = 0.0;
     var pressure = vec3<f32>(0.0);
     var stiffness = mat3x3<f32>();
-    var damping = Local(vec3<f32>(0.0), mat3x3<f32>());
+    var damping = Local(vec3<f32>(0.0), mat3x3<f32>(), 0.0);
+    var strain = 0.0;
     for (var direction = 0u; direction < 6u; direction += 1u) {
         let ring = rings[direction];
         let partner = stars[base + DIRECTION + direction];
@@ -95,6 +98,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             count += 2.0;
             let area = cross(q - u, r - u) * (2.0 * inverse_edge * inverse_edge);
             let ratio = dot(u - x, area) * inverse_edge;
+            strain = max(strain, abs(ratio - 1.0));
             let inverse = 1.0 / max(ratio, SOLID);
             pressure += area * (lame * (ratio - 1.0) - shear * inverse * (2.0 - ratio * inverse));
             stiffness += outer(area * (lame + shear * inverse * inverse), area);
@@ -108,7 +112,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
         }
     }
     let force = pull * shear + pressure * sponge.edge + damping.force;
-    return Local(force, stiffness + diagonal(count * shear) + damping.stiffness);
+    return Local(force, stiffness + diagonal(count * shear) + damping.stiffness, strain);
 }
 
 // Where the energy is least without obstacles.

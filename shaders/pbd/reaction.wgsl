@@ -56,7 +56,7 @@ fn main(
     }
     let free = x.w > 0.0;
     let near = counts && free && is_near(x.xyz, old, sponge.edge * MARGIN);
-    var local = Local(vec3<f32>(0.0), diagonal(1.0));
+    var local = Local(vec3<f32>(0.0), diagonal(1.0), 0.0);
     var quadratic = Quadratic(x.xyz, diagonal(1.0), diagonal(1.0));
     if (near || (counts && !free)) {
         local = local_energy(row, x.xyz, old, sponge, clock.step);

@@ -1,5 +1,9 @@
 // Vertex block descent for the nodes of one vertex colour; `vbd.rs` has the formulas. Neighbours have other colours.
 
+const RELAXATION: f32 = 0.25;
+const SOUND: f32 = 0.2;
+const SPOILT: f32 = 0.5;
+
 struct Batch {
     first: u32,
     count: u32,
@@ -37,10 +41,26 @@ fn main(
     let old = position[row].xyz;
     let local = local_energy(row, x.xyz, old, sponge, clock.step);
     let quadratic = least(local, x.xyz, goal[row], clock.step);
+    var relaxation = 1.0;
+    if (sponge.iterations > 1.0) {
+        relaxation += RELAXATION * clamp((SPOILT - local.strain) / (SPOILT - SOUND), 0.0, 1.0);
+    }
+    let relaxed = x.xyz + (quadratic.point - x.xyz) * relaxation;
+    var point = pushed(quadratic, relaxed, old, sponge);
+    let off = point - relaxed;
+    if (dot(off, off) > 0.0) {
+        // What is in the way answers to the energy, and not to what goes beyond.
+        point = pushed(quadratic, quadratic.point, old, sponge);
+    }
+    predicted[row] = vec4<f32>(point, x.w);
+}
+
+// Where all that is in the way leaves a point.
+fn pushed(quadratic: Quadratic, start: vec3<f32>, old: vec3<f32>, sponge: Sponge) -> vec3<f32> {
     let low = params.wall_low.xyz;
     let high = params.wall_high.xyz;
     let has_walls = params.wall_low.w > 0.0;
-    var point = quadratic.point;
+    var point = start;
     if (has_walls) {
         point += push_by_walls(low, high, quadratic, point, old, sponge.friction).change;
     }
@@ -53,5 +73,5 @@ fn main(
         point = select(point, low, point < low);
         point = select(point, high, point > high);
     }
-    predicted[row] = vec4<f32>(point, x.w);
+    return point;
 }

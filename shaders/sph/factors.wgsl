@@ -53,7 +53,7 @@ fn main(
         own -= wall.xyz;
         let least = params.lattice_diagonal / 3.0;
         // The lists hold the particle itself, which is no pair.
-        let rough = (pairs - gradient) * params.roughness;
+        let rough = (pairs - gradient) * prompt_roughness();
         let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step) + rough;
         let most = params.correction_speed * clock.step / params.spacing;
         let share = shapes * (params.smoothing.value * volume) + wall.w;

@@ -30,6 +30,10 @@ fn main(
     var pull = vec3<f32>(0.0);
     var central = vec3<f32>(0.0);
     var roughness = 0.0;
+    // Where pressure is solved for, particles keep their volume, and the row of the velocity carries something else.
+    let is_known = params.incompressible != 0u;
+    let rest_volume = params.particle_mass / params.rest_density;
+    let own_volume = select(own_velocity.w, rest_volume, is_known);
     let softening = 0.0025 * params.smoothing.radius * params.smoothing.radius;
     let weight = params.gravity.xyz / params.rest_density;
     for (var k = 0u; k < end; k += 1u) {
@@ -43,17 +47,18 @@ fn main(
         let cube = u * u * u;
         let relative = its_velocity.xyz - own_velocity.xyz;
         push += ((own.w + there.w) * cube) * apart;
-        pull += (its_velocity.w * u) * relative;
-        central += (its_velocity.w * cube * dot(relative, apart) / (square + softening)) * apart;
+        let volume = select(its_velocity.w, rest_volume, is_known);
+        pull += (volume * u) * relative;
+        central += (volume * cube * dot(relative, apart) / (square + softening)) * apart;
         if (min(own.w, there.w) > 0.0) {
             roughness += cube * (there.w - own.w + dot(weight, apart));
         }
     }
     // mu / rho_i = mu V_i / m.
     let pressure_scale = params.smoothing.gradient * params.particle_mass;
-    let viscosity_scale = params.smoothing.viscosity * (params.viscosity / params.particle_mass) * own_velocity.w;
+    let viscosity_scale = params.smoothing.viscosity * (params.viscosity / params.particle_mass) * own_volume;
     let central_scale =
-        params.smoothing.gradient * (10.0 * params.central_viscosity / params.particle_mass) * own_velocity.w;
+        params.smoothing.gradient * (10.0 * params.central_viscosity / params.particle_mass) * own_volume;
     let sum = push * pressure_scale + pull * viscosity_scale + central * central_scale + params.gravity.xyz;
     acceleration[row] = vec4<f32>(sum, roughness * (pressure_scale * params.roughness));
 }

@@ -1,10 +1,12 @@
-// Where particles would be at the end of the step without a change of their pressure, kept inside the walls.
+// Where particles would be at the end of the step without a change of their pressure, kept inside the walls, and what
+// compression they are allowed, as `predict.rs` says.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> predicted: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -25,4 +27,16 @@ fn main(
         end = select(select(end, high, end > high), low, end < low);
     }
     predicted[row] = vec4<f32>(end, 0.0);
+    var share = 1.0;
+    let prompt = prompt_roughness();
+    if (prompt < params.roughness) {
+        share = prompt / params.roughness;
+    }
+    // More than all of the volume is no compression.
+    let own = velocity[row].w;
+    let before = select(0.0, own, abs(own) <= 1.0);
+    let asked = acceleration[row].w;
+    let allowed = before + share * (asked - before);
+    velocity[row].w = allowed;
+    acceleration[row].w = allowed + share * (asked - allowed);
 }

@@ -1,6 +1,6 @@
 // One round of a pressure solve: acceleration by what the pressure has changed since the beginning of the step.
 //
-//     a_i = dP_i B_i + sum_j c_ij dP_j x_ij,   w_i = a_i . x_i - e / h^2 dP_i
+//     a_i = dP_i B_i + sum_j c_ij dP_j x_ij,   w_i = a_i . x_i - b e / h^2 dP_i
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -33,6 +33,6 @@ fn main(
         sum += (gradient * (u * u * u) * there.w) * apart;
     }
     sum += own.w * factors[row].xyz;
-    let roughness = params.roughness / (clock.step * clock.step);
+    let roughness = prompt_roughness() / (clock.step * clock.step);
     correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()) - own.w * roughness);
 }

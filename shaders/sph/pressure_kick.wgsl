@@ -18,7 +18,7 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let v = velocity[row].xyz + clock.step * correction[row].xyz;
-    velocity[row] = vec4<f32>(v, params.particle_mass / params.rest_density);
+    let before = velocity[row];
+    velocity[row] = vec4<f32>(before.xyz + clock.step * correction[row].xyz, before.w);
     position[row].w = pressure_rows[row].x / params.rest_density;
 }

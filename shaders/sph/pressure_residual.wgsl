@@ -1,6 +1,6 @@
 // One round of a pressure solve: the compression that is left, and the sums that `solve_round.wgsl` adds up.
 //
-//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + e sum_j c_ij (dP_j - dP_i)
+//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + b e sum_j c_ij (dP_j - dP_i)
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -45,7 +45,7 @@ fn main(
         }
         let factor = factors[row];
         let square = clock.step * clock.step;
-        let away = dot(correction[row].xyz, factor.xyz) + pairs * own.w * (params.roughness / square);
+        let away = dot(correction[row].xyz, factor.xyz) + pairs * own.w * (prompt_roughness() / square);
         let left = factor.w + (sum - away) * square;
         let before = pressure_rows[row];
         let response = before.w - left;

@@ -79,14 +79,14 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::boundary_pressure: body surface wrench profile;
     sph::boundary_reaction: body surface wrench profile;
     sph::density: smoothing;
-    sph::factors: smoothing sums;
+    sph::factors: smoothing sums roughness;
     sph::forces: smoothing;
     sph::kick: ;
-    sph::predict: ;
+    sph::predict: roughness;
     sph::pressure: ;
-    sph::pressure_acceleration: smoothing middle;
+    sph::pressure_acceleration: smoothing middle roughness;
     sph::pressure_kick: ;
-    sph::pressure_residual: smoothing middle sums;
+    sph::pressure_residual: smoothing middle sums roughness;
     sph::pressure_update: solve;
     sph::repulsion: body surface wrench;
     sph::solve_begin: sums solve;

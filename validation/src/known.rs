@@ -66,7 +66,6 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     miss("patch", "sbd", "", ONE_SWEEP),
     miss("cantilever", "sbd", "", ONE_SWEEP),
     miss("cantilever", "vbd", "sag of the tip against Timoshenko", PITS),
-    miss("cantilever", "vbd", "", FEW_SWEEPS),
     miss("uniaxial", "", "force against the continuum", PITS),
     miss("confined", "vbd", "force against the continuum", PITS),
     miss("torsion", "vbd", "torque against the continuum", PITS),
@@ -80,7 +79,7 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "an energy without a logarithm draws a compressed cube together, in the end to a point (docs/elasticity.md)",
     ),
     miss("vibration", "sbd", "frequency", ONE_SWEEP),
-    miss("vibration", "vbd", "", IMPLICIT),
+    miss("vibration", "vbd", "swing", IMPLICIT),
     miss("washburn", "wcsph", "exponent", NO_SOLID),
     miss("imbibition", "sbd", "", NO_SOLID),
     miss("imbibition", "wcsph", "", NO_SOLID),
@@ -113,7 +112,6 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
 const DISORDER: &str = "pressure on particles in no order damps and makes noise, in proportion to spacing and pressure; alpha \
                         0.05 is a tenth of the viscosity by itself";
 const ONE_SWEEP: &str = "one sweep a step from no impulse, with damping, is softer than the material";
-const FEW_SWEEPS: &str = "four sweeps a step are few for a bar that is long: 0.5 % too soft";
 const IMPLICIT: &str = "implicit steps of the length that the scene allows damp a vibration";
 const JUMPS: &str =
     "drag comes after the pressure: what it leaves of the volume makes the pressure of the next steps jump";

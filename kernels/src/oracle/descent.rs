@@ -184,6 +184,21 @@ fn react(
     size * direction
 }
 
+/// How far a node goes, over the way to its least energy: a quarter further, in steps of more than one sweep, down to none
+/// where a tet is half of its volume too small or too large.
+fn relaxation(params: &Params, sponge: u32, places: &[DVec3], tets: &[([usize; 4], usize)]) -> f64 {
+    let sponge = &params.sponges[sponge as usize];
+    if sponge.iterations < 2 {
+        return 1.0;
+    }
+    let volume = |(tet, _): &([usize; 4], usize)| {
+        let f = columns_of(places, *tet, f64::from(sponge.edge));
+        f[0].dot(f[1].cross(f[2]))
+    };
+    let strain = tets.iter().map(|tet| (volume(tet) - 1.0).abs()).fold(0.0, f64::max);
+    1.0 + 0.25 * ((0.5 - strain) / 0.3).clamp(0.0, 1.0)
+}
+
 pub(super) fn vbd(params: &Params, columns: &mut Columns) {
     let incidence = incidence(&columns.nodes);
     let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
@@ -193,8 +208,15 @@ pub(super) fn vbd(params: &Params, columns: &mut Columns) {
         if columns.nodes.predicted[node][3] > 0.0 && descends(params, &columns.nodes, node) {
             let at = (&places[..], &before[..]);
             let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
-            push(params, columns, node, stiffness, &mut point);
-            places[node] = point;
+            let further = relaxation(params, columns.nodes.sponge[node], &places, &incidence[node]);
+            let relaxed = places[node] + (point - places[node]) * further;
+            let mut end = relaxed;
+            push(params, columns, node, stiffness, &mut end);
+            if end != relaxed {
+                push(params, columns, node, stiffness, &mut point);
+                end = point;
+            }
+            places[node] = end;
         }
     }
     let rows = columns.rows.nodes;

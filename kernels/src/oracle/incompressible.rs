@@ -28,6 +28,11 @@ fn box_inside(params: &Params) -> Option<(DVec3, DVec3)> {
     params.walls.map(|(low, high)| (low.as_dvec3() + margin, high.as_dvec3() - margin))
 }
 
+/// What of the roughness a single step follows: at most a fifth of the square of the step.
+fn prompt_roughness(params: &Params) -> f64 {
+    f64::from(params.fluid.roughness).min(0.2 * f64::from(params.step).powi(2))
+}
+
 pub(super) fn predict(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     fluid.predicted.resize(fluid.position.len(), [0.0; 4]);
@@ -35,6 +40,12 @@ pub(super) fn predict(params: &Params, columns: &mut Columns) {
         let end = vector(fluid.position[i]) + f64::from(params.step) * vector(fluid.velocity[i]);
         let end = box_inside(params).map_or(end, |(low, high)| end.clamp(low, high));
         fluid.predicted[i] = row(end, 0.0);
+        let share = prompt_roughness(params) / f64::from(params.fluid.roughness);
+        let [w, asked] = [fluid.velocity[i][3], fluid.acceleration[i][3]].map(f64::from);
+        let before = if w.abs() <= 1.0 { w } else { 0.0 };
+        let allowed = (1.0 - share) * before + share * asked;
+        fluid.velocity[i][3] = allowed as f32;
+        fluid.acceleration[i][3] = ((1.0 - share) * allowed + share * asked) as f32;
     }
 }
 
@@ -157,7 +168,7 @@ pub(super) fn factors(params: &Params, columns: &mut Columns) {
             let offset = end[i] - end[*j];
             own += *c * offset;
             others += (*c * offset).length_squared();
-            rough += if *j == i { 0.0 } else { *c * f64::from(params.fluid.roughness) };
+            rough += if *j == i { 0.0 } else { *c * prompt_roughness(params) };
             share += volume * smoothing(params.fluid.smoothing.support_radius, offset.length());
         }
         let most = f64::from(solve.correction_speed) * step / spacing;
@@ -203,7 +214,7 @@ pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     let near = pairs(params, fluid, count);
     let end = vectors(&fluid.predicted, count);
     let origin = params.origin().as_dvec3();
-    let roughness = f64::from(params.fluid.roughness) / f64::from(params.step).powi(2);
+    let roughness = prompt_roughness(params) / f64::from(params.step).powi(2);
     fluid.correction.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..count {
         let mut sum = f64::from(fluid.predicted[i][3]) * vector(fluid.factors[i]);
@@ -229,7 +240,7 @@ pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
             change += *c * a[*j].dot(end[i] - end[*j]);
             smoother += *c * (f64::from(fluid.predicted[*j][3]) - f64::from(fluid.predicted[i][3]));
         }
-        let allowed = f64::from(params.fluid.roughness) * smoother;
+        let allowed = prompt_roughness(params) * smoother;
         let left = f64::from(fluid.factors[i][3]) + square * change + allowed;
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;
@@ -248,7 +259,7 @@ pub(super) fn pressure_kick(params: &Params, columns: &mut Columns) {
     let density = f64::from(params.fluid.rest_density);
     for i in 0..columns.rows.fluid {
         let v = vector(fluid.velocity[i]) + f64::from(params.step) * vector(fluid.correction[i]);
-        fluid.velocity[i] = row(v, f64::from(params.fluid.particle_mass) / density);
+        fluid.velocity[i] = row(v, f64::from(fluid.velocity[i][3]));
         fluid.position[i][3] = (f64::from(fluid.pressure_rows[i][0]) / density) as f32;
     }
 }

@@ -42,6 +42,7 @@ pub(super) fn forces(params: &Params, columns: &mut Columns) {
     let (x, v) = (vectors(&fluid.position, count), vectors(&fluid.velocity, count));
     let radius = params.fluid.smoothing.support_radius;
     let (mass, rest) = (f64::from(params.fluid.particle_mass), f64::from(params.fluid.rest_density));
+    let solves = params.fluid.incompressible.is_some();
     fluid.acceleration.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..count {
         let (mut pressure, mut viscosity, mut central) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
@@ -51,7 +52,7 @@ pub(super) fn forces(params: &Params, columns: &mut Columns) {
             let both = f64::from(fluid.position[i][3]) + f64::from(fluid.position[j][3]);
             pressure -= mass * both * gradient(radius, offset);
             let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
-            let volume = f64::from(fluid.velocity[j][3]);
+            let volume = if solves { mass / rest } else { f64::from(fluid.velocity[j][3]) };
             viscosity += volume * laplacian * (v[j] - v[i]);
             let softened = offset.length_squared() + 0.0025 * f64::from(radius).powi(2);
             central -= 10.0 * volume * (v[j] - v[i]).dot(offset) / softened * gradient(radius, offset);
@@ -63,7 +64,7 @@ pub(super) fn forces(params: &Params, columns: &mut Columns) {
             }
         }
         // mu / rho_i, where the velocity row holds m / rho_i.
-        let scale = f64::from(fluid.velocity[i][3]) / mass;
+        let scale = if solves { 1.0 / rest } else { f64::from(fluid.velocity[i][3]) / mass };
         let viscosity = f64::from(params.fluid.viscosity) * viscosity;
         let central = f64::from(params.fluid.central_viscosity) * central;
         let sum = params.gravity.as_dvec3() + pressure + scale * (viscosity + central);

@@ -39,7 +39,7 @@
 //! ```
 
 use crate::{
-    lanes::{self, LANES, Simd, f32x8, prelude::*},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
     params::{Params, Solver, SpongeParams},
     pbd::stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
     vector::{Vec3x8, cross, dot, minus, plus, times},
@@ -47,6 +47,9 @@ use crate::{
 
 /// Volume of a tet over that at rest below which its energy goes on as a polynomial \[1\].
 const SOLID: f32 = 0.2;
+
+/// How far `pbd::vbd` goes beyond the least energy, over the way there, in steps of more than one sweep \[1\].
+pub(super) const RELAXATION: f32 = 0.25;
 
 /// A symmetric matrix of three rows: xx, yy, zz, xy, xz, yz.
 pub(super) type Symmetric<S> = [f32x8<S>; 6];
@@ -102,11 +105,13 @@ pub(super) struct Material<S: Simd> {
     volume: f32x8<S>,
     /// tau / h.
     damping: f32x8<S>,
+    /// How far a node goes beyond its least energy, over the way there.
+    pub(super) relaxation: f32x8<S>,
     damps: bool,
 }
 
 /// The constants of one sponge, in the order of [`Material`].
-fn constants(sponge: &SpongeParams, step: f32) -> [f32; 7] {
+fn constants(sponge: &SpongeParams, step: f32) -> [f32; 8] {
     let own = if sponge.solver == Solver::Vbd { 1.0 } else { 0.0 };
     [
         own,
@@ -116,15 +121,16 @@ fn constants(sponge: &SpongeParams, step: f32) -> [f32; 7] {
         sponge.edge * sponge.mu / 12.0,
         sponge.edge * sponge.lambda / 12.0,
         own * sponge.damping / step,
+        if sponge.iterations > 1 { RELAXATION } else { 0.0 },
     ]
 }
 
 /// The constants of the sponges of eight nodes; most often that is one.
 #[inline(never)]
-pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]) -> [[f32; LANES]; 7] {
-    let mut columns = [[0.0; LANES]; 7];
+pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]) -> [[f32; LANES]; 8] {
+    let mut columns = [[0.0; LANES]; 8];
     let mut last = None;
-    let mut values = [0.0; 7];
+    let mut values = [0.0; 8];
     for (lane, node) in nodes.iter().enumerate() {
         let sponge = sponge[*node as usize];
         if last != Some(sponge) {
@@ -141,7 +147,7 @@ pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]
 impl<S: Simd> Material<S> {
     /// From the constants of eight nodes.
     #[inline(always)]
-    pub(super) fn new(simd: S, columns: &[[f32; LANES]; 7]) -> Self {
+    pub(super) fn new(simd: S, columns: &[[f32; LANES]; 8]) -> Self {
         let vector = |column: usize| lanes::load_array(simd, &columns[column]);
         Self {
             own: vector(0),
@@ -151,6 +157,7 @@ impl<S: Simd> Material<S> {
             shear: vector(4),
             volume: vector(5),
             damping: vector(6),
+            relaxation: vector(7),
             damps: columns[6] != [0.0; LANES],
         }
     }
@@ -178,9 +185,9 @@ impl<'a, S: Simd> Star<'a, S> {
         Self { simd, group, shape, around }
     }
 
-    /// Elastic force on the node at `x` and its stiffness.
+    /// Elastic force on the node at `x`, its stiffness, and how far from rest the volumes around it are.
     #[inline(always)]
-    fn elasticity(&self, material: &Material<S>, x: Vec3x8<S>) -> (Vec3x8<S>, Symmetric<S>) {
+    fn elasticity(&self, material: &Material<S>, x: Vec3x8<S>) -> Local<S> {
         let simd = self.simd;
         let zero = lanes::splat(simd, 0.0);
         let (mut pull, mut count) = ([zero; 3], zero);
@@ -190,6 +197,7 @@ impl<'a, S: Simd> Star<'a, S> {
             count += share;
         }
         let (mut pressure, mut stiffness) = ([zero; 3], [zero; 6]);
+        let mut strain = zero;
         let (shear, lame) = (material.shear, material.volume - material.shear);
         let (one, two) = (lanes::splat(simd, 1.0), lanes::splat(simd, 2.0));
         let twice = material.inverse_edge * material.inverse_edge * lanes::splat(simd, 2.0);
@@ -204,6 +212,8 @@ impl<'a, S: Simd> Star<'a, S> {
                 let present = lanes::load_array(simd, &self.group.tets[4 * direction + k]);
                 let own = times(area, present);
                 let ratio = dot(out, area) * material.inverse_edge;
+                // Where no tet is, nothing is known of its corners.
+                strain = strain.max(select(present.simd_gt(zero), (ratio - one).abs(), zero));
                 let inverse = one / ratio.max(lanes::splat(simd, SOLID));
                 let slope = lame * (ratio - one) - shear * inverse * (two - ratio * inverse);
                 pressure = plus(pressure, times(own, slope));
@@ -215,7 +225,7 @@ impl<'a, S: Simd> Star<'a, S> {
         for diagonal in &mut stiffness[..3] {
             *diagonal += count * shear;
         }
-        (force, stiffness)
+        Local { force, stiffness, strain }
     }
 
     /// Adds the damping force and its derivative; `before` are the stars at the beginning of the step, where the node was
@@ -226,7 +236,7 @@ impl<'a, S: Simd> Star<'a, S> {
         material: &Material<S>,
         before: &Self,
         (x, old): (Vec3x8<S>, Vec3x8<S>),
-        (force, stiffness): &mut (Vec3x8<S>, Symmetric<S>),
+        Local { force, stiffness, .. }: &mut Local<S>,
     ) {
         let simd = self.simd;
         // The columns are left without their factor 1 / a, and n without its own.
@@ -279,7 +289,15 @@ fn rate<S: Simd>(
     (dot(g[k], df[l]) + dot(g[l], df[k])) * scale
 }
 
-/// The quadratic energy of eight nodes: force at the present place, and stiffness, both without inertia.
+/// The energy around eight nodes without inertia, to second order at their present place.
+pub(super) struct Local<S: Simd> {
+    pub(super) force: Vec3x8<S>,
+    pub(super) stiffness: Symmetric<S>,
+    /// The largest change of the volume of a tet, of either sign, over that at rest \[1\].
+    pub(super) strain: f32x8<S>,
+}
+
+/// The energy of eight nodes without inertia.
 #[inline(always)]
 pub(super) fn local<S: Simd>(
     simd: S,
@@ -287,7 +305,7 @@ pub(super) fn local<S: Simd>(
     material: &Material<S>,
     (now, before): (&[[f32; 4]], &[[f32; 4]]),
     (x, old): (Vec3x8<S>, Vec3x8<S>),
-) -> (Vec3x8<S>, Symmetric<S>) {
+) -> Local<S> {
     // Not written out again for every caller.
     simd.vectorize(
         #[inline(always)]

@@ -120,8 +120,9 @@ impl Task<'_> {
         let target = [tx, ty, tz];
         let places = (self.predicted, self.position);
         let step = self.params.step;
-        let (elastic, stiffness) = local(simd, (group, &self.stars.shape), material, places, (x, old));
-        let (point, quadratic) = least(simd, (elastic, stiffness), (x, target, drawn), step);
+        let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        let (elastic, stiffness) = (energy.force, energy.stiffness);
+        let (point, quadratic) = least(simd, energy, (x, target, drawn), step);
         let mut contact = quadratic.contact((point, old), material, near);
         let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));
         let force = choose(free, pushed, times(negative(elastic), counts));

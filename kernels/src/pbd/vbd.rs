@@ -6,7 +6,9 @@
 //!
 //! with the target z and the energy of `descent.rs`; where there is fluid, target and mass include its drag
 //! (`couple::drag_target`). Four vertex colours: the neighbours of a node have another one, so
-//! nodes of a colour can move at the same time. Contact and friction are solved together with the elasticity of the node,
+//! nodes of a colour can move at the same time. A node goes further than to its least energy by a quarter of the way there,
+//! which needs fewer sweeps for what reaches far, but not in a step of a single sweep, where it would feed vibrations, nor
+//! where a tet is far from its volume at rest, where the energy is not nearly quadratic. Contact and friction are solved together with the elasticity of the node,
 //! in `obstacles.rs`. What a sweep does never raises the total energy without contact; it is stable at any step.
 //!
 //! Differs from the paper: the Hessian is exact and positive definite as it is, because the energy is quadratic in one
@@ -20,12 +22,17 @@ use crate::{
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::{Params, Solver},
     pbd::{
-        descent::{Material, Symmetric, constants_of, inverse, local, product},
-        obstacles::{Obstacles, Quadratic, vector},
+        descent::{Local, Material, constants_of, inverse, local, product},
+        obstacles::{Obstacles, Quadratic, array, vector},
         stars::{StarGroup, Stars},
     },
-    vector::{Vec3x8, choose, minus, plus, times},
+    vector::{Vec3x8, choose, dot, minus, plus, times},
 };
+
+/// Change of the volume of a tet around a node, over that at rest, up to which the node goes all the way further, and that
+/// from which on it goes no further than to its least energy \[1\].
+const SOUND: f32 = 0.2;
+const SPOILT: f32 = 0.5;
 
 /// `pbd::vbd`: one sweep over all colours.
 pub static KERNEL: Kernel = Kernel {
@@ -94,20 +101,38 @@ impl Task<'_> {
         let moves = w.simd_gt(zero) & material.own.simd_gt(zero);
         let places = (self.predicted, self.position);
         let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        let further = relaxation(simd, material, energy.strain);
         let (point, quadratic) = least(simd, energy, (x, target, mass), self.params.step);
+        let relaxed = plus(x, times(minus(point, x), further));
         let own = select(moves, lanes::splat(simd, 1.0), zero);
-        let mut contact = quadratic.contact((point, old), material, own);
+        let mut contact = quadratic.contact((relaxed, old), material, own);
         obstacles.push(&mut contact, None);
-        let [x, y, z] = choose(moves, vector(simd, &contact.point), x);
+        let mut end = vector(simd, &contact.point);
+        if contact.point != array(relaxed) {
+            // What is in the way answers to the energy, and not to what goes beyond.
+            let mut contact = quadratic.contact((point, old), material, own);
+            obstacles.push(&mut contact, None);
+            let off = minus(end, relaxed);
+            end = choose(dot(off, off).simd_gt(zero), vector(simd, &contact.point), end);
+        }
+        let [x, y, z] = choose(moves, end, x);
         [x, y, z, w]
     }
+}
+
+/// How far a node goes, over the way to its least energy.
+#[inline(always)]
+fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>) -> f32x8<S> {
+    let share = (lanes::splat(simd, SPOILT) - strain) * lanes::splat(simd, 1.0 / (SPOILT - SOUND));
+    let share = share.max(lanes::splat(simd, 0.0)).min(lanes::splat(simd, 1.0));
+    lanes::splat(simd, 1.0) + share * material.relaxation
 }
 
 /// Where an energy is least without obstacles, and its second derivative; with what draws it to its target.
 #[inline(always)]
 pub(super) fn least<S: Simd>(
     simd: S,
-    (force, mut stiffness): (Vec3x8<S>, Symmetric<S>),
+    Local { force, mut stiffness, .. }: Local<S>,
     (x, target, mass): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),
     step: f32,
 ) -> (Vec3x8<S>, Quadratic<S>) {

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! c_ij = V (-dW/dr) / r                            grad W_ij = -c_ij x_ij / V
-//! r_i = sum_j V W_ij + lambda_i - 1 + w_i          compression, if the pressure stays as it is
+//! r_i = sum_j V W_ij + lambda_i - 1 + s_i          compression, if the pressure stays as it is
 //! B_i = sum_j c_ij x_ij - grad lambda_i            acceleration by the particle's own pressure
-//! M_i = h^2 (|B_i|^2 + sum_j |c_ij x_ij|^2) + e sum_j c_ij    diagonal of the system [BK17, eq. 8]
+//! M_i = h^2 (|B_i|^2 + sum_j |c_ij x_ij|^2) + b e sum_j c_ij    diagonal of the system [BK17, eq. 8]
 //! ```
 //!
 //! A pressure that is higher and lower by turns pushes no particle of a lattice, so that the solve could not answer to a
@@ -16,7 +16,8 @@
 //!
 //! of `sph::forces`, and the same of what the solve changes, a compression of `-w_i` is allowed instead: e times the compact
 //! Laplacian of the pressure, beside h^2 times the wide one \[RC83\]. The time in e does not change: an allowance that went
-//! with the step would move the water whenever the step changes.
+//! with the step would move the water whenever the step changes. In steps that are short against it the allowance s follows w
+//! with a delay, by a share b in a step, which `sph::predict` has.
 //!
 //! An error of the density is put right at a limited speed: particles that begin on top of each other would fly apart.
 
@@ -111,6 +112,7 @@ impl Task<'_> {
         let (gradient, value) = (kernel.gradient_scale() * volume, kernel.value_scale() * volume);
         let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
         let least = lanes::splat(simd, LEAST_DIAGONAL * self.solve.lattice_diagonal);
+        let prompt = fluid.prompt_roughness(step);
         let most = lanes::splat(simd, self.solve.correction_speed * step / fluid.spacing);
         for row in (0..factors.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.predicted, first + row);
@@ -131,7 +133,7 @@ impl Task<'_> {
             let [gx, gy, gz, share] = lanes::load_rows(simd, self.boundary, first + row);
             let own = [own[0] - gx, own[1] - gy, own[2] - gz];
             // The lists hold the particle itself, which is no pair.
-            let rough = (pair_sum - gradient) * fluid.roughness;
+            let rough = (pair_sum - gradient) * prompt;
             let diagonal = (dot(own, own) + others).max(least) * (step * step) + rough;
             let [_, _, _, allowed] = lanes::load_rows(simd, self.acceleration, first + row);
             let compression = (shape_sum * value + share - one + allowed).min(most);

@@ -63,9 +63,13 @@ fn chunk<S: Simd>(
     let gravity = vector::splat(simd, params.gravity.to_array());
     let weight = times(gravity, lanes::splat(simd, 1.0 / fluid.rest_density));
     let roughness_scale = pressure_scale * fluid.roughness;
+    // Where pressure is solved for, particles keep their volume, and the row of the velocity carries something else.
+    let is_known = fluid.incompressible.is_some();
+    let rest_volume = lanes::splat(simd, fluid.rest_volume());
     for row in (0..acceleration.len()).step_by(LANES) {
         let [x, y, z, p] = lanes::load_rows(simd, position, first + row);
         let [vx, vy, vz, volume] = lanes::load_rows(simd, velocity, first + row);
+        let volume = if is_known { rest_volume } else { volume };
         let zero = lanes::splat(simd, 0.0);
         let mut pressure = [zero; 3];
         let mut viscosity = [zero; 3];
@@ -80,6 +84,7 @@ fn chunk<S: Simd>(
             let cube = u * u * u;
             let push = (p + pj) * cube;
             pressure = [pressure[0] + push * dx, pressure[1] + push * dy, pressure[2] + push * dz];
+            let volume_j = if is_known { rest_volume } else { volume_j };
             let pull = volume_j * u;
             let (wx, wy, wz) = (vxj - vx, vyj - vy, vzj - vz);
             viscosity = [viscosity[0] + pull * wx, viscosity[1] + pull * wy, viscosity[2] + pull * wz];

@@ -4,7 +4,7 @@
 //! a_i = dP_i B_i + sum_j c_ij dP_j x_ij
 //! ```
 //!
-//! and, for the residual, `w_i = a_i . x_i - e / h^2 dP_i`. Equal and opposite for the two particles of a pair, after any number of rounds.
+//! and, for the residual, `w_i = a_i . x_i - b e / h^2 dP_i`. Equal and opposite for the two particles of a pair, after any number of rounds.
 
 use crate::{
     columns::{Column::*, Columns, Fluid},
@@ -47,7 +47,7 @@ fn chunk<S: Simd>(
     pairs: &[[f32; LANES]],
     correction: &mut [[f32; 4]],
 ) {
-    let roughness = params.fluid.roughness / (params.step * params.step);
+    let roughness = params.fluid.prompt_roughness(params.step) / (params.step * params.step);
     let origin = vector::splat(simd, params.origin().to_array());
     for row in (0..correction.len()).step_by(LANES) {
         let [x, y, z, change] = lanes::load_rows(simd, predicted, first + row);

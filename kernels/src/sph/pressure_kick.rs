@@ -32,7 +32,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         for (((position, velocity), a), pressure) in rows {
             (0..3).for_each(|axis| velocity[axis] += params.step * a[axis]);
             position[3] = pressure[0] / density;
-            velocity[3] = params.fluid.particle_mass / density;
         }
     });
 }

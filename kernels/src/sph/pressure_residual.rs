@@ -1,7 +1,7 @@
 //! One round of a pressure solve: the compression that is left, and how far to go in the next round.
 //!
 //! ```text
-//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + e sum_j c_ij (dP_j - dP_i)
+//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + b e sum_j c_ij (dP_j - dP_i)
 //! ```
 //!
 //! The length of the next step is that of Barzilai and Borwein \[BB88\] in the norm of the diagonal, see
@@ -66,7 +66,7 @@ fn chunk<S: Simd>(
 ) {
     let origin = vector::splat(simd, params.origin().to_array());
     let square = params.step * params.step;
-    let roughness = params.fluid.roughness / square;
+    let roughness = params.fluid.prompt_roughness(params.step) / square;
     for row in (0..left.len()).step_by(LANES) {
         let [x, y, z, change] = lanes::load_rows(simd, predicted, first + row);
         let point = minus([x, y, z], origin);

@@ -29,6 +29,7 @@ fn free() -> Scene {
 /// A step of the sponge alone.
 fn step(scene: &mut Scene, sweeps: usize) {
     let mut names = vec!["pbd::gravity", "pbd::predict", "pbd::guess"];
+    scene.params.sponges.iter_mut().for_each(|sponge| sponge.iterations = sweeps as u32);
     names.extend(vec!["pbd::vbd"; sweeps]);
     names.extend(["pbd::reaction", "pbd::momentum", "pbd::velocity"]);
     scene.run(&best(), &names);

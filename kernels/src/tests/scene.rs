@@ -234,7 +234,9 @@ impl Scene {
             let mut jittered = |site: usize| (site as f32 + 0.5 + 0.2 * (random.unit() - 0.5)) * spacing;
             fluid.position.push([jittered(site[0]), jittered(site[1]), jittered(site[2]), 0.0]);
             let mut speed = || random.unit() - 0.5;
-            fluid.velocity.push([speed(), speed(), speed(), 0.0]);
+            // The fourth is what compression is allowed, where pressure is solved for.
+            let [x, y, z] = [speed(), speed(), speed()];
+            fluid.velocity.push([x, y, z, 1.0e-3 * x]);
             // Unique, and in another order than the rows.
             fluid.id.push((count - index) as u32 * 2);
         }
@@ -336,7 +338,8 @@ fn params(options: Options) -> Params {
             central_viscosity: 0.3,
             roughness: if options.incompressible { 5.0e-7 } else { 0.0 },
             wall_viscosity: 5.0,
-            surface_tension: 0.07,
+            // The colour field knows volumes that change.
+            surface_tension: if options.incompressible { 0.0 } else { 0.07 },
             cohesion: options.cohesion.then(|| cohesion(radius, spacing)),
             repulsion_range: spacing,
             repulsion_stiffness: 1.0e5,
