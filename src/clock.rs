@@ -145,7 +145,8 @@ impl Steps {
             for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
                 if params.solid.is_some() {
                     // Water enters at this speed; nodes bear the suction together with what they hold.
-                    let pressure = sponge.entry_pressure * (1.0 + sponge.saturation_gain);
+                    let pressure = sponge.entry_pressure + sponge.wetting.receding;
+                    let pressure = pressure * (1.0 + sponge.saturation_gain);
                     let speed = (2.0 * pressure / fluid.rest_density).sqrt();
                     bounds.push((SUCTION_COURANT * fluid.spacing / speed, Bound::Suction));
                     continue;

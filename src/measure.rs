@@ -1,7 +1,10 @@
 //! Measures of a state: what conservation, validation and tables need, in f64.
 
 use glam::DVec3;
-use sorb_kernels::params::{Solver, SpongeParams};
+use sorb_kernels::{
+    params::{Solver, SpongeParams},
+    pbd::wetted::of_tet,
+};
 
 use crate::{World, rigid::Mechanics};
 
@@ -18,7 +21,7 @@ pub struct Measures {
     /// Mass of the water inside sponges \[kg\].
     pub absorbed_mass: f64,
     /// Pore volume filled with water over pore volume at rest \[1\]: the mean over the nodes; as porous media the mass of the water
-    /// inside over what fits in.
+    /// inside over what fits in. A sponge that swells has more room for it.
     pub saturation: f64,
     /// Height of the highest node that is more than half saturated above the lowest node \[m\].
     pub wicking_height: f64,
@@ -113,7 +116,9 @@ impl Measures {
             let position = vector(position);
             self.add_point(node_mass, position, vector(&world.node_velocities()[node]), gravity);
             self.sponge_centre += position * node_mass;
-            pores += node_volume * f64::from(sponge.porosity);
+            let wetness = world.columns().nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[0]));
+            let swollen = (1.0 + f64::from(sponge.swelling) * wetness).powi(3);
+            pores += node_volume * (swollen - 1.0 + f64::from(sponge.porosity));
             mass += node_mass;
             lowest = lowest.min(position.y);
             if let Some(saturation) = world.node_saturations().get(node) {
@@ -143,13 +148,14 @@ impl Measures {
         let nodes = world.node_positions();
         for (tet, sponge) in world.lattice().tets.iter().zip(&world.lattice().tet_sponge) {
             let sponge = &world.params().sponges[*sponge as usize];
-            let edge = f64::from(sponge.edge);
+            let (size, stiffness) = of_tet(world.columns(), sponge, tet);
+            let edge = f64::from(sponge.edge) * size;
             let [p0, p1, p2, p3] = tet.map(|node| vector(&nodes[node as usize]));
             let (d, e, f) = ((p1 - p0) / edge, (p2 - p3) / edge, (p2 + p3 - p0 - p1) / edge);
             let ratio = d.dot(e.cross(f));
             let rest = edge.powi(3) / 12.0;
             self.sponge_volume += rest * ratio;
-            self.elastic_energy += rest * energy_density(sponge, [d, e, f], ratio);
+            self.elastic_energy += rest * stiffness * energy_density(sponge, [d, e, f], ratio);
         }
     }
 }

@@ -150,6 +150,10 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
             [x, y, z, 0.0]
         })
         .collect();
+    if params.solid.is_some() && params.has_wetting() {
+        // Dry, and no water has receded yet.
+        nodes.wetting = vec![[0.0; 4]; rows];
+    }
     nodes.grip = vec![u32::MAX; rows];
     nodes.grip_offset = vec![[0.0; 4]; rows];
     for node in 0..count {

@@ -146,6 +146,7 @@ const WET: Content = Content {
     no_slip: false,
     iterations: 0,
     porous: false,
+    wetting: false,
     rounds: 0,
 };
 
@@ -201,6 +202,7 @@ fn the_step_itself_is_consistent_for_every_content() {
             no_slip,
             iterations,
             porous,
+            wetting: bodies,
             rounds,
         };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {

@@ -242,6 +242,10 @@ columns! {
         NodePores = pores: Vec<[f32; 4]>, "1/s", Scratch;
         /// Pore volume filled with fluid, over pore volume.
         NodeSaturation = saturation: Vec<f32>, "1", Scratch;
+        /// How wet the material of the node is, 0 to 1; its saturation in this step, at most 1; share of the receding
+        /// capillary pressure in its suction; w: how easily water moves through partly filled pores. Empty where no property
+        /// of a sponge depends on them, see `couple::wetting`.
+        NodeWetting = wetting: Vec<[f32; 4]>, "1", State;
         /// Impulse of the drag of the fluid in this step; w: mass of the fluid that the node takes along \[kg\].
         NodeDrag = drag: Vec<[f32; 4]>, "N s", Scratch;
         /// Moment of that impulse about the node: it acts where the particles are; w: unused.

@@ -36,6 +36,8 @@ pub enum Need {
     Incompressible,
     /// Sponges as porous media: their material displaces fluid.
     Porous,
+    /// A sponge with properties that depend on how wet it is.
+    Wetting,
 }
 
 impl Need {
@@ -57,6 +59,7 @@ impl Need {
             Self::EquationOfState => "pressure is solved for",
             Self::Incompressible => "pressure by an equation of state",
             Self::Porous => "coupling of the paper",
+            Self::Wetting => "no sponge depends on how wet it is",
         }
     }
 }
@@ -113,6 +116,7 @@ pub static KERNELS: &[&Kernel] = &[
     &pbd::velocity::KERNEL,
     &couple::controls::KERNEL,
     &couple::saturation::KERNEL,
+    &couple::wetting::KERNEL,
     &couple::pores::KERNEL,
     &couple::interior::KERNEL,
     &couple::suction::KERNEL,

@@ -28,6 +28,12 @@ pub struct Params {
 }
 
 impl Params {
+    /// Whether a property of any sponge depends on how wet it is.
+    #[must_use]
+    pub fn has_wetting(&self) -> bool {
+        self.sponges.iter().any(|sponge| sponge.wetting.is_any())
+    }
+
     /// How a sponge is solved; none for what is no sponge, as in padding rows.
     #[must_use]
     pub(crate) fn solver(&self, sponge: u32) -> Option<Solver> {
@@ -187,6 +193,55 @@ pub struct SpongeParams {
     pub saturation_gain: f32,
     /// Stiffness of the zero-distance constraint over that of the exact reaction \[1\].
     pub reaction: f32,
+    /// What properties do as the material becomes wet.
+    pub wetting: WettingParams,
+}
+
+/// What properties of a sponge do as it becomes wet; the default is nothing at all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WettingParams {
+    /// Share of `mu` and `lambda` that wet material lacks \[1\].
+    pub softening: f32,
+    /// Elongation of wet material at rest \[1\].
+    pub swelling: f32,
+    /// Time in which material becomes as wet as its pores are filled \[s\].
+    pub time: f32,
+    /// Exponent n of the relative permeability `S^n` \[1\].
+    pub exponent: u32,
+    /// Further suction of a node whose saturation falls \[Pa\].
+    pub receding: f32,
+}
+
+impl Default for WettingParams {
+    fn default() -> Self {
+        Self { softening: 0.0, swelling: 0.0, time: 0.0, exponent: 1, receding: 0.0 }
+    }
+}
+
+impl WettingParams {
+    /// Whether any property depends on it.
+    #[must_use]
+    pub fn is_any(&self) -> bool {
+        self.changes_material() || self.exponent > 1 || self.receding > 0.0
+    }
+
+    /// Whether wet material is softer or larger than dry material.
+    #[must_use]
+    pub fn changes_material(&self) -> bool {
+        self.softening > 0.0 || self.swelling > 0.0
+    }
+
+    /// Length of wet material at rest over that of dry material.
+    #[must_use]
+    pub fn size(&self, wetness: f32) -> f32 {
+        1.0 + self.swelling * wetness
+    }
+
+    /// Stiffness of wet material over that of dry material.
+    #[must_use]
+    pub fn stiffness(&self, wetness: f32) -> f32 {
+        1.0 - self.softening * wetness
+    }
 }
 
 impl SpongeParams {

@@ -66,15 +66,24 @@ fn columns_of(x: vec3<f32>, u: vec3<f32>, q: vec3<f32>, r: vec3<f32>) -> mat3x3<
     return mat3x3<f32>(u - x, q - r, (q + r) - (x + u));
 }
 
+fn wetness_of(row: u32) -> f32 {
+    return bitcast<f32>(stars[row * STAR + WETNESS]);
+}
+
 // Elastic and damping force on a node at `x`, and its stiffness.
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
     let base = row * STAR;
     let tets = stars[base + TETS];
-    let inverse_edge = 1.0 / sponge.edge;
-    let shear = sponge.edge * sponge.mu / 12.0;
-    let volume = sponge.edge * sponge.lambda / 12.0;
-    let lame = volume - shear;
-    let rate = sponge.damping / step;
+    let dry_shear = sponge.edge * sponge.mu / 12.0;
+    let dry_volume = sponge.edge * sponge.lambda / 12.0;
+    let dry_rate = sponge.damping / step;
+    let becomes_wet = sponge.softening > 0.0 || sponge.swelling > 0.0;
+    // Of a tet, which is as wet as its nodes on average; `wetted.rs` has the formulas.
+    var edge = sponge.edge;
+    var inverse_edge = 1.0 / edge;
+    var shear = dry_shear;
+    var volume = dry_volume;
+    var rate = dry_rate;
     var rings = RINGS;
     var pull = vec3<f32>(0.0);
     var count = 0.0;
@@ -94,13 +103,25 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             let q_row = stars[base + ring[(k + 1u) % 4u]];
             let r = predicted[r_row].xyz;
             let q = predicted[q_row].xyz;
-            pull += (q - x) + (r - x);
-            count += 2.0;
+            if (becomes_wet) {
+                let all = wetness_of(row) + wetness_of(partner) + (wetness_of(q_row) + wetness_of(r_row));
+                let size = 1.0 + sponge.swelling * (0.25 * all);
+                let softer = 1.0 - sponge.softening * (0.25 * all);
+                edge = sponge.edge * size;
+                inverse_edge = 1.0 / edge;
+                shear = dry_shear * (size * softer);
+                volume = dry_volume * (size * softer);
+                rate = dry_rate * (softer / size);
+            }
+            let lame = volume - shear;
+            pull += ((q - x) + (r - x)) * shear;
+            count += 2.0 * shear;
             let area = cross(q - u, r - u) * (2.0 * inverse_edge * inverse_edge);
             let ratio = dot(u - x, area) * inverse_edge;
             strain = max(strain, abs(ratio - 1.0));
             let inverse = 1.0 / max(ratio, SOLID);
-            pressure += area * (lame * (ratio - 1.0) - shear * inverse * (2.0 - ratio * inverse));
+            let slope = lame * (ratio - 1.0) - shear * inverse * (2.0 - ratio * inverse);
+            pressure += area * (slope * edge);
             stiffness += outer(area * (lame + shear * inverse * inverse), area);
             if (rate > 0.0) {
                 let f = columns_of(x, u, q, r);
@@ -111,8 +132,8 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             }
         }
     }
-    let force = pull * shear + pressure * sponge.edge + damping.force;
-    return Local(force, stiffness + diagonal(count * shear) + damping.stiffness, strain);
+    let force = pull + pressure + damping.force;
+    return Local(force, stiffness + diagonal(count) + damping.stiffness, strain);
 }
 
 // Where the energy is least without obstacles.

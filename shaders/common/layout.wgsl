@@ -71,7 +71,8 @@ struct Params {
     wall_viscosity: f32,
     // 1 where the fluid does not slide along the walls of the container.
     no_slip: u32,
-    unused: u32,
+    // 1 where a property of a sponge depends on how wet it is.
+    has_wetting: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.

@@ -19,8 +19,13 @@ struct Sponge {
     inertial_drag: f32,
     // 1 where porosity and permeability fall as the sponge is compressed.
     pores_close: u32,
-    unused_0: u32,
-    unused_1: u32,
+    // What the sponge does as it becomes wet, as `WettingParams`.
+    exponent: u32,
+    softening: f32,
+    swelling: f32,
+    wetting_time: f32,
+    receding: f32,
+    unused: u32,
 }
 
 // Solvers.

@@ -1,10 +1,11 @@
 // The star of a node; `stars.rs` says what lies where. Used with the binding `stars`.
 
-// Words of a star: 8 corners, 6 directions, tets, sponge.
-const STAR: u32 = 16u;
+// Words of a star: 8 corners, 6 directions, tets, sponge, bits of the wetness.
+const STAR: u32 = 17u;
 const DIRECTION: u32 = 8u;
 const TETS: u32 = 14u;
 const SPONGE: u32 = 15u;
+const WETNESS: u32 = 16u;
 
 const RINGS = array<vec4<u32>, 6>(
     vec4<u32>(6u, 4u, 0u, 2u),

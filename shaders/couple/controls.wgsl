@@ -8,6 +8,9 @@
 @group(0) @binding(5) var<storage, read> node_volume: array<f32>;
 @group(0) @binding(6) var<storage, read_write> control_position: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_node: array<u32>;
+@group(0) @binding(8) var<uniform> sponges: Sponges;
+@group(0) @binding(9) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(10) var<storage, read> node_wetting: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -30,6 +33,12 @@ fn main(
             row += 1u;
         }
     }
-    control_position[row] = vec4<f32>(point, node_volume[node]);
+    let swelling = sponges.all[node_sponge[node]].swelling;
+    var volume = node_volume[node];
+    if (swelling > 0.0) {
+        let size = 1.0 + swelling * node_wetting[node].x;
+        volume *= size * size * size;
+    }
+    control_position[row] = vec4<f32>(point, volume);
     control_node[row] = node;
 }

@@ -8,7 +8,7 @@
 @group(0) @binding(5) var<storage, read> node_acceleration: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> node_sponge: array<u32>;
 @group(0) @binding(7) var<storage, read> control_node: array<u32>;
-@group(0) @binding(8) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> node_volume: array<f32>;
 @group(0) @binding(9) var<storage, read_write> control_solid: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
@@ -30,5 +30,5 @@ fn main(
     }
     let end = x.xyz + clock.step * (v.xyz + (clock.step * share) * node_acceleration[node].xyz);
     let solid = 1.0 - sponges.all[node_sponge[node]].porosity;
-    control_solid[row] = vec4<f32>(end, solid * control_position[row].w);
+    control_solid[row] = vec4<f32>(end, solid * node_volume[node]);
 }

@@ -11,6 +11,7 @@
 @group(0) @binding(6) var<storage, read> list: array<u32>;
 @group(0) @binding(7) var<storage, read_write> interior: array<f32>;
 @group(0) @binding(8) var<storage, read_write> drag_rate: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read> node_wetting: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -28,6 +29,7 @@ fn main(
     var slot = row;
     var sum = 0.0;
     var rate = vec2<f32>(0.0);
+    var mobile = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = list[slot];
@@ -35,7 +37,15 @@ fn main(
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight;
-        rate += weight * node_pores[control_node[other]].yz;
+        let node = control_node[other];
+        rate += weight * node_pores[node].yz;
+        if (params.has_wetting != 0u) {
+            mobile += weight * node_wetting[node].w;
+        }
+    }
+    if (mobile > 0.0) {
+        let slower = sum / mobile;
+        rate *= vec2<f32>(slower, sqrt(slower));
     }
     interior[row] = sum;
     drag_rate[row] = vec4<f32>(rate, 0.0, 0.0);

@@ -57,4 +57,9 @@ fn main(
         sponge.inertial_drag * (opening * opening) / sqrt(permeability) * ratio,
         porosity,
     );
+    if (sponge.swelling > 0.0) {
+        let size = 1.0 + sponge.swelling * bitcast<f32>(stars[base + WETNESS]);
+        let swollen = size * size * size;
+        pores[row] = vec4<f32>(pores[row].xyz / swollen, porosity);
+    }
 }

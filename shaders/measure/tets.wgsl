@@ -6,6 +6,7 @@
 @group(0) @binding(3) var<storage, read> tet_sponge: array<u32>;
 @group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_wetting: array<vec4<f32>>;
 
 // Volume over that at rest below which the logarithm of `descent.rs` goes on as a polynomial.
 const SOLID: f32 = 0.2;
@@ -19,8 +20,17 @@ fn main(
     let row = row_of(group, groups, lane);
     var own = no_sums();
     if (row < params.tet_rows) {
-        let sponge = sponges.all[tet_sponge[row]];
+        var sponge = sponges.all[tet_sponge[row]];
         let tet = tets[row];
+        if (sponge.softening > 0.0 || sponge.swelling > 0.0) {
+            // As `wetted.rs` has it.
+            let two = vec2<f32>(node_wetting[tet.x].x, node_wetting[tet.y].x);
+            let others = vec2<f32>(node_wetting[tet.z].x, node_wetting[tet.w].x);
+            let wetness = 0.25 * dot(two + others, vec2<f32>(1.0));
+            sponge.edge *= 1.0 + sponge.swelling * wetness;
+            sponge.mu *= 1.0 - sponge.softening * wetness;
+            sponge.lambda *= 1.0 - sponge.softening * wetness;
+        }
         let p0 = position[tet.x].xyz;
         let p1 = position[tet.y].xyz;
         let p2 = position[tet.z].xyz;

@@ -32,7 +32,7 @@ pub static SHADERS: &[Shader] = shaders! {
     clock::rounds: ;
     couple::begin_drag: ;
     couple::control_velocity: smoothing drag control_group;
-    couple::controls: grid;
+    couple::controls: sponges grid;
     couple::drag: smoothing drag;
     couple::drag_impulse: smoothing drag;
     couple::drag_reaction: smoothing control_group;
@@ -51,6 +51,7 @@ pub static SHADERS: &[Shader] = shaders! {
     couple::solid_share: smoothing;
     couple::suction: smoothing;
     couple::velocity_filter: smoothing control_group received;
+    couple::wetting: sponges star;
     couple::zero_distance: smoothing sponges control_group;
     grid::count: grid;
     grid::fluid_neighbors: grid smoothing;

@@ -149,6 +149,11 @@ pub(super) const SPONGE: &[Row<Sponge>] = fields! { Sponge, "sponges[].";
     iterations: 1.0 to 64.0, "1";
     friction: 0.0 to 10.0, "1";
     saturation: 0.0 to 1.0, "1";
+    softening: 0.0 to 0.95, "1";
+    swelling: 0.0 to 0.5, "1";
+    wetting_time: 0.0 to 1000.0, "s";
+    relative_permeability_exponent: 1.0 to 8.0, "1";
+    receding_pressure: 0.0 to 1e5, "Pa";
 };
 
 pub(super) const BODY: &[Row<Body>] = fields! { Body, "bodies[].";

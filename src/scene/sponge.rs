@@ -151,6 +151,28 @@ pub struct Sponge {
     pub friction: f32,
     /// Share of the pores filled with water at time zero. Range 0 to 1; default 0.
     pub saturation: f32,
+    /// Share of its stiffness that wet material lacks: Young's modulus is `young_modulus * (1 - softening * wetness)`. Range 0 to
+    /// 0.95; default 0. Cellulose loses 0.5 to 0.9. With `fluid.coupling = "porous"`, like the next four.
+    pub softening: f32,
+    /// How much longer wet material is at rest: an edge of the lattice is `edge * (1 + swelling * wetness)`. Range 0 to 0.5;
+    /// default 0. Cellulose has 0.1 to 0.3. The mass of the material stays and so does its volume without pores: pores become
+    /// wider.
+    pub swelling: f32,
+    /// Time in which material becomes as wet as its pores are filled. Range 0 to 1000 s; default 0.1.
+    ///
+    /// At time zero all material is dry. Much below 0.05 `swelling` shakes the sponge as single particles come and go.
+    pub wetting_time: f32,
+    /// Exponent n of the relative permeability `k_r = S^n` of pores of which water fills the part S: the flow is `permeability * k_r`
+    /// over the viscosity for every gradient of the pressure. Range 1 to 8; default 1, at which water is as fast in a few pores as in
+    /// all of them. Brooks and Corey have `3 + 2 / l` for a distribution of pores of index l, 3 to 4 in foams.
+    pub relative_permeability_exponent: u32,
+    /// Capillary pressure against which water leaves pores, in place of `entry_pressure` at which it enters them: a sponge that is lifted
+    /// out of water holds a column of about this over (density * gravity). Range 0 to 100000 Pa, and not below
+    /// `entry_pressure`; default 0, which stands for `entry_pressure`.
+    ///
+    /// Both are counted positive where they hold water. Between them a node goes from one to the other while its saturation changes by a
+    /// tenth.
+    pub receding_pressure: f32,
 }
 
 impl Default for Sponge {
@@ -181,6 +203,11 @@ impl Default for Sponge {
             iterations: 4,
             friction: 0.5,
             saturation: 0.0,
+            softening: 0.0,
+            swelling: 0.0,
+            wetting_time: 0.1,
+            relative_permeability_exponent: 1,
+            receding_pressure: 0.0,
         }
     }
 }
@@ -196,6 +223,16 @@ impl Sponge {
     #[must_use]
     pub fn size(&self) -> Vec3 {
         self.edge * self.cells.as_vec3()
+    }
+
+    /// Whether a property depends on how wet the sponge is.
+    #[must_use]
+    pub fn depends_on_wetness(&self) -> bool {
+        let [softening, swelling] = [self.softening, self.swelling];
+        softening > 0.0
+            || swelling > 0.0
+            || self.relative_permeability_exponent > 1
+            || self.receding_pressure > self.entry_pressure
     }
 
     /// Highest corner of the lattice block \[m\].

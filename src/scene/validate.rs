@@ -7,8 +7,8 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Coupling, Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Sponge, SpongeShape,
-    VERSION,
+    Coupling, Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Solver, Sponge,
+    SpongeShape, VERSION,
 };
 
 /// Range of `edge / spacing`: outside it either water slips between the nodes or nodes find no water.
@@ -205,6 +205,7 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
             }
             None => {}
         }
+        wetting(sponge, &table, scene, problems);
         for (other_index, other) in scene.sponges.iter().enumerate().take(index) {
             let whole = sponge.shape == SpongeShape::Block && other.shape == SpongeShape::Block;
             let (a, b) = ((sponge.position, sponge.maximum()), (other.position, other.maximum()));
@@ -212,6 +213,35 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
                 let rule = format!("overlaps `sponges[{other_index}]`");
                 problems.push(Problem::rule(format!("{table}.position"), vector_text(sponge.position), rule));
             }
+        }
+    }
+}
+
+/// What depends on how wet a sponge is.
+fn wetting(sponge: &Sponge, table: &str, scene: &Scene, problems: &mut Vec<Problem>) {
+    let (receding, entry) = (sponge.receding_pressure, sponge.entry_pressure);
+    if receding > 0.0 && receding < entry {
+        let rule = format!("must be 0 or not below `{table}.entry_pressure` = {}", number_text(entry));
+        problems.push(Problem::rule(format!("{table}.receding_pressure"), number_text(receding), rule));
+    }
+    let is_modelled = match scene.fluid {
+        Some(_) => scene.coupling() == Coupling::Porous,
+        // Nothing becomes wet, but what could not if there were water is a mistake.
+        None => sponge.solver == Solver::Vbd,
+    };
+    if sponge.depends_on_wetness() && !is_modelled {
+        let exponent = sponge.relative_permeability_exponent as f32;
+        let asked = [
+            ("softening", sponge.softening, 0.0),
+            ("swelling", sponge.swelling, 0.0),
+            ("relative_permeability_exponent", exponent, 1.0),
+            ("receding_pressure", receding, entry),
+        ];
+        for (key, value, off) in asked.into_iter().filter(|(_, value, off)| value > off) {
+            let rule = "needs `fluid.coupling` = \"porous\" and `solver` = \"vbd\"";
+            let off = number_text(off);
+            let rule = format!("{rule}; {off} is without it");
+            problems.push(Problem::rule(format!("{table}.{key}"), number_text(value), rule));
         }
     }
 }

@@ -36,6 +36,8 @@ pub struct Content {
     pub iterations: u32,
     /// Sponges as porous media.
     pub porous: bool,
+    /// Sponges with properties that depend on how wet they are.
+    pub wetting: bool,
     /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
     pub rounds: u32,
 }

@@ -132,6 +132,7 @@ pub static POROUS_STEP: &[Phase] = &[
     Run(&sph::density::KERNEL),
     Run(&couple::controls::KERNEL),
     Run(&couple::saturation::KERNEL),
+    Run(&couple::wetting::KERNEL),
     Run(&couple::pores::KERNEL),
     Run(&couple::interior::KERNEL),
     Run(&pbd::gravity::KERNEL),
@@ -213,5 +214,6 @@ pub(super) fn is_met(need: Need, content: super::Content) -> bool {
         Need::EquationOfState => content.rounds == 0,
         Need::Incompressible => content.rounds > 0,
         Need::Porous => content.porous,
+        Need::Wetting => content.wetting,
     }
 }

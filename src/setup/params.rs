@@ -2,7 +2,9 @@
 
 use sorb_kernels::{
     grid::cells::Domain,
-    params::{Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
+    params::{
+        Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams, WettingParams,
+    },
     smoothing::Wendland,
     sph::{boundary::boundary_profile, deficit::cohesion_stiffness, factors::lattice_diagonal},
 };
@@ -16,7 +18,8 @@ pub(super) fn params(scene: &Scene) -> Params {
         }
         scene::Domain::Open => (Domain::Unbounded, None),
     };
-    let radius = scene.sponges.iter().map(|sponge| sponge.suction_radius * sponge.edge).fold(0.0, f32::max);
+    let reach = |sponge: &scene::Sponge| sponge.suction_radius * swollen_edge(sponge);
+    let radius = scene.sponges.iter().map(reach).fold(0.0, f32::max);
     Params {
         step: scene.time.maximum_step,
         gravity: scene.gravity,
@@ -34,8 +37,13 @@ pub(super) fn params(scene: &Scene) -> Params {
 /// body (between them its share is 0.96 to 1.17 of the mean). A smaller one makes wells, a larger one blurs the faces.
 const SOLID_RADIUS: f32 = 1.2;
 
+/// Largest edge that cells of a sponge have at rest: what blends nodes into one body must reach as far.
+fn swollen_edge(sponge: &scene::Sponge) -> f32 {
+    sponge.edge * (1.0 + sponge.swelling)
+}
+
 fn solid(scene: &Scene) -> Option<Wendland> {
-    let edge = scene.sponges.iter().map(|sponge| sponge.edge).fold(0.0, f32::max);
+    let edge = scene.sponges.iter().map(swollen_edge).fold(0.0, f32::max);
     let is_porous = edge > 0.0 && scene.coupling() == scene::Coupling::Porous;
     is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }
@@ -170,5 +178,12 @@ fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
         entry_pressure: sponge.entry_pressure,
         saturation_gain: sponge.saturation_gain,
         reaction: sponge.reaction,
+        wetting: WettingParams {
+            softening: sponge.softening,
+            swelling: sponge.swelling,
+            time: sponge.wetting_time,
+            exponent: sponge.relative_permeability_exponent,
+            receding: (sponge.receding_pressure - sponge.entry_pressure).max(0.0),
+        },
     }
 }

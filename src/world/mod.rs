@@ -150,6 +150,7 @@ impl World {
             no_slip: params.fluid.wall_viscosity > 0.0
                 && (params.no_slip || columns.bodies.states.0.iter().any(|body| body.no_slip)),
             porous: params.solid.is_some(),
+            wetting: params.has_wetting(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };

@@ -66,6 +66,10 @@ caught! {
     consolidation
     momentum
     squeeze
+    swelling
+    softening
+    drainage
+    receding
     rest
 }
 

@@ -1,4 +1,4 @@
-//! Nodes as control particles: sorted by cell, and who is near whom.
+//! Nodes as control particles: sorted by cell, and who is near whom. A node of a swollen sponge stands for more volume.
 
 use crate::{
     columns::{Column::*, Columns, FAR_ROW, padded},
@@ -12,7 +12,7 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::controls",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidCells, NodePosition, NodeVolume],
+    reads: &[FluidPosition, FluidCells, NodePosition, NodeVolume, NodeSponge, NodeWetting],
     writes: &[ControlNode, ControlCells, ControlPosition, FluidControls, ControlFluid],
     cpu,
 };
@@ -28,6 +28,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     permute(cpu, &controls.node, &nodes.position, &mut controls.position);
     for (row, node) in controls.node.iter().enumerate() {
         controls.position[row][3] = nodes.volume[*node as usize];
+    }
+    if !nodes.wetting.is_empty() {
+        for (row, node) in controls.node.iter().enumerate() {
+            let node = *node as usize;
+            let wetting = &params.sponges[nodes.sponge[node] as usize].wetting;
+            let size = wetting.size(nodes.wetting[node][0]);
+            controls.position[row][3] *= size * size * size;
+        }
     }
     let (particles, controls_rows) = ((&fluid.position[..], particles), (&controls.position[..], count));
     fluid.controls.build(cpu, particles, controls_rows, &controls.cells, radius);

@@ -4,14 +4,17 @@
 //! chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //! ```
 //!
-//! chi is 1 deep inside and 0 outside; beta and gamma are those of `couple::pores`.
+//! chi is 1 deep inside and 0 outside; beta and gamma are those of `couple::pores`. Where pores are partly filled, water moves as
+//! in a medium whose permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i` (`couple::wetting`): `beta_i / m_i` and
+//! `gamma_i / sqrt(m_i)`. The mean is that of what conducts side by side, so that dry pores ahead of a front do not hold the
+//! water behind it.
 
 use crate::{
     columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
     cpu::Cpu,
     grid::{cells::Cells, neighbors::Neighbors, sort::permute},
     kernel::{Kernel, Need},
-    lanes::{self, LANES, with_lanes},
+    lanes::{self, LANES, prelude::*, select, with_lanes},
     params::Params,
     smoothing::Wendland,
 };
@@ -20,7 +23,7 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::interior",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodePores],
+    reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodePores, NodeWetting],
     writes: &[FluidControlWeights, FluidInterior, FluidDragRate],
     cpu,
 };
@@ -33,6 +36,12 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
         *pores = columns.nodes.pores[*node as usize];
     }
+    let has_wetting = !columns.nodes.wetting.is_empty();
+    if has_wetting {
+        for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
+            pores[3] = columns.nodes.wetting[*node as usize][3];
+        }
+    }
     interior.resize(position.len(), 0.0);
     drag_rate.resize(position.len(), [0.0; 4]);
     let rows = (&mut interior[..], &mut drag_rate[..], control_weights.match_lists(lists));
@@ -43,7 +52,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             for row in (0..interior.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let zero = lanes::splat(simd, 0.0);
-                let (mut sum, mut linear, mut inertial) = (zero, zero, zero);
+                let (mut sum, mut linear, mut inertial, mut mobile) = (zero, zero, zero, zero);
                 for (entry, stored) in lists.group(row).iter().zip(&mut weights[lists.range(row)]) {
                     let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
                     let (dx, dy, dz) = (x - xa, y - ya, z - za);
@@ -51,9 +60,19 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     let weight = volume * kernel.value_scale() * shape;
                     lanes::store(stored, 0, weight);
                     sum += weight;
-                    let [_, rate, per_speed, _] = lanes::gather_rows(simd, &pores, entry);
+                    let [_, rate, per_speed, mobility] = lanes::gather_rows(simd, &pores, entry);
                     linear += weight * rate;
                     inertial += weight * per_speed;
+                    if has_wetting {
+                        mobile += weight * mobility;
+                    }
+                }
+                if has_wetting {
+                    let one = lanes::splat(simd, 1.0);
+                    let is_inside = sum.simd_gt(zero);
+                    let slower = select(is_inside, sum, one) / select(is_inside, mobile, one);
+                    linear *= slower;
+                    inertial *= slower.sqrt();
                 }
                 lanes::store(interior, row, sum);
                 lanes::store_rows(drag_rate, row, [linear, inertial, zero, zero]);

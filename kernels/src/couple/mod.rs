@@ -19,4 +19,5 @@ pub mod suction;
 pub mod velocity_filter;
 #[cfg(feature = "gpu")]
 pub mod weights;
+pub mod wetting;
 pub mod zero_distance;

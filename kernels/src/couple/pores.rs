@@ -9,7 +9,8 @@
 //!
 //! Water that moves through the pores with the velocity w beside the material is slowed at the rate `beta + gamma |w|`, by
 //! Darcy's law and Forchheimer's addition to it. Both are kept times J, so that their sums over nodes near a particle, with
-//! the volumes of the nodes at rest, are sums over the volume as it is now.
+//! the volumes of the nodes at rest, are sums over the volume as it is now. At rest a swollen node has a larger volume (`couple::controls`):
+//! what is kept is over that, while the porosity is that of the volume as it is, of which the dry material takes the same part.
 
 use crate::{
     columns::{Column::*, Columns, Nodes},
@@ -25,7 +26,7 @@ use crate::{
 pub static KERNEL: Kernel = Kernel {
     name: "couple::pores",
     needs: &[Need::Fluid, Need::Sponge],
-    reads: &[NodePosition, NodeStars, NodeSponge],
+    reads: &[NodePosition, NodeStars, NodeSponge, NodeWetting],
     writes: &[NodePores],
     cpu,
 };
@@ -37,7 +38,7 @@ pub(crate) const LEAST_POROSITY: f32 = 0.15;
 pub(crate) const LARGEST: f32 = 10.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, sponge, stars, pores, .. } = &mut columns.nodes;
+    let Nodes { position, sponge, stars, pores, wetting, .. } = &mut columns.nodes;
     pores.clear();
     pores.resize(position.len(), [0.0; 4]);
     for color in 0..4 {
@@ -49,8 +50,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     let places = (&position[..], lanes::load_array(simd, &edges));
                     let [volume, count] = volumes(simd, group, &stars.shape, places);
                     for (lane, pores) in pores.iter_mut().enumerate() {
-                        let sponge = &params.sponges[sponge[group.own[lane] as usize] as usize];
+                        let node = group.own[lane] as usize;
+                        let sponge = &params.sponges[sponge[node] as usize];
                         *pores = of_node(sponge, volume[lane], count[lane]);
+                        if let Some([wetness, ..]) = wetting.get(node) {
+                            let size = sponge.wetting.size(*wetness);
+                            let swollen = size * size * size;
+                            (0..3).for_each(|k| pores[k] /= swollen);
+                        }
                     }
                 }
             });

@@ -37,6 +37,7 @@ pub static KERNEL: Kernel = Kernel {
         NodeVelocity,
         NodeAcceleration,
         NodeSponge,
+        NodeVolume,
     ],
     writes: &[FluidAcceleration, ControlSolid],
     cpu,
@@ -79,14 +80,14 @@ fn expect(params: &Params, columns: &mut Columns) {
     let step = params.step;
     controls.solid.clear();
     controls.solid.resize(padded(controls.node.len()), [0.0; 4]);
-    let rows = controls.solid.iter_mut().zip(&controls.node).zip(&controls.position);
-    for ((solid, node), place) in rows {
+    for (solid, node) in controls.solid.iter_mut().zip(&controls.node) {
         let node = *node as usize;
         let (x, v, a) = (nodes.position[node], nodes.velocity[node], nodes.acceleration[node]);
         let share = if x[3] > 0.0 { v[3] } else { 0.0 };
         for axis in 0..3 {
             solid[axis] = x[axis] + step * (v[axis] + step * share * a[axis]);
         }
-        solid[3] = (1.0 - params.sponges[nodes.sponge[node] as usize].porosity) * place[3];
+        // Of the dry node: swelling makes wider pores, not more material.
+        solid[3] = (1.0 - params.sponges[nodes.sponge[node] as usize].porosity) * nodes.volume[node];
     }
 }

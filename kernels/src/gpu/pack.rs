@@ -4,7 +4,7 @@ use glam::{Mat3, Vec3};
 
 use crate::{
     body::{Body, Shape},
-    columns::RowCounts,
+    columns::{Nodes, RowCounts},
     grid::cells::Domain,
     params::{Cohesion, EquationOfState, Params, Solver, SpongeParams},
     pbd::{
@@ -21,7 +21,7 @@ pub(super) const BATCH_STRIDE: u64 = 256;
 /// Batches: colours of tets, then colours of nodes.
 pub(super) const BATCHES: usize = COLORS + 4;
 /// Bytes of a sponge.
-pub(super) const SPONGE_BYTES: usize = 80;
+pub(super) const SPONGE_BYTES: usize = 96;
 /// Bytes of a body.
 pub(super) const BODY_BYTES: u64 = 144;
 
@@ -115,7 +115,7 @@ pub(super) fn params(
         .floats(&smoothing_factors(own))
         .floats(&numbers)
         .floats(&[fluid.list_radius(), fluid.wall_viscosity])
-        .words(&[u32::from(params.no_slip), 0]);
+        .words(&[u32::from(params.no_slip), u32::from(params.has_wetting())]);
     bytes.0
 }
 
@@ -149,7 +149,10 @@ pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
         bytes
             .words(&[solver])
             .floats(&[sponge.mu, sponge.lambda, sponge.damping, sponge.inertial_drag])
-            .words(&[u32::from(sponge.pores_close), 0, 0]);
+            .words(&[u32::from(sponge.pores_close), sponge.wetting.exponent])
+            .floats(&[sponge.wetting.softening, sponge.wetting.swelling])
+            .floats(&[sponge.wetting.time, sponge.wetting.receding])
+            .words(&[0]);
     }
     bytes.0.resize(SPONGES * SPONGE_BYTES, 0);
     bytes.0
@@ -226,16 +229,19 @@ pub(super) fn batch_bytes(batches: &[[u32; 2]; BATCHES]) -> Vec<u8> {
     bytes.0
 }
 
-/// Words of the star of a node: neighbours, tets, sponge.
-pub(super) const STAR_WORDS: usize = NEIGHBORS + 2;
+/// Words of the star of a node: neighbours, tets, sponge, wetness. The last is no constant, but passes that need it have no binding
+/// left.
+pub(super) const STAR_WORDS: usize = NEIGHBORS + 3;
 
 /// The stars of all nodes, a row each.
-pub(super) fn stars(stars: &Stars, sponge: &[u32], nodes: usize) -> Vec<u32> {
-    let mut words = vec![0; nodes * STAR_WORDS];
-    for (node, neighbors, tets) in stars.each() {
+pub(super) fn stars(nodes: &Nodes, rows: usize) -> Vec<u32> {
+    let mut words = vec![0; rows * STAR_WORDS];
+    for (node, neighbors, tets) in nodes.stars.each() {
         let first = node as usize * STAR_WORDS;
         words[first..first + NEIGHBORS].copy_from_slice(&neighbors);
-        words[first + NEIGHBORS..][..2].copy_from_slice(&[tets, sponge[node as usize]]);
+        let wetness = nodes.wetting.get(node as usize).map_or(0.0, |row| row[0]);
+        let own = [tets, nodes.sponge[node as usize], wetness.to_bits()];
+        words[first + NEIGHBORS..][..3].copy_from_slice(&own);
     }
     words
 }

@@ -149,6 +149,7 @@ impl Resident {
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
+        let wetted = if self.params.has_wetting() { nodes } else { 0 };
         let tense = if self.params.fluid.cohesion.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
@@ -202,6 +203,7 @@ impl Resident {
             ("node_drag_moment", nodes * 16, plain),
             ("node_reaction", nodes * 16, plain),
             ("node_pores", nodes * 16, plain),
+            ("node_wetting", wetted * 16, plain),
             ("node_stars", nodes * STAR_WORDS as u64 * 4, plain),
             ("sponge_ranges", self.params.sponges.len() as u64 * 32, plain),
             ("sponge_motions", self.params.sponges.len() as u64 * 48, plain),
@@ -273,8 +275,7 @@ impl Resident {
             })
             .collect();
         self.write("node_traits", bytemuck::cast_slice(&traits));
-        let stars = pack::stars(&nodes.stars, &nodes.sponge, self.rows.nodes);
-        self.write("node_stars", bytemuck::cast_slice(&stars));
+        self.write("node_stars", bytemuck::cast_slice(&pack::stars(nodes, self.rows.nodes)));
         let ranges = pack::sponge_ranges(&nodes.stars, self.params.sponges.len());
         self.write("sponge_ranges", bytemuck::cast_slice(&ranges));
         self.fill_params();

@@ -2,7 +2,7 @@
 
 use super::{
     error::GpuError,
-    pack::BODY_BYTES,
+    pack::{self, BODY_BYTES},
     resident::{Resident, SOLVE_BYTES, capacities},
 };
 use crate::{
@@ -59,6 +59,7 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::NodeFree => ("node_free", Rows(&mut nodes.free, zero)),
         Column::NodeTarget => ("node_target", Rows(&mut nodes.target, zero)),
         Column::NodePores => ("node_pores", Rows(&mut nodes.pores, zero)),
+        Column::NodeWetting => ("node_wetting", Rows(&mut nodes.wetting, zero)),
         Column::NodeDrag => ("node_drag", Rows(&mut nodes.drag, zero)),
         Column::NodeDragMoment => ("node_drag_moment", Rows(&mut nodes.drag_moment, zero)),
         Column::NodeReaction => ("node_reaction", Rows(&mut nodes.reaction, zero)),
@@ -165,6 +166,10 @@ impl Resident {
             if let Some((name, data)) = plain(columns, *column, sorted) {
                 let rows = columns_rows(self, *column);
                 self.write(name, data.bytes(rows));
+                if *column == Column::NodeWetting && !columns.nodes.wetting.is_empty() {
+                    let stars = pack::stars(&columns.nodes, self.rows.nodes);
+                    self.write("node_stars", bytemuck::cast_slice(&stars));
+                }
             } else if let Some((name, list)) = list_of(*column) {
                 self.upload_lists(columns, name, list)?;
             } else {
@@ -331,6 +336,10 @@ impl Resident {
 /// Makes room for a column that is a plain array, so that a kernel of the CPU finds it where those before it ran
 /// elsewhere.
 pub fn make_room(columns: &mut Columns, column: Column) {
+    if column == Column::NodeWetting {
+        // There from the beginning, or not at all.
+        return;
+    }
     let rows = padded(columns.rows.of(column.store()));
     match plain(columns, column, false) {
         Some((_, Plain::Rows(data, padding))) if data.len() < rows => data.resize(rows, padding),
@@ -346,6 +355,10 @@ pub fn make_room(columns: &mut Columns, column: Column) {
 pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) -> bool {
     let rows = columns.rows.of(column.store());
     let Some((_, data)) = plain(columns, column, false) else { return false };
+    if column == Column::NodeWetting && words.is_empty() {
+        // The scene does without.
+        return true;
+    }
     // The one column that the CPU does not pad.
     let to = if column == Column::ControlNode { rows } else { padded(rows) };
     data.take(words, rows, to);
@@ -386,6 +399,9 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
 pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     let count = rows.of(column.store()) as u64;
     let groups = |rows: usize| rows.div_ceil(256) as u64 * count * 32;
+    if column == Column::NodeWetting && !params.has_wetting() {
+        return 0;
+    }
     if let Some((_, data)) = plain(&mut Columns::default(), column, false) {
         return count * data.row_bytes() as u64;
     }
@@ -404,5 +420,8 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
 
 /// Rows of a column that the device holds.
 fn columns_rows(resident: &Resident, column: Column) -> usize {
+    if column == Column::NodeWetting && !resident.params.has_wetting() {
+        return 0;
+    }
     resident.rows.of(column.store())
 }

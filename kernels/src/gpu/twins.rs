@@ -258,6 +258,7 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
         ],
     ),
     ("couple::saturation", &[pass("couple::saturation", Rows::Controls, FROM_FLUID)]),
+    ("couple::wetting", &[pass("couple::wetting", Rows::Nodes, NODES)]),
     ("couple::pores", &[pass("couple::pores", Rows::Nodes, NODES)]),
     ("couple::interior", &[pass("couple::interior", Rows::Fluid, FROM_CONTROLS)]),
     ("couple::suction", &[pass("couple::suction", Rows::Fluid, FROM_CONTROLS)]),

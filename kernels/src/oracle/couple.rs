@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{gradient, grid, row, smoothing, vector, vectors};
+use super::{gradient, grid, row, smoothing, vector, vectors, wetting};
 use crate::{
     columns::{Columns, FAR_ROW},
     cpu::CHUNK,
@@ -86,7 +86,9 @@ pub(super) fn controls(params: &Params, columns: &mut Columns) {
     controls.cells.order.clone_from(&controls.node);
     controls.position = vec![FAR_ROW; nodes.position.len()];
     for node in 0..rows.nodes {
-        controls.position[node] = row(vector(nodes.position[node]), f64::from(nodes.volume[node]));
+        let size = wetting::size(&params.sponges[nodes.sponge[node] as usize], nodes, node);
+        let volume = f64::from(nodes.volume[node]) * size.powi(3);
+        controls.position[node] = row(vector(nodes.position[node]), volume);
     }
     let pairs = Pairs::new(params, columns);
     let (fluid, nodes) = (columns.fluid.position.len(), columns.nodes.position.len());
@@ -127,14 +129,18 @@ pub(super) fn interior(params: &Params, columns: &mut Columns) {
     columns.fluid.interior = vec![0.0; columns.fluid.position.len()];
     columns.fluid.drag_rate = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
-        let (mut chi, mut linear, mut inertial) = (0.0, 0.0, 0.0);
+        let (mut chi, mut linear, mut inertial, mut mobile) = (0.0, 0.0, 0.0, 0.0);
         for control in 0..columns.rows.nodes {
             let weight = pairs.weight(particle, control);
             chi += weight;
-            let pores = columns.nodes.pores[columns.controls.node[control] as usize];
+            let node = columns.controls.node[control] as usize;
+            let pores = columns.nodes.pores[node];
             linear += weight * f64::from(pores[1]);
             inertial += weight * f64::from(pores[2]);
+            mobile += weight * columns.nodes.wetting.get(node).map_or(1.0, |row| f64::from(row[3]));
         }
+        let slower = if mobile > 0.0 { chi / mobile } else { 1.0 };
+        (linear, inertial) = (linear * slower, inertial * slower.sqrt());
         columns.fluid.interior[particle] = chi as f32;
         columns.fluid.drag_rate[particle] = [linear as f32, inertial as f32, 0.0, 0.0];
     }

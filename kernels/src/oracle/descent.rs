@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{obstacles, pbd::SHAPE, row, shapes, vector};
+use super::{obstacles, pbd::SHAPE, row, shapes, vector, wetting};
 use crate::{
     body::Wrench,
     columns::{Columns, Nodes},
@@ -56,17 +56,19 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
 /// Elastic and damping force on a node, and minus its derivative.
 fn local(
     params: &Params,
-    sponge: u32,
+    (nodes, node): (&Nodes, usize),
     places: &[DVec3],
     before: &[DVec3],
     tets: &[([usize; 4], usize)],
 ) -> (DVec3, DMat3) {
-    let sponge = &params.sponges[sponge as usize];
-    let [edge, mu, lambda] = [sponge.edge, sponge.mu, sponge.lambda].map(f64::from);
+    let sponge = &params.sponges[nodes.sponge[node] as usize];
     let rate = f64::from(sponge.damping) / f64::from(params.step);
-    let volume = edge.powi(3) / 12.0;
     let (mut force, mut stiffness) = (DVec3::ZERO, DMat3::ZERO);
     for (tet, slot) in tets {
+        let (size, softer) = wetting::of_tet(sponge, nodes, *tet);
+        let edge = f64::from(sponge.edge) * size;
+        let [mu, lambda] = [sponge.mu, sponge.lambda].map(|constant| f64::from(constant) * softer);
+        let volume = edge.powi(3) / 12.0;
         let n = SHAPE[*slot].map(|shape| shape / edge);
         let f = columns_of(places, *tet, edge);
         let cofactor = [f[1].cross(f[2]), f[2].cross(f[0]), f[0].cross(f[1])];
@@ -103,7 +105,7 @@ fn least(
     (places, before): (&[DVec3], &[DVec3]),
     tets: &[([usize; 4], usize)],
 ) -> (DVec3, DMat3) {
-    let (force, stiffness) = local(params, nodes.sponge[node], places, before, tets);
+    let (force, stiffness) = local(params, (nodes, node), places, before, tets);
     let h = f64::from(params.step);
     let inertia = f64::from(nodes.target[node][3]) / (h * h);
     let stiffness = stiffness + DMat3::IDENTITY * inertia;
@@ -186,13 +188,19 @@ fn react(
 
 /// How far a node goes, over the way to its least energy: a quarter further, in steps of more than one sweep, down to none
 /// where a tet is half of its volume too small or too large.
-fn relaxation(params: &Params, sponge: u32, places: &[DVec3], tets: &[([usize; 4], usize)]) -> f64 {
-    let sponge = &params.sponges[sponge as usize];
+fn relaxation(
+    params: &Params,
+    (nodes, node): (&Nodes, usize),
+    places: &[DVec3],
+    tets: &[([usize; 4], usize)],
+) -> f64 {
+    let sponge = &params.sponges[nodes.sponge[node] as usize];
     if sponge.iterations < 2 {
         return 1.0;
     }
     let volume = |(tet, _): &([usize; 4], usize)| {
-        let f = columns_of(places, *tet, f64::from(sponge.edge));
+        let (size, _) = wetting::of_tet(sponge, nodes, *tet);
+        let f = columns_of(places, *tet, f64::from(sponge.edge) * size);
         f[0].dot(f[1].cross(f[2]))
     };
     let strain = tets.iter().map(|tet| (volume(tet) - 1.0).abs()).fold(0.0, f64::max);
@@ -208,7 +216,7 @@ pub(super) fn vbd(params: &Params, columns: &mut Columns) {
         if columns.nodes.predicted[node][3] > 0.0 && descends(params, &columns.nodes, node) {
             let at = (&places[..], &before[..]);
             let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
-            let further = relaxation(params, columns.nodes.sponge[node], &places, &incidence[node]);
+            let further = relaxation(params, (&columns.nodes, node), &places, &incidence[node]);
             let relaxed = places[node] + (point - places[node]) * further;
             let mut end = relaxed;
             push(params, columns, node, stiffness, &mut end);
@@ -258,8 +266,7 @@ pub(super) fn reaction(params: &Params, columns: &mut Columns) {
         if !descends(params, &columns.nodes, node) {
             continue;
         }
-        let (force, stiffness) =
-            local(params, columns.nodes.sponge[node], &places, &before, &incidence[node]);
+        let (force, stiffness) = local(params, (&columns.nodes, node), &places, &before, &incidence[node]);
         let resists = -h * h / 3.0 * (stiffness.x_axis.x + stiffness.y_axis.y + stiffness.z_axis.z);
         let w = f64::from(columns.nodes.predicted[node][3]);
         if w <= 0.0 {

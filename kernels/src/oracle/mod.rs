@@ -19,6 +19,7 @@ mod porous;
 mod shapes;
 mod sph;
 mod surface;
+mod wetting;
 
 /// A kernel as a plain loop in f64.
 pub type Oracle = fn(&Params, &mut Columns);
@@ -61,6 +62,7 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "pbd::velocity" => pbd::velocity,
         "couple::controls" => couple::controls,
         "couple::saturation" => couple::saturation,
+        "couple::wetting" => wetting::wetting,
         "couple::interior" => couple::interior,
         "couple::suction" => couple::suction,
         "couple::zero_distance" => couple::zero_distance,

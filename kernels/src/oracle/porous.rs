@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{
     couple::{Pairs, sponge, weight_inside},
-    gradient, row, smoothing, vector,
+    gradient, row, smoothing, vector, wetting,
 };
 use crate::{columns::Columns, params::Params};
 
@@ -109,6 +109,7 @@ pub(super) fn pores(params: &Params, columns: &mut Columns) {
         let permeability = (now / porosity).powi(3) * ((1.0 - porosity) / (1.0 - now)).powi(2);
         let linear = f64::from(sponge.drag_rate) * (now / porosity) / permeability;
         let inertial = f64::from(sponge.inertial_drag) * (now / porosity).powi(2) / permeability.sqrt();
+        let ratio = ratio / wetting::size(sponge, nodes, node).powi(3);
         nodes.pores[node] = [ratio, linear * ratio, inertial * ratio, now].map(|value| value as f32);
     }
 }

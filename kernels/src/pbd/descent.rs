@@ -27,6 +27,8 @@
 //! H      = a mu / 12 sum_k c_k 1         + a   / 12 sum_tets k G G^T
 //! ```
 //!
+//! Where material becomes wet, its tets are not all alike: `wetted.rs`.
+//!
 //! H plus the inertia m / h^2 is positive definite. As p is concave, Newton's method goes too far once at most.
 //!
 //! Damping is that of a Kelvin-Voigt material with the strain rate of the deformation at the beginning of the step, so
@@ -41,12 +43,15 @@
 use crate::{
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
     params::{Params, Solver, SpongeParams},
-    pbd::stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
+    pbd::{
+        stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
+        wetted::{Wet, Wetness},
+    },
     vector::{Vec3x8, cross, dot, minus, plus, times},
 };
 
 /// Volume of a tet over that at rest below which its energy goes on as a polynomial \[1\].
-const SOLID: f32 = 0.2;
+pub(super) const SOLID: f32 = 0.2;
 
 /// How far `pbd::vbd` goes beyond the least energy, over the way there, in steps of more than one sweep \[1\].
 pub(super) const RELAXATION: f32 = 0.25;
@@ -56,7 +61,7 @@ pub(super) type Symmetric<S> = [f32x8<S>; 6];
 
 /// Adds `b b^T` times a scalar, given as `a = scale b`.
 #[inline(always)]
-fn add_outer<S: Simd>(sum: &mut Symmetric<S>, a: Vec3x8<S>, b: Vec3x8<S>) {
+pub(super) fn add_outer<S: Simd>(sum: &mut Symmetric<S>, a: Vec3x8<S>, b: Vec3x8<S>) {
     sum[0] += a[0] * b[0];
     sum[1] += a[1] * b[1];
     sum[2] += a[2] * b[2];
@@ -97,12 +102,12 @@ pub(super) struct Material<S: Simd> {
     /// 1 for nodes of this solver, else 0.
     pub(super) own: f32x8<S>,
     pub(super) friction: f32x8<S>,
-    inverse_edge: f32x8<S>,
+    pub(super) inverse_edge: f32x8<S>,
     pub(super) edge: f32x8<S>,
     /// a mu / 12.
-    shear: f32x8<S>,
+    pub(super) shear: f32x8<S>,
     /// a lambda / 12.
-    volume: f32x8<S>,
+    pub(super) volume: f32x8<S>,
     /// tau / h.
     damping: f32x8<S>,
     /// How far a node goes beyond its least energy, over the way there.
@@ -164,12 +169,12 @@ impl<S: Simd> Material<S> {
 }
 
 /// Eight nodes and what surrounds them.
-struct Star<'a, S: Simd> {
-    simd: S,
-    group: &'a StarGroup,
-    shape: &'a StarShape,
+pub(super) struct Star<'a, S: Simd> {
+    pub(super) simd: S,
+    pub(super) group: &'a StarGroup,
+    pub(super) shape: &'a StarShape,
     /// Places of the neighbours, first the corners, then the directions.
-    around: [Vec3x8<S>; NEIGHBORS],
+    pub(super) around: [Vec3x8<S>; NEIGHBORS],
 }
 
 impl<'a, S: Simd> Star<'a, S> {
@@ -233,7 +238,7 @@ impl<'a, S: Simd> Star<'a, S> {
     #[inline(always)]
     fn damp(
         &self,
-        material: &Material<S>,
+        (material, wetness): (&Material<S>, Option<&Wetness<S>>),
         before: &Self,
         (x, old): (Vec3x8<S>, Vec3x8<S>),
         Local { force, stiffness, .. }: &mut Local<S>,
@@ -254,7 +259,11 @@ impl<'a, S: Simd> Star<'a, S> {
             let de = rate(&g, &df, (0, 1), scale) * twice;
             let across = rate(&g, &df, (0, 2), scale) * twice;
             let ef = rate(&g, &df, (1, 2), scale) * twice;
-            let own = lanes::load_array(simd, &self.group.tets[tet]) * material.damping;
+            let mut own = lanes::load_array(simd, &self.group.tets[tet]) * material.damping;
+            if let Some(wetness) = wetness {
+                let [size, softer] = wetness.of_tet(*corners);
+                own *= softer / size;
+            }
             let first = times(g[0], (dd * twice + trace + across) * own);
             let second = times(g[1], (de + ef) * own);
             let third = times(g[2], (ff * twice + trace + across) * own);
@@ -303,21 +312,36 @@ pub(super) fn local<S: Simd>(
     simd: S,
     group: (&StarGroup, &StarShape),
     material: &Material<S>,
-    (now, before): (&[[f32; 4]], &[[f32; 4]]),
+    (now, before, wet): (&[[f32; 4]], &[[f32; 4]], Wet<'_>),
     (x, old): (Vec3x8<S>, Vec3x8<S>),
 ) -> Local<S> {
-    // Not written out again for every caller.
+    // Neither is written out again for every caller, and dry sponges do not pay for wet ones.
+    if wet.wetting.is_empty() {
+        return simd.vectorize(
+            #[inline(always)]
+            || {
+                let star = Star::new(simd, group, now);
+                let mut local = star.elasticity(material, x);
+                if material.damps {
+                    let before = Star::new(simd, group, before);
+                    star.damp((material, None), &before, (x, old), &mut local);
+                }
+                // Further terms that are quadratic in the place of the node, such as the drag of the water in the pores,
+                // add their force and stiffness here.
+                local
+            },
+        );
+    }
     simd.vectorize(
         #[inline(always)]
         || {
             let star = Star::new(simd, group, now);
-            let mut local = star.elasticity(material, x);
+            let wetness = Wetness::new(simd, group, wet);
+            let mut local = star.wetted_elasticity(material, &wetness, x);
             if material.damps {
                 let before = Star::new(simd, group, before);
-                star.damp(material, &before, (x, old), &mut local);
+                star.damp((material, Some(&wetness)), &before, (x, old), &mut local);
             }
-            // Further terms that are quadratic in the place of the node, such as the drag of the water in the pores, add
-            // their force and stiffness here.
             local
         },
     )

@@ -15,4 +15,5 @@ pub mod strain;
 mod tets;
 pub mod vbd;
 pub mod velocity;
+pub mod wetted;
 pub mod xpbd_neo_hookean;

@@ -16,6 +16,7 @@ use crate::{
         obstacles::{Obstacles, array, vector},
         stars::{StarGroup, Stars},
         vbd::least,
+        wetted::Wet,
     },
     vector::{choose, dot, negative, times},
 };
@@ -27,20 +28,30 @@ const MARGIN: f32 = 1.0e-2;
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::reaction",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates, BodyNodeWrenches],
+    reads: &[
+        NodePosition,
+        NodePredicted,
+        NodeTarget,
+        NodeStars,
+        NodeSponge,
+        NodeWetting,
+        BodyStates,
+        BodyNodeWrenches,
+    ],
     writes: &[NodeReaction, BodyNodeWrenches],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, sponge, stars, reaction, .. } = &mut columns.nodes;
+    let Nodes { position, predicted, target, sponge, stars, wetting, reaction, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.node_wrenches.0;
     reaction.clear();
     reaction.resize(position.len(), [0.0; 4]);
     for color in 0..4 {
         let rows = stars.rows(color);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
+        let wet = Wet::new(params, sponge, wetting);
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet };
         // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
@@ -64,6 +75,7 @@ struct Task<'a> {
     target: &'a [[f32; 4]],
     sponge: &'a [u32],
     stars: &'a Stars,
+    wet: Wet<'a>,
 }
 
 impl Task<'_> {
@@ -118,7 +130,7 @@ impl Task<'_> {
         }
         let [tx, ty, tz, drawn] = lanes::gather_rows(simd, self.target, &group.own);
         let target = [tx, ty, tz];
-        let places = (self.predicted, self.position);
+        let places = (self.predicted, self.position, self.wet);
         let step = self.params.step;
         let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
         let (elastic, stiffness) = (energy.force, energy.stiffness);

@@ -25,6 +25,7 @@ use crate::{
         descent::{Local, Material, constants_of, inverse, local, product},
         obstacles::{Obstacles, Quadratic, array, vector},
         stars::{StarGroup, Stars},
+        wetted::Wet,
     },
     vector::{Vec3x8, choose, dot, minus, plus, times},
 };
@@ -38,20 +39,21 @@ const SPOILT: f32 = 0.5;
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::vbd",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, BodyStates],
+    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, NodeWetting, BodyStates],
     writes: &[NodePredicted],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, sponge, stars, .. } = &mut columns.nodes;
+    let Nodes { position, predicted, target, sponge, stars, wetting, .. } = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let mut moved = Vec::new();
     for color in 0..4 {
         let rows = stars.rows(color);
         moved.clear();
         moved.resize(rows.len(), [0.0; 4]);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars };
+        let wet = Wet::new(params, sponge, wetting);
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet };
         cpu.for_chunks(&mut moved[..], |first, moved| {
             with_lanes!(cpu, simd => task.chunk(simd, color, first, moved));
         });
@@ -68,6 +70,7 @@ struct Task<'a> {
     target: &'a [[f32; 4]],
     sponge: &'a [u32],
     stars: &'a Stars,
+    wet: Wet<'a>,
 }
 
 impl Task<'_> {
@@ -99,7 +102,7 @@ impl Task<'_> {
         let (x, old, target) = ([x, y, z], [ox, oy, oz], [tx, ty, tz]);
         let zero = lanes::splat(simd, 0.0);
         let moves = w.simd_gt(zero) & material.own.simd_gt(zero);
-        let places = (self.predicted, self.position);
+        let places = (self.predicted, self.position, self.wet);
         let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
         let further = relaxation(simd, material, energy.strain);
         let (point, quadratic) = least(simd, energy, (x, target, mass), self.params.step);

@@ -164,6 +164,7 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::NodeFree => rows(&nodes.free, &all_nodes),
         Column::NodeTarget => rows(&nodes.target, &all_nodes),
         Column::NodePores => planes(&nodes.pores, &all_nodes),
+        Column::NodeWetting => planes(&nodes.wetting, &all_nodes),
         Column::NodeDrag => rows(&nodes.drag, &all_nodes),
         Column::NodeDragMoment => rows(&nodes.drag_moment, &all_nodes),
         Column::NodeReaction => rows(&nodes.reaction, &all_nodes),

@@ -59,6 +59,11 @@ fn unbounded_domains_and_full_last_groups_give_the_same_bits_too() {
 }
 
 #[test]
+fn wet_sponges_give_the_same_bits_too() {
+    assert_same_bits(Options { wetting: true, ..FULL });
+}
+
+#[test]
 fn a_single_bit_in_a_column_is_noticed() {
     let scene = Scene::new(FULL).before("sph::advect", &best());
     let mut altered = scene.clone();

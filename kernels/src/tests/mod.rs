@@ -12,3 +12,4 @@ mod momentum;
 mod oracles;
 pub(crate) mod scene;
 mod strain;
+mod wetting;

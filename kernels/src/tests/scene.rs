@@ -10,7 +10,9 @@ use crate::{
     grid::cells::Domain,
     kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
-    params::{Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams},
+    params::{
+        Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams, WettingParams,
+    },
     pbd::stars::Stars,
     smoothing::Wendland,
     sph::{boundary::boundary_profile, factors::lattice_diagonal},
@@ -29,6 +31,7 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::pressure",
     "couple::controls",
     "couple::saturation",
+    "couple::wetting",
     "couple::pores",
     "couple::interior",
     "pbd::gravity",
@@ -92,6 +95,8 @@ pub(crate) struct Options {
     pub(crate) incompressible: bool,
     pub(crate) porous: bool,
     pub(crate) cohesion: bool,
+    /// Whether properties depend on how wet sponges are, where a kernel asks.
+    pub(crate) wetting: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -105,6 +110,7 @@ pub(crate) const FULL: Options = Options {
     incompressible: false,
     porous: false,
     cohesion: false,
+    wetting: false,
 };
 
 impl Options {
@@ -119,7 +125,10 @@ impl Options {
             .iter()
             .any(|need| kernel.needs.contains(need));
         let cohesion = kernel.needs.contains(&Need::Cohesion);
-        Self { incompressible: porous || solves, porous, cohesion, ..self }
+        let reads = kernel.reads.contains(&Column::NodeWetting);
+        let wetting = self.wetting && (reads || porous) || kernel.needs.contains(&Need::Wetting);
+        let porous = porous || wetting;
+        Self { incompressible: porous || solves, porous, cohesion, wetting, ..self }
     }
 
     /// Sites per site of the coarse block, along each axis.
@@ -152,6 +161,7 @@ pub(super) fn all_options() -> Vec<Options> {
         Options { fluid: 1000, walls: false, bounded: false, ..FULL },
         Options { walls: false, bodies: false, ..FULL },
         Options { sponges: false, ..FULL },
+        Options { wetting: true, ..FULL },
     ];
     let few = [0, 1, 7, 8, 9].map(|fluid| Options { fluid, ..FULL });
     all.extend(few);
@@ -220,6 +230,7 @@ impl Scene {
             Need::EquationOfState => !self.options.incompressible,
             Need::Incompressible => self.options.incompressible,
             Need::Porous => self.options.porous,
+            Need::Wetting => self.options.wetting,
         })
     }
 
@@ -270,6 +281,9 @@ impl Scene {
         nodes.velocity.resize(rows, [0.0; 4]);
         nodes.volume.resize(rows, 0.0);
         nodes.suction.resize(rows, 0.0);
+        if self.options.wetting {
+            nodes.wetting = (0..rows).map(|_| std::array::from_fn(|_| random.unit())).collect();
+        }
         nodes.sponge = lattice.sponge;
         nodes.sponge.resize(rows, 0);
         nodes.grip = vec![u32::MAX; rows];
@@ -345,7 +359,7 @@ fn params(options: Options) -> Params {
             repulsion_stiffness: 1.0e5,
             repulsion_damping: 50.0,
         },
-        sponges: if options.sponges { sponges() } else { Vec::new() },
+        sponges: if options.sponges { sponges(options.wetting) } else { Vec::new() },
         coupling: Wendland::new(0.015),
         solid: options.porous.then(|| Wendland::new(0.012)),
     }
@@ -372,7 +386,14 @@ fn cohesion(radius: f32, spacing: f32) -> Cohesion {
     Cohesion { stiffness: 500.0, smoothing, volume: spacing.powi(3) / sum, boundary_range, boundary_share }
 }
 
-fn sponges() -> Vec<SpongeParams> {
+fn sponges(has_wetting: bool) -> Vec<SpongeParams> {
+    let mut wetting = [WettingParams::default(), WettingParams::default()];
+    if has_wetting {
+        wetting[0] =
+            WettingParams { softening: 0.6, swelling: 0.03, time: 0.004, exponent: 4, receding: 250.0 };
+        wetting[1].receding = 100.0;
+    }
+    let [of_soft, of_stiff] = wetting;
     let soft = SpongeParams {
         edge: 0.01,
         solver: Solver::Sbd,
@@ -392,6 +413,7 @@ fn sponges() -> Vec<SpongeParams> {
         entry_pressure: 300.0,
         saturation_gain: 1.5,
         reaction: 1.0,
+        wetting: of_soft,
     };
     let stiff = SpongeParams {
         edge: 0.008,
@@ -412,6 +434,7 @@ fn sponges() -> Vec<SpongeParams> {
         entry_pressure: 150.0,
         saturation_gain: 0.5,
         reaction: 0.7,
+        wetting: of_stiff,
     };
     vec![soft, stiff]
 }

@@ -95,15 +95,14 @@ const BLOCK: [u32; 3] = [4, 7, 4];
 /// Half of the width of the bath, height of the sponge above its floor, and depth of the water \[m\].
 const BATH_SIZE: (f64, f64, f64) = (0.04, 0.01, 0.02);
 /// Gravity \[m/s^2\].
-const GRAVITY: f64 = 9.81;
+pub(super) const GRAVITY: f64 = 9.81;
 
 fn bath(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut figures = Vec::new();
     for permeability in setting.pick(&[1e-8, 4e-9, 1e-9][..], &[4e-9][..]) {
         let pores = pores(*permeability, 400.0);
         let given = Pores { entry_pressure: setting.planted(1.0, 1.0 / 3.0) * pores.entry_pressure, ..pores };
-        let cells = UVec3::from_array(BLOCK.map(|cells| setting.count(cells)));
-        let edge = 0.01 * f64::from(BLOCK[0]) / f64::from(cells.x);
+        let (cells, edge) = block_cells(setting);
         let mut world = setting.world(&bath_scene(setting, &given, cells, edge)?)?;
         let seconds = setting.pick(2.5, 1.0);
         let mut curve = Vec::new();
@@ -137,7 +136,18 @@ fn bath(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     Ok(figures)
 }
 
-fn bath_scene(setting: &Setting, pores: &Pores, cells: UVec3, edge: f64) -> Result<Scene, Failure> {
+/// Cells of the sponge in the bath, and their edge \[m\].
+pub(super) fn block_cells(setting: &Setting) -> (UVec3, f64) {
+    let cells = UVec3::from_array(BLOCK.map(|cells| setting.count(cells)));
+    (cells, 0.01 * f64::from(BLOCK[0]) / f64::from(cells.x))
+}
+
+pub(super) fn bath_scene(
+    setting: &Setting,
+    pores: &Pores,
+    cells: UVec3,
+    edge: f64,
+) -> Result<Scene, Failure> {
     let (half, above, depth) = BATH_SIZE;
     let size = cells.as_dvec3() * edge;
     let sponge = Sponge {
@@ -172,7 +182,7 @@ fn bath_scene(setting: &Setting, pores: &Pores, cells: UVec3, edge: f64) -> Resu
 }
 
 /// Height of the front on the axis of the sponge above the level half way between sponge and walls \[m\].
-fn rise(world: &World, cells: UVec3, edge: f64) -> Result<f64, Failure> {
+pub(super) fn rise(world: &World, cells: UVec3, edge: f64) -> Result<f64, Failure> {
     let inner = 0.5 * f64::from(cells.x) * edge;
     let front = surface(world, inner - edge)?;
     let side = 0.5 * (inner + BATH_SIZE.0);

@@ -19,6 +19,7 @@ mod squash;
 mod squeeze;
 mod strain;
 mod taylor_green;
+mod wetting;
 
 use crate::case::Case;
 
@@ -44,5 +45,9 @@ pub const CASES: &[&Case] = &[
     &consolidation::CASE,
     &momentum::CASE,
     &squeeze::CASE,
+    &wetting::SWELLING,
+    &wetting::SOFTENING,
+    &wetting::DRAINAGE,
+    &wetting::RECEDING,
     &rest::CASE,
 ];

@@ -105,6 +105,8 @@ fn scenes() -> Vec<Options> {
     all.push(Options { bodies: false, bounded: false, equation_of_state: EquationOfState::Linear, ..FULL });
     all.push(Options { walls: false, bounded: false, ..FULL });
     all.push(Options { sponges: false, ..FULL });
+    all.push(Options { wetting: true, ..FULL });
+    all.push(Options { wetting: true, fluid: 65, walls: false, ..FULL });
     all
 }
 
