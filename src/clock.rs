@@ -2,9 +2,15 @@
 
 use std::f32::consts::PI;
 
-use sorb_kernels::params::{Params, Solver};
+use sorb_kernels::{
+    body::Body,
+    params::{Params, Solver},
+};
 
-use crate::scene::{Scene, Time};
+use crate::{
+    rigid::RigidEngine,
+    scene::{Scene, Time},
+};
 
 /// Part of the time in which an elastic wave crosses a cell that a step of `xpbd_neo_hookean` may take: a cantilever without
 /// damping then sags by what it should within two per cent (`tests/sponge.rs`).
@@ -33,7 +39,8 @@ pub enum Bound {
     Pressure,
     /// Acceleration over a support radius.
     Acceleration,
-    /// Diffusion of velocity over a support radius.
+    /// Diffusion of velocity over a support radius; where viscosity is implicit fifty times that, and what stops a body that the fluid does
+    /// not slide along.
     Viscosity,
     /// Capillary waves.
     SurfaceTension,
@@ -120,6 +127,12 @@ const PRESSURE_COURANT: f32 = 0.4;
 /// to rest.
 const CAPILLARY_COURANT: f32 = 0.1;
 
+/// Step of implicit over that of explicit viscosity, and the Courant number beside it. The pressure is found after the viscosity, for
+/// particles that could move without their neighbours: thick fluid that falls on a floor in longer steps jumps up again, to three times
+/// the height it fell from (docs/viscosity.md).
+const IMPLICIT: f32 = 50.0;
+const IMPLICIT_COURANT: f32 = 0.1;
+
 /// Step over the time in which water that is sucked in crosses a spacing.
 const SUCTION_COURANT: f32 = 0.8;
 
@@ -132,7 +145,7 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    pub(crate) fn new(scene: &Scene, params: &Params) -> Self {
+    pub(crate) fn new(scene: &Scene, params: &Params, bodies: &[Body], engine: &dyn RigidEngine) -> Self {
         let mut bounds = vec![(scene.time.maximum_step, Bound::Maximum)];
         let fluid = &params.fluid;
         if let Some(water) = &scene.fluid {
@@ -140,6 +153,12 @@ impl Steps {
             // Along the line between particles the central form is as stiff as five times the other.
             let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
+            if fluid.implicit_viscosity.is_some() {
+                let explicit = 0.125 * h * h / (fluid.wall_viscosity / fluid.rest_density);
+                let stopped = bodies.iter().enumerate().filter(|(_, body)| body.no_slip);
+                let longest = stopped.map(|(index, body)| stopping(params, body, engine, index));
+                bounds.push((longest.fold(IMPLICIT * explicit, f32::min), Bound::Viscosity));
+            }
             let capillary = fluid.rest_density * h * h * h / (2.0 * PI * water.surface_tension);
             bounds.push((CAPILLARY_COURANT * capillary.sqrt(), Bound::SurfaceTension));
             for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
@@ -176,7 +195,11 @@ impl Steps {
         }
         let constant = smallest(&bounds);
         let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
-        Self { time: scene.time, constant, edge }
+        let mut time = scene.time;
+        if fluid.implicit_viscosity.is_some() {
+            time.courant = time.courant.min(IMPLICIT_COURANT);
+        }
+        Self { time, constant, edge }
     }
 
     /// Longest stable step after the last one, and what bounds it.
@@ -217,6 +240,25 @@ impl Steps {
     pub(crate) fn minimum(&self) -> f32 {
         self.time.minimum_step
     }
+}
+
+/// Time in which a fluid stops a body that it does not slide along, infinite for one that is moved.
+///
+/// The solve for the implicit viscosity takes the velocities of bodies as given, and the bodies what it gives them afterwards: in
+/// longer steps they would overshoot. The drag is that of Stokes on a sphere, with what Basset adds as long as shear has spread
+/// over the time of a step only: `6 pi mu R (1 + R / sqrt(nu h))`, and `8 pi mu R^3 (1 + R / (3 sqrt(nu h)))` about its centre.
+fn stopping(params: &Params, body: &Body, engine: &dyn RigidEngine, index: usize) -> f32 {
+    let fluid = &params.fluid;
+    let (radius, viscosity) = (body.shape.bounding_radius(), fluid.wall_viscosity);
+    // Root of R^2 / nu.
+    let crossing = radius * (fluid.rest_density / viscosity).sqrt();
+    let inertia = engine.inverse_inertia(index);
+    let turning = inertia.x_axis.x.max(inertia.y_axis.y).max(inertia.z_axis.z);
+    // h a + sqrt(h) b = 1.
+    let time = |a: f32, b: f32| (2.0 / (b + (b * b + 4.0 * a).sqrt())).powi(2);
+    let along = 6.0 * PI * viscosity * radius * engine.inverse_mass(index);
+    let about = 8.0 * PI * viscosity * radius.powi(3) * turning;
+    time(along, along * crossing).min(time(about, about * crossing / 3.0))
 }
 
 /// Cuts a step so that equal ones fill what is left of a frame: water at rest stays calmer than with a short last step.
@@ -265,6 +307,35 @@ mod tests {
             steps += 1;
         }
         assert_eq!(steps, 6);
+    }
+
+    #[cfg(all(feature = "serde", feature = "rigid"))]
+    #[test]
+    fn bodies_bound_the_steps_of_implicit_viscosity() {
+        let bound = |viscosity: &str, density: f32, keys: &[&str]| {
+            let viscosity = format!("fluid.viscosity={viscosity}");
+            let own = [viscosity.as_str(), "time.maximum_step=0.1", "fluid.artificial_viscosity=0"];
+            let keys = [&own[..], keys].concat();
+            let scene = crate::scene::preset("water").and_then(|scene| scene.with_overrides(keys));
+            let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+            let shape = crate::scene::ShapeKind::Sphere { radius: 0.02 };
+            let ball = crate::scene::Body::dynamic("ball", shape, glam::Vec3::Y * 0.1, density);
+            let scene = scene.with_body(crate::scene::Body { no_slip: true, ..ball });
+            let world = crate::World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+            world.steps.constant
+        };
+        let implicit = ["fluid.viscosity_integration=\"implicit\""];
+        // Stokes alone: a sphere is stopped from turning within m / (20 pi mu R).
+        let (step, name) = bound("1000", 5000.0, &implicit);
+        let expected = 5000.0 * 4.0 / 3.0 * 0.02_f32.powi(2) / (20.0 * 1000.0);
+        assert!(name == Bound::Viscosity && step < expected && step > 0.5 * expected, "{step} {expected}");
+        assert!(bound("1000", 500.0, &implicit).0 < 0.2 * step, "lighter");
+        // A heavy ball is stopped later than after fifty times what explicit viscosity allows.
+        let explicit = bound("100", 5e4, &[]);
+        let (long, name) = bound("100", 5e4, &implicit);
+        assert!(explicit.1 == Bound::Viscosity && name == Bound::Viscosity);
+        assert!((long / explicit.0 - IMPLICIT).abs() < 1e-3, "{long} {}", explicit.0);
+        assert_ne!(bound("0.1", 5000.0, &implicit).1, Bound::Viscosity);
     }
 
     #[test]

@@ -148,6 +148,7 @@ const WET: Content = Content {
     porous: false,
     wetting: false,
     rounds: 0,
+    viscosity_rounds: 0,
 };
 
 fn small(step: &[Phase], observed: &[Column]) -> Plan {
@@ -186,11 +187,12 @@ fn what_nobody_reads_is_skipped_unless_it_is_observed() {
 #[test]
 fn the_step_itself_is_consistent_for_every_content() {
     const SOLVERS: [Solver; 3] = [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean];
-    for bits in 0..1024_u32 {
+    for bits in 0..2048_u32 {
         let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
         let solvers = [0, 1, 2].map(|k| (bits >> (5 + k) & 1 == 1).then_some(SOLVERS[k]));
         let (rounds, iterations, porous) = (bits >> 8 & 1, 1, false);
-        let (cohesion, no_slip) = (bits >> 9 == 1, bits >> 9 == 1);
+        let (cohesion, no_slip) = (bits >> 9 & 1 == 1, bits >> 9 & 1 == 1);
+        let viscosity_rounds = bits >> 10;
         let content = Content {
             fluid,
             sponge,
@@ -204,6 +206,7 @@ fn the_step_itself_is_consistent_for_every_content() {
             porous,
             wetting: bodies,
             rounds,
+            viscosity_rounds,
         };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
             panic!("{content:?}: {error}");
@@ -227,6 +230,35 @@ fn a_plan_counts_repetitions_from_the_scene() {
     let calls = |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
     assert_eq!((calls("pbd::vbd"), calls("pbd::predict")), (Some(21), Some(3)));
     assert_eq!(calls("sph::density"), None, "a skipped phase is not timed");
+}
+
+#[test]
+fn implicit_viscosity_is_a_solve_that_ends_when_it_has_converged() {
+    const NAMES: [&str; 4] =
+        ["sph::viscosity_begin", "sph::viscosity_product", "sph::viscosity_update", "sph::wall_friction"];
+    let calls = |keys: &[&str]| {
+        let thick = ["fluid.viscosity=10", "fluid.no_slip=true"];
+        let mut world = common::world(&common::with(&common::preset("water", 0.5), &[&thick, keys].concat()));
+        common::steps(&mut world, 5);
+        NAMES.map(|name| {
+            world.phase_times().iter().find(|time| time.name == name).map_or(0, |time| time.calls)
+        })
+    };
+    assert_eq!(calls(&[]), [0, 0, 0, 5], "friction is a force where viscosity is");
+    let implicit = "fluid.viscosity_integration=\"implicit\"";
+    let [loose, tight] = ["0.1", "1e-6"].map(|tolerance| {
+        let [begin, product, update, friction] =
+            calls(&[implicit, &format!("fluid.viscosity_tolerance={tolerance}")]);
+        assert_eq!((begin, product, friction), (5, update, 0));
+        product
+    });
+    assert!(loose >= 5 && tight > 2 * loose, "{loose} {tight}");
+    assert_eq!(calls(&[implicit, "fluid.viscosity_tolerance=1e-6", "fluid.viscosity_rounds=3"])[1], 15);
+    assert_eq!(
+        calls(&[implicit, "fluid.viscosity=0", "fluid.artificial_viscosity=0"])[0],
+        0,
+        "nothing to solve"
+    );
 }
 
 #[test]

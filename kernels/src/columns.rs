@@ -16,7 +16,7 @@ use crate::{
     },
     pbd::{lattice::Topology, stars::Stars},
     reduce::{Extremes, Wrenches},
-    sph::pressure_solve::PressureSolve,
+    sph::{pressure_solve::PressureSolve, viscosity_solve::ViscositySolve},
 };
 
 /// Coordinate of padding rows \[m\]: beyond every support radius, with a square that is still finite.
@@ -200,6 +200,20 @@ columns! {
         FluidCorrection = correction: Vec<[f32; 4]>, "m/s^2", Scratch;
         /// Where the pressure solve stands.
         FluidPressureSolve = pressure_solve: PressureSolve, "1", Scratch;
+        /// Rate at which walls and bodies slow a particle down, along the axes: xx, yy, zz; w: unused.
+        FluidFriction = friction: Vec<[f32; 4]>, "1/s", Scratch;
+        /// The same between the axes: yz, zx, xy; w: unused.
+        FluidFrictionBetween = friction_between: Vec<[f32; 4]>, "1/s", Scratch;
+        /// What is left of the equation of the implicit viscosity; w: unused.
+        FluidViscosityResidual = viscosity_residual: Vec<[f32; 4]>, "m/s", Scratch;
+        /// Direction of the present round of that solve; w: volume of the particle \[m^3\].
+        FluidViscosityDirection = viscosity_direction: Vec<[f32; 4]>, "m/s", Scratch;
+        /// Product of its matrix with that direction; w: unused.
+        FluidViscosityProduct = viscosity_product: Vec<[f32; 4]>, "m/s", Scratch;
+        /// Change of the velocity by the implicit viscosity so far; w: unused.
+        FluidViscosityChange = viscosity_change: Vec<[f32; 4]>, "m/s", Scratch;
+        /// Where that solve stands.
+        FluidViscositySolve = viscosity_solve: ViscositySolve, "1", Scratch;
         /// Extremes over chunks of particles, for the time step.
         FluidExtremes = extremes: Extremes, "m/s", Scratch;
     }

@@ -30,6 +30,10 @@ pub enum Need {
     Cohesion,
     /// Walls or bodies that the fluid does not slide along.
     NoSlip,
+    /// Viscosity as part of the forces.
+    ExplicitViscosity,
+    /// Viscosity as a solve for the velocities at the end of the step.
+    ImplicitViscosity,
     /// Pressure by an equation of state.
     EquationOfState,
     /// Pressure by a solve that keeps the density.
@@ -56,6 +60,8 @@ impl Need {
             Self::SurfaceTension => "no surface tension from the colour field",
             Self::Cohesion => "no surface tension by cohesion",
             Self::NoSlip => "fluid slides along everything",
+            Self::ExplicitViscosity => "viscosity is implicit",
+            Self::ImplicitViscosity => "viscosity is explicit",
             Self::EquationOfState => "pressure is solved for",
             Self::Incompressible => "pressure by an equation of state",
             Self::Porous => "coupling of the paper",
@@ -94,6 +100,11 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::boundary_pressure::KERNEL,
     &sph::wall_friction::KERNEL,
     &sph::kick::KERNEL,
+    &sph::viscosity_begin::KERNEL,
+    &sph::viscosity_product::KERNEL,
+    &sph::viscosity_update::KERNEL,
+    &sph::viscosity_reaction::KERNEL,
+    &sph::viscosity_kick::KERNEL,
     &sph::predict::KERNEL,
     &sph::boundary::KERNEL,
     &sph::factors::KERNEL,
@@ -134,6 +145,16 @@ pub static KERNELS: &[&Kernel] = &[
     &couple::drag_reaction::KERNEL,
     &couple::drag_kick::KERNEL,
 ];
+
+/// Whether the solves that a kernel writes to have converged.
+#[must_use]
+pub fn has_converged(kernel: &Kernel, columns: &Columns) -> bool {
+    kernel.writes.iter().all(|column| match column {
+        Column::FluidPressureSolve => columns.fluid.pressure_solve.is_converged(),
+        Column::FluidViscositySolve => columns.fluid.viscosity_solve.is_converged(),
+        _ => true,
+    })
+}
 
 /// The kernel of that name.
 #[must_use]

@@ -67,6 +67,19 @@ pub struct Incompressible {
     pub boundary_share: f32,
 }
 
+/// Viscosity as a solve for the velocities at the end of the step (`sph::viscosity_begin`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImplicitViscosity {
+    /// Dynamic viscosity between all velocities of neighbours \[Pa s\].
+    pub viscosity: f32,
+    /// Dynamic viscosity between their velocities along the line between them \[Pa s\].
+    pub central_viscosity: f32,
+    /// Residual over the change of the velocities, both as roots of mean squares, at which the solve stops \[1\].
+    pub tolerance: f32,
+    /// Most rounds of a step.
+    pub rounds: u32,
+}
+
 /// An energy of the surface of the fluid (`sph::deficit`, `sph::cohesion`).
 #[derive(Clone, Debug)]
 pub struct Cohesion {
@@ -123,10 +136,12 @@ pub struct FluidParams {
     pub sound_speed: f32,
     /// The solve for the pressure; none where it follows from an equation of state.
     pub incompressible: Option<Incompressible>,
-    /// Dynamic viscosity between all velocities of neighbours \[Pa s\].
+    /// Dynamic viscosity between all velocities of neighbours, of `sph::forces` \[Pa s\].
     pub viscosity: f32,
-    /// Dynamic viscosity between their velocities along the line between them \[Pa s\].
+    /// Dynamic viscosity between their velocities along the line between them, of `sph::forces` \[Pa s\].
     pub central_viscosity: f32,
+    /// All viscosity as a solve; none where it is part of the forces.
+    pub implicit_viscosity: Option<ImplicitViscosity>,
     /// Compression that is allowed for the roughness of the pressure, over that roughness \[s^2\]; see `sph::factors`.
     pub roughness: f32,
     /// Dynamic viscosity between the fluid and walls and bodies that it does not slide along \[Pa s\].

@@ -73,6 +73,11 @@ struct Params {
     no_slip: u32,
     // 1 where a property of a sponge depends on how wet it is.
     has_wetting: u32,
+    // The solve for the implicit viscosity, as `ImplicitViscosity`.
+    implicit_viscosity: f32,
+    implicit_central_viscosity: f32,
+    viscosity_tolerance: f32,
+    viscosity_rounds: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.

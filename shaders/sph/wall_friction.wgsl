@@ -1,4 +1,4 @@
-// Friction of the fluid at walls and bodies that it does not slide along; `wall_friction.rs` has the integral.
+// Friction of the fluid at walls and bodies that it does not slide along.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -9,16 +9,8 @@
 @group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> wrenches: array<vec4<f32>>;
 
-const NEAREST: f32 = 0.125;
-
-fn friction_rate(distance: f32) -> f32 {
-    let radius = params.smoothing.radius;
-    let kinematic = 90.0 * params.wall_viscosity / (params.rest_density * radius * radius);
-    let q = clamp(distance * (1.0 / radius), NEAREST, 1.0);
-    let square = q * q;
-    let fourth = square * square;
-    let integral = 0.025 - square * (1.0 / 12.0) + fourth * 0.125 - fourth * q * (1.0 / 15.0);
-    return max(min(integral * kinematic / q, clock.inverse_step), 0.0);
+fn bounded_rate(distance: f32) -> f32 {
+    return min(friction_rate(distance), clock.inverse_step);
 }
 
 fn wall_friction(point: vec3<f32>, v: vec3<f32>) -> vec3<f32> {
@@ -27,8 +19,8 @@ fn wall_friction(point: vec3<f32>, v: vec3<f32>) -> vec3<f32> {
     }
     var rates = vec3<f32>(0.0);
     for (var axis = 0u; axis < 3u; axis += 1u) {
-        rates[axis] = friction_rate(point[axis] - params.wall_low[axis])
-            + friction_rate(params.wall_high[axis] - point[axis]);
+        rates[axis] = bounded_rate(point[axis] - params.wall_low[axis])
+            + bounded_rate(params.wall_high[axis] - point[axis]);
     }
     return v * vec3<f32>(rates.y + rates.z, rates.x + rates.z, rates.x + rates.y);
 }
@@ -58,7 +50,7 @@ fn main(
         if (is_row && body.surface.y > 0.0) {
             let surface = body_surface(body, point);
             let slide = v - body_velocity(body, point);
-            slowed = (slide - surface.normal * dot(slide, surface.normal)) * friction_rate(surface.distance);
+            slowed = (slide - surface.normal * dot(slide, surface.normal)) * bounded_rate(surface.distance);
         }
         sum += slowed;
         if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {

@@ -96,7 +96,15 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::deficit: smoothing body surface;
     sph::surface_tension: smoothing;
     sph::sweep: body surface wrench sweep;
-    sph::wall_friction: body surface wrench;
+    sph::viscosity_begin: smoothing viscosity viscosity_solve;
+    sph::viscosity_friction: body surface friction;
+    sph::viscosity_kick: viscosity_solve;
+    sph::viscosity_length: sums viscosity_solve;
+    sph::viscosity_product: smoothing viscosity sums;
+    sph::viscosity_reaction: body surface wrench friction;
+    sph::viscosity_round: sums viscosity_solve;
+    sph::viscosity_update: sums viscosity_solve;
+    sph::wall_friction: body surface wrench friction;
 };
 
 /// The same passes with subgroup operations, for adapters that have them.

@@ -10,6 +10,7 @@ use sorb_kernels::{
         Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Stage, Start, StepLimits, is_internal,
         make_room,
     },
+    kernel::has_converged,
     params::Params,
 };
 
@@ -273,7 +274,7 @@ fn run(stage: &Stage, cpu: &Cpu, params: &Params, host: &mut Columns) {
         for kernel in stage.kernels() {
             cpu.enter(|| (kernel.cpu)(cpu, params, host));
         }
-        if host.fluid.pressure_solve.is_converged() {
+        if stage.kernels().iter().all(|kernel| has_converged(kernel, host)) {
             break;
         }
     }

@@ -115,6 +115,8 @@ pub(super) const FLUID: &[Row<Fluid>] = fields! { Fluid, "fluid.";
     rounds: 1.0 to 1000.0, "1";
     sound_speed: 0.1 to 2000.0, "m/s";
     viscosity: 0.0 to 1000.0, "Pa s";
+    viscosity_tolerance: 1e-6 to 0.1, "1";
+    viscosity_rounds: 1.0 to 1000.0, "1";
     artificial_viscosity: 0.0 to 1.0, "1";
     surface_tension: 0.0 to 10.0, "N/m";
     repulsion_damping: 0.0 to 1.0, "1";

@@ -61,7 +61,9 @@ pub use bodies::{Body, Rotation, ShapeKind};
 pub use camera::Camera;
 pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
-pub use fluid::{Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm};
+pub use fluid::{
+    Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm, ViscosityIntegration,
+};
 pub use limits::{Limit, limits};
 pub use motion::Motion;
 #[cfg(feature = "serde")]

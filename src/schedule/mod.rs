@@ -12,4 +12,4 @@ pub use plan::{Content, Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
 #[cfg(feature = "gpu")]
 pub(crate) use shares::Shares;
-pub use step::{HostPhase, POROUS_STEP, Phase, RIGID, STEP, Times};
+pub use step::{HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times};

@@ -10,7 +10,7 @@ use sorb_kernels::{
 
 use super::{
     offload::{Place, Placement},
-    step::{HostPhase, Phase, RIGID_NEEDS, Times, is_met},
+    step::{HostPhase, Phase, RIGID_NEEDS, Solve, Times, is_met},
 };
 
 /// What a scene contains, as far as phases depend on it.
@@ -40,6 +40,8 @@ pub struct Content {
     pub wetting: bool,
     /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
     pub rounds: u32,
+    /// Most rounds of the solve for the viscosity; 0 where it is explicit.
+    pub viscosity_rounds: u32,
 }
 
 /// What becomes of a phase.
@@ -60,7 +62,7 @@ pub struct PlanLine {
     pub verdict: Verdict,
     /// Repetitions, by the group that it is repeated in.
     pub repeat: Option<(usize, u32)>,
-    /// Whether the repetitions end when the pressure solve has converged.
+    /// Whether the repetitions end when the solve that they are rounds of has converged.
     pub until_converged: bool,
     pub(super) work: Work,
 }
@@ -161,11 +163,12 @@ impl Plan {
                     let number = match times {
                         Times::SolverIterations => content.iterations,
                         Times::Fixed(times) => *times,
-                        Times::UntilConverged => content.rounds,
+                        Times::UntilConverged(Solve::Pressure) => content.rounds,
+                        Times::UntilConverged(Solve::Viscosity) => content.viscosity_rounds,
                     };
                     let first = self.lines.len();
                     self.collect(phases, content, Some((*groups, number)), groups);
-                    let until_converged = *times == Times::UntilConverged;
+                    let until_converged = matches!(times, Times::UntilConverged(_));
                     self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
                 }
                 Phase::Host(host) => {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sorb_kernels::{columns::Columns, cpu::Cpu, params::Params};
+use sorb_kernels::{columns::Columns, cpu::Cpu, kernel::has_converged, params::Params};
 
 use super::plan::{Plan, Verdict, Work};
 
@@ -56,7 +56,7 @@ struct Group {
     first: usize,
     last: usize,
     times: u32,
-    /// Whether the repetitions end when the pressure solve has converged.
+    /// Whether the repetitions end when the solve that they are rounds of has converged.
     until_converged: bool,
 }
 
@@ -118,7 +118,11 @@ impl Runner {
                         }
                         times[*time].record(start);
                     }
-                    if group.until_converged && columns.fluid.pressure_solve.is_converged() {
+                    let has_converged = |(work, _): &(Work, usize)| match work {
+                        Work::Kernel(kernel) => has_converged(kernel, columns),
+                        Work::Host(_) => true,
+                    };
+                    if group.until_converged && kernels[group.first..group.last].iter().all(has_converged) {
                         break;
                     }
                 }

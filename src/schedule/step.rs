@@ -31,8 +31,17 @@ pub enum Times {
     SolverIterations,
     /// A fixed number.
     Fixed(u32),
-    /// Until the pressure solve has converged, at most `fluid.rounds` times.
-    UntilConverged,
+    /// Until a solve has converged.
+    UntilConverged(Solve),
+}
+
+/// A solve whose rounds end when it has converged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solve {
+    /// For the pressure, at most `fluid.rounds` rounds.
+    Pressure,
+    /// For the velocities with implicit viscosity, at most `fluid.viscosity_rounds` rounds.
+    Viscosity,
 }
 
 /// A phase that is not a kernel.
@@ -95,11 +104,18 @@ pub static STEP: &[Phase] = &[
     Run(&sph::boundary_pressure::KERNEL),
     Run(&sph::wall_friction::KERNEL),
     Run(&sph::kick::KERNEL),
+    Run(&sph::viscosity_begin::KERNEL),
+    Repeat {
+        times: Times::UntilConverged(Solve::Viscosity),
+        phases: &[Run(&sph::viscosity_product::KERNEL), Run(&sph::viscosity_update::KERNEL)],
+    },
+    Run(&sph::viscosity_reaction::KERNEL),
+    Run(&sph::viscosity_kick::KERNEL),
     Run(&sph::predict::KERNEL),
     Run(&sph::boundary::KERNEL),
     Run(&sph::factors::KERNEL),
     Repeat {
-        times: Times::UntilConverged,
+        times: Times::UntilConverged(Solve::Pressure),
         phases: &[
             Run(&sph::pressure_update::KERNEL),
             Run(&sph::pressure_acceleration::KERNEL),
@@ -146,12 +162,19 @@ pub static POROUS_STEP: &[Phase] = &[
     Run(&sph::wall_friction::KERNEL),
     Run(&couple::solid_pressure::KERNEL),
     Run(&sph::kick::KERNEL),
+    Run(&sph::viscosity_begin::KERNEL),
+    Repeat {
+        times: Times::UntilConverged(Solve::Viscosity),
+        phases: &[Run(&sph::viscosity_product::KERNEL), Run(&sph::viscosity_update::KERNEL)],
+    },
+    Run(&sph::viscosity_reaction::KERNEL),
+    Run(&sph::viscosity_kick::KERNEL),
     Run(&sph::predict::KERNEL),
     Run(&sph::boundary::KERNEL),
     Run(&couple::solid_share::KERNEL),
     Run(&sph::factors::KERNEL),
     Repeat {
-        times: Times::UntilConverged,
+        times: Times::UntilConverged(Solve::Pressure),
         phases: &[
             Run(&sph::pressure_update::KERNEL),
             Run(&sph::pressure_acceleration::KERNEL),
@@ -211,6 +234,8 @@ pub(super) fn is_met(need: Need, content: super::Content) -> bool {
         Need::SurfaceTension => content.surface_tension,
         Need::Cohesion => content.cohesion,
         Need::NoSlip => content.no_slip,
+        Need::ExplicitViscosity => content.viscosity_rounds == 0,
+        Need::ImplicitViscosity => content.viscosity_rounds > 0,
         Need::EquationOfState => content.rounds == 0,
         Need::Incompressible => content.rounds > 0,
         Need::Porous => content.porous,

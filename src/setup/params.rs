@@ -3,7 +3,8 @@
 use sorb_kernels::{
     grid::cells::Domain,
     params::{
-        Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams, WettingParams,
+        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, Params, Solver,
+        SpongeParams, WettingParams,
     },
     smoothing::Wendland,
     sph::{boundary::boundary_profile, deficit::cohesion_stiffness, factors::lattice_diagonal},
@@ -68,6 +69,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             incompressible: None,
             viscosity: 0.0,
             central_viscosity: 0.0,
+            implicit_viscosity: None,
             roughness: 0.0,
             wall_viscosity: 0.0,
             surface_tension: 0.0,
@@ -91,6 +93,17 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         // As the paper has it.
         (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
     };
+    let is_implicit = fluid.viscosity_integration == scene::ViscosityIntegration::Implicit;
+    let implicit_viscosity =
+        (is_implicit && viscosity + central_viscosity > 0.0).then_some(ImplicitViscosity {
+            viscosity,
+            central_viscosity,
+            tolerance: fluid.viscosity_tolerance,
+            rounds: fluid.viscosity_rounds,
+        });
+    // What the solve has, the forces must not have a second time.
+    let (viscosity, central_viscosity) =
+        if is_implicit { (0.0, 0.0) } else { (viscosity, central_viscosity) };
     // Half a spacing, where the first layer of a lattice lies. A particle at half the speed of sound is stopped
     // at the surface.
     let range = 0.5 * fluid.spacing;
@@ -108,6 +121,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         incompressible: incompressible(fluid, &Wendland::new(support), sound_speed),
         viscosity,
         central_viscosity,
+        implicit_viscosity,
         roughness: if is_incompressible { ROUGHNESS * (fluid.spacing / sound_speed).powi(2) } else { 0.0 },
         wall_viscosity: fluid.viscosity,
         surface_tension: if is_incompressible { 0.0 } else { fluid.surface_tension },

@@ -152,11 +152,12 @@ impl World {
             porous: params.solid.is_some(),
             wetting: params.has_wetting(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
+            viscosity_rounds: params.fluid.implicit_viscosity.map_or(0, |implicit| implicit.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };
         let phases = if content.porous { POROUS_STEP } else { STEP };
         let plan = Plan::new(phases, content, &options.observed)?;
-        let steps = Steps::new(scene, &params);
+        let steps = Steps::new(scene, &params, &columns.bodies.states.0, engine.as_ref());
         #[cfg(not(feature = "gpu"))]
         if options.offload.wants_gpu() {
             return Err(WorldError::NeedsGpu(options.offload.clone()));

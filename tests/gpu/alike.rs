@@ -6,7 +6,7 @@ use sorb::{
     scene::Scene,
 };
 
-use super::{DFSPH, busy, common, difference, world, worst};
+use super::{DFSPH, HONEY, busy, common, difference, world, worst};
 
 /// Largest difference of what is left when single particles have gone ways of their own: where water and sponges are,
 /// how much the sponges hold, and the energies, over those that the scene had to lose.
@@ -158,8 +158,11 @@ cases! {
     wring_of_the_paper: "wring_paper", 0.5, &[], 1, 1e-4;
     water_of_the_paper: "water_paper", 0.5, &[], 1, 1e-4;
     dry_of_the_paper: "dry_paper", 0.5, &[], 1, 1e-4;
+    honey: "water", 0.5, HONEY, 1, 1e-4;
+    honey_in_a_sponge: "ball_drop", 0.5, HONEY, 1, 1e-4;
     solved_dam_break: "dam_break_paper", 0.5, DFSPH, 1, 1e-4;
     a_second_of_solved_water: "water", 0.4, &[], 60, 1e-1;
+    a_second_of_honey: "water", 0.4, HONEY, 60, 1e-2;
     a_second_of_standing: "standing", 0.3, &[], 60, 1e-2;
     a_second_of_ball_drop: "ball_drop", 0.3, &[], 60, 1e-2;
     a_second_of_water: "water_paper", 0.3, &[], 60, 1e-1;

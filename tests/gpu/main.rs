@@ -16,6 +16,14 @@ use sorb::{Bound, Measures, Offload, Options, World, WorldError, gpu::Gpu, scene
 /// Pressure by a solve.
 const DFSPH: &[&str] = &["fluid.solver=\"dfsph\""];
 
+/// Thick fluid that sticks to everything, solved for so well that one round more or less is not seen.
+const HONEY: &[&str] = &[
+    "fluid.viscosity=5",
+    "fluid.viscosity_integration=\"implicit\"",
+    "fluid.viscosity_tolerance=1e-5",
+    "fluid.no_slip=true",
+];
+
 /// One device for all tests.
 fn gpu() -> Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();

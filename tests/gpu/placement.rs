@@ -8,7 +8,7 @@ use sorb::{
     schedule::{Place, Verdict},
 };
 
-use super::{DFSPH, busy, common, difference, gpu, world};
+use super::{DFSPH, HONEY, busy, common, difference, gpu, world};
 
 #[test]
 fn every_kernel_can_be_the_first_on_the_gpu() {
@@ -50,9 +50,10 @@ fn everything(name: &str, keys: &[&str]) -> Scene {
 }
 
 /// Kernels that run at one place: those that go through the cells, and those that are repeated until they have converged.
-const TOGETHER: [&[&str]; 2] = [
+const TOGETHER: [&[&str]; 3] = [
     &["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"],
     &["sph::pressure_update", "sph::pressure_acceleration", "sph::pressure_residual"],
+    &["sph::viscosity_product", "sph::viscosity_update"],
 ];
 
 /// Kernels of a scene that can be placed on their own.
@@ -97,6 +98,13 @@ fn every_kernel_of_a_pressure_solve_can_be_alone_on_either_side() {
 #[test]
 fn every_kernel_of_porous_media_can_be_alone_on_either_side() {
     assert_each_can_be_alone(&everything("ball_drop", &[]), 1e-4);
+}
+
+#[test]
+fn every_kernel_of_implicit_viscosity_can_be_alone_on_either_side() {
+    let mut scene = everything("ball_drop", HONEY);
+    scene.bodies[0].no_slip = true;
+    assert_each_can_be_alone(&scene, 1e-4);
 }
 
 #[test]

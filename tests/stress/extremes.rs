@@ -11,7 +11,9 @@ use crate::{
 /// A scene with one key at an end of its range; `None` where that does not fit to the rest of the scene.
 fn at_the_end(key: &str, value: f32) -> Option<Scene> {
     let scene = with_ball(wet(), 2000.0, 0.0);
-    let text = if value.fract() == 0.0 && matches!(key, "fluid.rounds" | "sponges[].iterations") {
+    let text = if value.fract() == 0.0
+        && matches!(key, "fluid.rounds" | "fluid.viscosity_rounds" | "sponges[].iterations")
+    {
         format!("{}={value}", key.replace("[]", "[0]"))
     } else {
         format!("{}={value:e}", key.replace("[]", "[0]"))

@@ -81,6 +81,29 @@ fn viscosity_over_six_decades() {
 }
 
 #[test]
+fn implicit_viscosity_over_six_decades() {
+    let mut cases = Vec::new();
+    for exponent in decades(&[-3, 0, 3], -3..=3) {
+        for sticks in [false, true] {
+            let scene = with_ball(wet(), 2000.0, 0.0);
+            let keys = [
+                format!("fluid.viscosity=1e{exponent}"),
+                "fluid.viscosity_integration=\"implicit\"".to_owned(),
+                format!("fluid.no_slip={sticks}"),
+                format!("bodies[0].no_slip={sticks}"),
+            ];
+            let name = if sticks { ", sticks to walls and ball" } else { "" };
+            cases.push(Case::new(
+                format!("wet: implicit viscosity 1e{exponent} Pa s{name}"),
+                with(&scene, &keys),
+                pick(0.2, 2.0),
+            ));
+        }
+    }
+    table(cases);
+}
+
+#[test]
 fn permeability_over_nine_decades() {
     let mut cases = Vec::new();
     for exponent in decades(&[-14, -11, -8, -5], -14..=-5) {

@@ -116,6 +116,12 @@ pub(super) fn params(
         .floats(&numbers)
         .floats(&[fluid.list_radius(), fluid.wall_viscosity])
         .words(&[u32::from(params.no_slip), u32::from(params.has_wetting())]);
+    match params.fluid.implicit_viscosity {
+        Some(implicit) => bytes
+            .floats(&[implicit.viscosity, implicit.central_viscosity, implicit.tolerance])
+            .words(&[implicit.rounds]),
+        None => bytes.words(&[0; 4]),
+    };
     bytes.0
 }
 

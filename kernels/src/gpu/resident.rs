@@ -21,7 +21,7 @@ use crate::{
     params::Params,
 };
 
-/// Bytes of what a pressure solve keeps from round to round.
+/// Bytes of what a solve keeps from round to round.
 pub(super) const SOLVE_BYTES: u64 = 32;
 /// Where the clock has the largest speed of a body's surface.
 const BODY_SPEED_AT: u64 = 41 * 4;
@@ -150,6 +150,7 @@ impl Resident {
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
         let wetted = if self.params.has_wetting() { nodes } else { 0 };
+        let thick = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
         let tense = if self.params.fluid.cohesion.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
@@ -158,7 +159,7 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 336, uniform),
+            ("params", 352, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),
@@ -182,6 +183,14 @@ impl Resident {
             ("fluid_correction", solved * 16, plain),
             ("solve", SOLVE_BYTES, plain),
             ("solve_sums", most_groups(solved) * 32, plain),
+            ("fluid_friction", thick * 16, plain),
+            ("fluid_friction_between", thick * 16, plain),
+            ("fluid_viscosity_residual", thick * 16, plain),
+            ("fluid_viscosity_direction", thick * 16, plain),
+            ("fluid_viscosity_product", thick * 16, plain),
+            ("fluid_viscosity_change", thick * 16, plain),
+            ("viscosity_solve", SOLVE_BYTES, plain),
+            ("viscosity_sums", most_groups(thick) * 16, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
             ("fluid_grouped", fluid * 4, plain),

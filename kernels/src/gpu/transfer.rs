@@ -39,6 +39,18 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::FluidAcceleration => ("fluid_acceleration", Rows(&mut fluid.acceleration, zero)),
         Column::FluidInterior => ("fluid_interior", Values(&mut fluid.interior)),
         Column::FluidDragRate => ("fluid_drag_rate", Rows(&mut fluid.drag_rate, zero)),
+        Column::FluidFriction => ("fluid_friction", Rows(&mut fluid.friction, zero)),
+        Column::FluidFrictionBetween => ("fluid_friction_between", Rows(&mut fluid.friction_between, zero)),
+        Column::FluidViscosityResidual => {
+            ("fluid_viscosity_residual", Rows(&mut fluid.viscosity_residual, zero))
+        }
+        Column::FluidViscosityDirection => {
+            ("fluid_viscosity_direction", Rows(&mut fluid.viscosity_direction, zero))
+        }
+        Column::FluidViscosityProduct => {
+            ("fluid_viscosity_product", Rows(&mut fluid.viscosity_product, zero))
+        }
+        Column::FluidViscosityChange => ("fluid_viscosity_change", Rows(&mut fluid.viscosity_change, zero)),
         Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
         Column::FluidPredicted => ("fluid_predicted", Rows(&mut fluid.predicted, FAR_ROW)),
         Column::FluidBoundary => ("fluid_boundary", Rows(&mut fluid.boundary, zero)),
@@ -224,6 +236,9 @@ impl Resident {
             Column::FluidPressureSolve => {
                 self.write("solve", bytemuck::cast_slice(&columns.fluid.pressure_solve.words()));
             }
+            Column::FluidViscositySolve => {
+                self.write("viscosity_solve", bytemuck::cast_slice(&columns.fluid.viscosity_solve.words()));
+            }
             _ => {}
         }
     }
@@ -273,6 +288,8 @@ impl Resident {
                 wanted.push((*column, "extremes", 32));
             } else if *column == Column::FluidPressureSolve {
                 wanted.push((*column, "solve", SOLVE_BYTES as usize));
+            } else if *column == Column::FluidViscositySolve {
+                wanted.push((*column, "viscosity_solve", SOLVE_BYTES as usize));
             } else if let Some((name, size)) = self.wrench_buffer(*column) {
                 wanted.push((*column, name, size));
             }
@@ -317,6 +334,8 @@ impl Resident {
             take_extremes(columns, column, words);
         } else if column == Column::FluidPressureSolve {
             columns.fluid.pressure_solve.take_words(words);
+        } else if column == Column::FluidViscositySolve {
+            columns.fluid.viscosity_solve.take_words(words);
         } else {
             let words: &[f32] = bytemuck::cast_slice(words);
             let wrenches = words
@@ -410,7 +429,7 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     }
     match column {
         Column::FluidExtremes | Column::NodeExtremes => 20,
-        Column::FluidPressureSolve => SOLVE_BYTES,
+        Column::FluidPressureSolve | Column::FluidViscositySolve => SOLVE_BYTES,
         Column::BodyStates => count * BODY_BYTES,
         Column::BodyFluidWrenches => groups(rows.fluid),
         Column::BodyNodeWrenches => groups(rows.nodes),

@@ -20,6 +20,7 @@ mod shapes;
 mod sph;
 mod surface;
 mod wetting;
+mod viscosity;
 
 /// A kernel as a plain loop in f64.
 pub type Oracle = fn(&Params, &mut Columns);
@@ -40,6 +41,11 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::boundary_pressure" => incompressible::boundary_pressure,
         "sph::wall_friction" => obstacles::wall_friction,
         "sph::kick" => sph::kick,
+        "sph::viscosity_begin" => viscosity::begin,
+        "sph::viscosity_product" => viscosity::product,
+        "sph::viscosity_update" => viscosity::update,
+        "sph::viscosity_reaction" => viscosity::reaction,
+        "sph::viscosity_kick" => viscosity::kick,
         "sph::predict" => incompressible::predict,
         "sph::boundary" => incompressible::boundary,
         "sph::factors" => incompressible::factors,

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// What other kernels gave to every body before.
-fn given(wrenches: &[Wrench], bodies: usize) -> Vec<Wrench> {
+pub(super) fn given(wrenches: &[Wrench], bodies: usize) -> Vec<Wrench> {
     let mut total = vec![Wrench::default(); bodies];
     for chunk in wrenches.chunks(bodies.max(1)) {
         for (wrench, part) in total.iter_mut().zip(chunk) {
@@ -81,7 +81,7 @@ pub(super) fn sweep_fluid(params: &Params, columns: &mut Columns) {
 }
 
 /// Integral of `lap W z / y` over a half-space at the distance y, for the kernel of the viscosity, slice by slice.
-fn half_space(radius: f64, distance: f64) -> f64 {
+pub(super) fn half_space(radius: f64, distance: f64) -> f64 {
     const SLICES: usize = 4000;
     let y = distance.max(radius / 8.0);
     let thickness = (radius - y).max(0.0) / SLICES as f64;

@@ -19,7 +19,7 @@ use crate::{
     cpu::{Cpu, PerChunk},
     kernel::{Kernel, Need},
     lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
-    params::Params,
+    params::{FluidParams, Params},
     vector::{Vec3x8, dot, minus, plus, splat, times},
 };
 
@@ -31,7 +31,7 @@ use super::{
 /// `sph::wall_friction`.
 pub static KERNEL: Kernel = Kernel {
     name: "sph::wall_friction",
-    needs: &[Need::Fluid, Need::Obstacles, Need::NoSlip],
+    needs: &[Need::Fluid, Need::Obstacles, Need::NoSlip, Need::ExplicitViscosity],
     reads: &[FluidPosition, FluidVelocity, FluidAcceleration, BodyStates, BodyFluidWrenches],
     writes: &[FluidAcceleration, BodyFluidWrenches],
     cpu,
@@ -107,22 +107,27 @@ impl Task<'_> {
     /// f(y) \[1/s\].
     #[inline(always)]
     fn rate<S: Simd>(&self, simd: S, distance: f32x8<S>) -> f32x8<S> {
-        let fluid = &self.params.fluid;
-        let radius = fluid.smoothing.support_radius;
-        let kinematic = 90.0 * fluid.wall_viscosity / (fluid.rest_density * radius * radius);
-        let q = distance * (1.0 / radius);
-        let q = q.max(lanes::splat(simd, NEAREST)).min(lanes::splat(simd, 1.0));
-        let square = q * q;
-        let fourth = square * square;
-        let integral =
-            lanes::splat(simd, 0.025) - square * (1.0 / 12.0) + fourth * 0.125 - fourth * q * (1.0 / 15.0);
-        let rate = integral * kinematic / q;
+        let rate = friction_rate(simd, &self.params.fluid, distance);
         lanes::positive(simd, rate.min(lanes::splat(simd, 1.0 / self.params.step)))
     }
 }
 
+/// f(y) \[1/s\], whatever the length of the step; by rounding it may be a little below zero at the end of its range.
+#[inline(always)]
+pub(super) fn friction_rate<S: Simd>(simd: S, fluid: &FluidParams, distance: f32x8<S>) -> f32x8<S> {
+    let radius = fluid.smoothing.support_radius;
+    let kinematic = 90.0 * fluid.wall_viscosity / (fluid.rest_density * radius * radius);
+    let q = distance * (1.0 / radius);
+    let q = q.max(lanes::splat(simd, NEAREST)).min(lanes::splat(simd, 1.0));
+    let square = q * q;
+    let fourth = square * square;
+    let integral =
+        lanes::splat(simd, 0.025) - square * (1.0 / 12.0) + fourth * 0.125 - fourth * q * (1.0 / 15.0);
+    integral * kinematic / q
+}
+
 /// What is left of vectors along a surface.
 #[inline(always)]
-fn along<S: Simd>(vector: Vec3x8<S>, normal: Vec3x8<S>) -> Vec3x8<S> {
+pub(super) fn along<S: Simd>(vector: Vec3x8<S>, normal: Vec3x8<S>) -> Vec3x8<S> {
     minus(vector, times(normal, dot(vector, normal)))
 }

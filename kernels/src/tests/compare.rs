@@ -133,6 +133,19 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::FluidPressureSolve => {
             Content::Numbers(fluid.pressure_solve.numbers().map(|number| vec![number]).to_vec())
         }
+        Column::FluidFriction => rows(&fluid.friction, &by_id),
+        Column::FluidFrictionBetween => rows(&fluid.friction_between, &by_id),
+        Column::FluidViscosityResidual => rows(&fluid.viscosity_residual, &by_id),
+        Column::FluidViscosityDirection => rows(&fluid.viscosity_direction, &by_id),
+        Column::FluidViscosityProduct => rows(&fluid.viscosity_product, &by_id),
+        Column::FluidViscosityChange => rows(&fluid.viscosity_change, &by_id),
+        Column::FluidViscositySolve => {
+            let [rounds, converged, solved, length, share, residual, change] =
+                fluid.viscosity_solve.numbers();
+            // The share of a direction may be next to nothing, where the length is about one.
+            let lone = [rounds, converged, solved, residual, change].map(|number| vec![number]);
+            Content::Numbers([&lone[..], &[vec![length, share]]].concat())
+        }
         Column::FluidDrag => rows(&fluid.drag, &by_id),
         Column::FluidId => Content::Sets(vec![by_id.iter().map(|row| ids[*row]).collect()]),
         Column::FluidDensity => values(&fluid.density, &by_id),

@@ -13,3 +13,4 @@ mod oracles;
 pub(crate) mod scene;
 mod strain;
 mod wetting;
+mod viscosity;

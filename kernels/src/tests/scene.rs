@@ -11,7 +11,8 @@ use crate::{
     kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
     params::{
-        Cohesion, EquationOfState, FluidParams, Incompressible, Params, Solver, SpongeParams, WettingParams,
+        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, Params, Solver,
+        SpongeParams, WettingParams,
     },
     pbd::stars::Stars,
     smoothing::Wendland,
@@ -46,6 +47,13 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::suction",
     "couple::solid_pressure",
     "sph::kick",
+    "sph::viscosity_begin",
+    "sph::viscosity_product",
+    "sph::viscosity_update",
+    "sph::viscosity_product",
+    "sph::viscosity_update",
+    "sph::viscosity_reaction",
+    "sph::viscosity_kick",
     "sph::predict",
     "sph::boundary",
     "couple::solid_share",
@@ -97,6 +105,7 @@ pub(crate) struct Options {
     pub(crate) cohesion: bool,
     /// Whether properties depend on how wet sponges are, where a kernel asks.
     pub(crate) wetting: bool,
+    pub(crate) implicit_viscosity: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -111,6 +120,7 @@ pub(crate) const FULL: Options = Options {
     porous: false,
     cohesion: false,
     wetting: false,
+    implicit_viscosity: false,
 };
 
 impl Options {
@@ -128,7 +138,8 @@ impl Options {
         let reads = kernel.reads.contains(&Column::NodeWetting);
         let wetting = self.wetting && (reads || porous) || kernel.needs.contains(&Need::Wetting);
         let porous = porous || wetting;
-        Self { incompressible: porous || solves, porous, cohesion, wetting, ..self }
+        let implicit_viscosity = kernel.needs.contains(&Need::ImplicitViscosity);
+        Self { incompressible: porous || solves, porous, cohesion, implicit_viscosity, wetting, ..self }
     }
 
     /// Sites per site of the coarse block, along each axis.
@@ -227,6 +238,8 @@ impl Scene {
             Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
             Need::Cohesion => self.params.fluid.cohesion.is_some(),
             Need::NoSlip => self.params.no_slip,
+            Need::ExplicitViscosity => self.params.fluid.implicit_viscosity.is_none(),
+            Need::ImplicitViscosity => self.params.fluid.implicit_viscosity.is_some(),
             Need::EquationOfState => !self.options.incompressible,
             Need::Incompressible => self.options.incompressible,
             Need::Porous => self.options.porous,
@@ -350,6 +363,7 @@ fn params(options: Options) -> Params {
             incompressible: options.incompressible.then(|| incompressible(radius, spacing)),
             viscosity: 0.5,
             central_viscosity: 0.3,
+            implicit_viscosity: options.implicit_viscosity.then_some(IMPLICIT_VISCOSITY),
             roughness: if options.incompressible { 5.0e-7 } else { 0.0 },
             wall_viscosity: 5.0,
             // The colour field knows volumes that change.
@@ -364,6 +378,10 @@ fn params(options: Options) -> Params {
         solid: options.porous.then(|| Wendland::new(0.012)),
     }
 }
+
+/// With a tolerance that the first round meets, so that rounding does not decide about the residual.
+const IMPLICIT_VISCOSITY: ImplicitViscosity =
+    ImplicitViscosity { viscosity: 8.0, central_viscosity: 5.0, tolerance: 1.0e6, rounds: 50 };
 
 /// With a tolerance of zero, so that rounding does not decide about one more round.
 fn incompressible(radius: f32, spacing: f32) -> Incompressible {

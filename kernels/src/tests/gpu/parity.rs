@@ -26,6 +26,8 @@ const ULPS: f64 = 4.0;
 /// scenes of the usual density. Lists must be equal but for pairs at the very radius.
 const WIDER: &[(&str, f64)] = &[
     ("couple::saturation", 1e-5),
+    // Quotients of sums of either sign: 6.0e-6.
+    ("sph::viscosity_product", 2e-5),
     ("couple::zero_distance", 1.5e-5),
     ("couple::velocity_filter", 5e-6),
     ("couple::exchange", 5e-6),
@@ -152,6 +154,12 @@ fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool {
         Column::FluidBoundary => &mut fluid.boundary,
         Column::FluidFactors => &mut fluid.factors,
         Column::FluidCorrection => &mut fluid.correction,
+        Column::FluidFriction => &mut fluid.friction,
+        Column::FluidFrictionBetween => &mut fluid.friction_between,
+        Column::FluidViscosityResidual => &mut fluid.viscosity_residual,
+        Column::FluidViscosityDirection => &mut fluid.viscosity_direction,
+        Column::FluidViscosityProduct => &mut fluid.viscosity_product,
+        Column::FluidViscosityChange => &mut fluid.viscosity_change,
         Column::FluidPressureRows => &mut fluid.pressure_rows,
         Column::ControlPosition => &mut controls.position,
         Column::ControlVelocity => &mut controls.velocity,

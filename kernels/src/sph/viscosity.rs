@@ -1,0 +1,69 @@
+//! The matrix of the implicit viscosity between pairs, for a group of rows.
+//!
+//! ```text
+//! D_i(v) = mu V_i / m sum_j V_j lap W_visc(r_ij) (v_i - v_j)
+//!        + 10 mu_c V_i / m sum_j V_j (v_i - v_j) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
+//! ```
+//!
+//! These are the viscous accelerations of `sph::forces`, with the opposite sign: symmetric, never negative, equal and opposite for the two
+//! particles of a pair.
+
+use crate::{
+    lanes::{self, LANES, Simd, f32x8},
+    params::Params,
+    smoothing::WendlandLanes,
+    vector::{Vec3x8, plus, times},
+};
+
+/// `D` with its factors at hand.
+pub(super) struct Pairs<'a, S: Simd> {
+    simd: S,
+    kernel: WendlandLanes<S>,
+    scale: f32x8<S>,
+    central_scale: f32x8<S>,
+    softening: f32x8<S>,
+    position: &'a [[f32; 4]],
+}
+
+impl<'a, S: Simd> Pairs<'a, S> {
+    /// Over particles at `position`; does nothing where viscosity is explicit.
+    #[inline(always)]
+    pub(super) fn new(simd: S, params: &Params, position: &'a [[f32; 4]]) -> Self {
+        let fluid = &params.fluid;
+        let (viscosity, central) = fluid
+            .implicit_viscosity
+            .map_or((0.0, 0.0), |implicit| (implicit.viscosity, implicit.central_viscosity));
+        let kernel = fluid.smoothing.lanes(simd);
+        Self {
+            simd,
+            kernel,
+            scale: kernel.viscosity_scale() * (viscosity / fluid.particle_mass),
+            central_scale: kernel.gradient_scale() * (10.0 * central / fluid.particle_mass),
+            softening: lanes::splat(simd, fluid.smoothing.softening()),
+            position,
+        }
+    }
+
+    /// `D` of vectors with the volume of the particle beside them, for eight rows from `first` with their lists.
+    #[inline(always)]
+    pub(super) fn of(&self, vectors: &[[f32; 4]], first: usize, list: &[[u32; LANES]]) -> Vec3x8<S> {
+        let [x, y, z, _] = lanes::load_rows(self.simd, self.position, first);
+        let [vx, vy, vz, volume] = lanes::load_rows(self.simd, vectors, first);
+        let zero = lanes::splat(self.simd, 0.0);
+        let (mut all, mut central) = ([zero; 3], [zero; 3]);
+        for entry in list {
+            let [xj, yj, zj, _] = lanes::gather_rows(self.simd, self.position, entry);
+            let [vxj, vyj, vzj, volume_j] = lanes::gather_rows(self.simd, vectors, entry);
+            let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+            let square = dx * dx + dy * dy + dz * dz;
+            let u = self.kernel.closeness(square);
+            let (wx, wy, wz) = (vx - vxj, vy - vyj, vz - vzj);
+            let pull = volume_j * u;
+            all = [all[0] + pull * wx, all[1] + pull * wy, all[2] + pull * wz];
+            let along = (wx * dx + wy * dy + wz * dz) / (square + self.softening);
+            let pull = pull * u * u * along;
+            central = [central[0] + pull * dx, central[1] + pull * dy, central[2] + pull * dz];
+        }
+        plus(times(all, self.scale * volume), times(central, self.central_scale * volume))
+    }
+}

@@ -1,0 +1,37 @@
+//! After the last round of a solve for the implicit viscosity: the velocities.
+//!
+//! ```text
+//! v = v* + y + r
+//! ```
+//!
+//! `v* + y + r = v* - h D(v* + y)` is one step of Richardson's iteration: with it, the particles have lost exactly what each other
+//! and the bodies got (`sph::viscosity_reaction`), whatever is left of the residual. It is left out where the rounds did not
+//! suffice, because only a residual below the tolerance is known to be harmless.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `sph::viscosity_kick`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::viscosity_kick",
+    needs: &[Need::Fluid, Need::ImplicitViscosity],
+    reads: &[FluidVelocity, FluidViscosityResidual, FluidViscosityChange, FluidViscositySolve],
+    writes: &[FluidVelocity],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
+    let Fluid { velocity, viscosity_residual, viscosity_change, viscosity_solve, .. } = &mut columns.fluid;
+    let share = if viscosity_solve.is_solved() { 1.0 } else { 0.0 };
+    cpu.for_chunks(&mut velocity[..count], |first, velocity| {
+        let found = viscosity_change[first..].iter().zip(&viscosity_residual[first..]);
+        for (velocity, (change, residual)) in velocity.iter_mut().zip(found) {
+            (0..3).for_each(|axis| velocity[axis] += change[axis] + share * residual[axis]);
+        }
+    });
+}

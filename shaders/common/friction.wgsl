@@ -1,0 +1,14 @@
+// Rate at which a surface that the fluid does not slide along slows a particle down at a distance, whatever the length of the step;
+// `wall_friction.rs` has the integral.
+
+const NEAREST: f32 = 0.125;
+
+fn friction_rate(distance: f32) -> f32 {
+    let radius = params.smoothing.radius;
+    let kinematic = 90.0 * params.wall_viscosity / (params.rest_density * radius * radius);
+    let q = clamp(distance * (1.0 / radius), NEAREST, 1.0);
+    let square = q * q;
+    let fourth = square * square;
+    let integral = 0.025 - square * (1.0 / 12.0) + fourth * 0.125 - fourth * q * (1.0 / 15.0);
+    return max(integral * kinematic / q, 0.0);
+}

@@ -1,0 +1,42 @@
+// Before the first round of a solve for the implicit viscosity: what pairs add to the residual, and the first direction.
+//
+//     r_i = p_i = -h D_i(v*)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read_write> viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> viscosity_direction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> viscosity_solve: ViscositySolve;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    let own = velocity[row];
+    let end = list[row];
+    var slot = row;
+    var sum = vec3<f32>(0.0);
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = list[slot];
+        let there = velocity[other];
+        sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz, there.w);
+    }
+    let residual = viscosity_residual[row].xyz - (clock.step * own.w) * sum;
+    viscosity_residual[row] = vec4<f32>(residual, 0.0);
+    viscosity_direction[row] = vec4<f32>(residual, own.w);
+    if (row == 0u) {
+        viscosity_solve = ViscositySolve(0.0, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u);
+    }
+}

@@ -1,0 +1,24 @@
+// After the last round of a solve for the implicit viscosity: v <- v + y + r, without r where the rounds did not suffice.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> viscosity_change: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> viscosity_solve: ViscositySolve;
+@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    let own = velocity[row];
+    let share = f32(viscosity_solve.is_solved);
+    let change = viscosity_change[row].xyz + share * viscosity_residual[row].xyz;
+    velocity[row] = vec4<f32>(own.xyz + change, own.w);
+}

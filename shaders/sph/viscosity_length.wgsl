@@ -1,0 +1,29 @@
+// After the product of a round of a solve for the implicit viscosity: how far to go along the direction, and its share in the next.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<storage, read> viscosity_sums: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> viscosity_solve: ViscositySolve;
+
+@compute @workgroup_size(256)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u) {
+        return;
+    }
+    // Sums of groups that there are not stay zero.
+    var own = vec4<f32>(0.0);
+    for (var k = lane; k < arrayLength(&viscosity_sums); k += 256u) {
+        own += viscosity_sums[k];
+    }
+    let sums = group_row(lane, own, false);
+    if (lane != 0u) {
+        return;
+    }
+    viscosity_solve.length = 0.0;
+    viscosity_solve.share = 0.0;
+    // There is no direction where nothing moves.
+    if (sums.x > 0.0) {
+        let length = sums.y / sums.x;
+        viscosity_solve.length = length;
+        viscosity_solve.share = (length * sums.w - sums.z) / sums.x;
+    }
+}

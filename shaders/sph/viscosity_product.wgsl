@@ -1,0 +1,54 @@
+// One round of a solve for the implicit viscosity: the product of its matrix with the direction, and the sums that
+// `viscosity_length.wgsl` adds up.
+//
+//     q_i = p_i + h (D_i(p) + F_i p_i)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> viscosity_direction: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read> friction: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> friction_between: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> viscosity_product: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> viscosity_sums: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    var sums = vec4<f32>(0.0);
+    if (row < rows) {
+        let point = position[row].xyz;
+        let own = viscosity_direction[row];
+        let end = list[row];
+        var slot = row;
+        var sum = vec3<f32>(0.0);
+        for (var k = 0u; k < end; k += 1u) {
+            slot += rows;
+            let other = list[slot];
+            let there = viscosity_direction[other];
+            sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz, there.w);
+        }
+        let p = own.xyz;
+        let between = friction_between[row].xyz;
+        let slowed = friction[row].xyz * p + between.yzx * p.zxy + between.zxy * p.yzx;
+        let q = p + clock.step * (own.w * sum + slowed);
+        let r = viscosity_residual[row].xyz;
+        viscosity_product[row] = vec4<f32>(q, 0.0);
+        sums = vec4<f32>(dot(p, q), dot(r, p), dot(r, q), dot(q, q));
+    }
+    let all = group_row(lane, sums, false);
+    let place = group_of(group, groups);
+    if (lane == 0u && place * GROUP < rows) {
+        viscosity_sums[place] = all;
+    }
+}

@@ -1,0 +1,49 @@
+// What bodies that the fluid does not slide along take from it, where viscosity is implicit.
+//
+//     impulse = m h sum_i f(y) (v*_i + y_i - v_body)_t
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> viscosity_change: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> bodies: array<Body>;
+@group(0) @binding(6) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let is_row = row < params.fluid_rows;
+    var point = vec3<f32>(0.0);
+    var v = vec3<f32>(0.0);
+    if (is_row) {
+        point = position[row].xyz;
+        v = velocity[row].xyz + viscosity_change[row].xyz;
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let body = bodies[index];
+        var slowed = vec3<f32>(0.0);
+        if (is_row && body.surface.y > 0.0) {
+            let surface = body_surface(body, point);
+            let slide = v - body_velocity(body, point);
+            slowed = (slide - surface.normal * dot(slide, surface.normal)) * friction_rate(surface.distance);
+        }
+        if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
+            let impulse = slowed * (clock.step * params.particle_mass);
+            let all = group_sum(lane, Wrench(impulse, cross(point - body.position.xyz, impulse)));
+            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            if (lane == 0u) {
+                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+            }
+        }
+    }
+}
