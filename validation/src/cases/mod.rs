@@ -9,6 +9,7 @@ mod dam_spheric;
 mod drop;
 mod duct;
 mod floating;
+mod honey;
 mod hydrostatic;
 mod imbibition;
 mod momentum;
@@ -32,6 +33,7 @@ pub const CASES: &[&Case] = &[
     &floating::CASE,
     &drop::CASE,
     &channel::CASE,
+    &honey::CASE,
     &patch::CASE,
     &cantilever::CANTILEVER,
     &strain::UNIAXIAL,

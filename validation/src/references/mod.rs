@@ -7,5 +7,6 @@ pub mod drop;
 pub mod floating;
 pub mod kleefsman;
 pub mod martin_moyce;
+pub mod shear;
 pub mod taylor_green;
 pub mod terzaghi;
