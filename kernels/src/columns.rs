@@ -206,7 +206,7 @@ columns! {
         FluidFrictionBetween = friction_between: Vec<[f32; 4]>, "1/s", Scratch;
         /// What is left of the equation of the implicit viscosity; w: unused.
         FluidViscosityResidual = viscosity_residual: Vec<[f32; 4]>, "m/s", Scratch;
-        /// Direction of the present round of that solve; w: volume of the particle \[m^3\].
+        /// Direction of the present round of that solve; w: unused.
         FluidViscosityDirection = viscosity_direction: Vec<[f32; 4]>, "m/s", Scratch;
         /// Product of its matrix with that direction; w: unused.
         FluidViscosityProduct = viscosity_product: Vec<[f32; 4]>, "m/s", Scratch;

@@ -31,11 +31,11 @@ fn main(
         slot += rows;
         let other = list[slot];
         let there = velocity[other];
-        sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz, there.w);
+        sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz);
     }
-    let residual = viscosity_residual[row].xyz - (clock.step * own.w) * sum;
+    let residual = viscosity_residual[row].xyz - clock.step * sum;
     viscosity_residual[row] = vec4<f32>(residual, 0.0);
-    viscosity_direction[row] = vec4<f32>(residual, own.w);
+    viscosity_direction[row] = vec4<f32>(residual, 0.0);
     if (row == 0u) {
         viscosity_solve = ViscositySolve(0.0, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u);
     }

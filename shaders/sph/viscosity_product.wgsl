@@ -36,12 +36,12 @@ fn main(
             slot += rows;
             let other = list[slot];
             let there = viscosity_direction[other];
-            sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz, there.w);
+            sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz);
         }
         let p = own.xyz;
         let between = friction_between[row].xyz;
         let slowed = friction[row].xyz * p + between.yzx * p.zxy + between.zxy * p.yzx;
-        let q = p + clock.step * (own.w * sum + slowed);
+        let q = p + clock.step * (sum + slowed);
         let r = viscosity_residual[row].xyz;
         viscosity_product[row] = vec4<f32>(q, 0.0);
         sums = vec4<f32>(dot(p, q), dot(r, p), dot(r, q), dot(q, q));

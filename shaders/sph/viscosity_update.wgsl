@@ -25,12 +25,12 @@ fn main(
     let rows = params.fluid_rows;
     var sums = vec4<f32>(0.0);
     if (row < rows) {
-        let along = viscosity_direction[row];
-        let change = viscosity_change[row].xyz + viscosity_solve.length * along.xyz;
+        let along = viscosity_direction[row].xyz;
+        let change = viscosity_change[row].xyz + viscosity_solve.length * along;
         let residual = viscosity_residual[row].xyz - viscosity_solve.length * viscosity_product[row].xyz;
         viscosity_change[row] = vec4<f32>(change, 0.0);
         viscosity_residual[row] = vec4<f32>(residual, 0.0);
-        viscosity_direction[row] = vec4<f32>(residual + viscosity_solve.share * along.xyz, along.w);
+        viscosity_direction[row] = vec4<f32>(residual + viscosity_solve.share * along, 0.0);
         sums = vec4<f32>(dot(residual, residual), dot(change, change), 0.0, 0.0);
     }
     let all = group_row(lane, sums, false);

@@ -21,7 +21,7 @@ fn pairs(params: &Params, implicit: &ImplicitViscosity, fluid: &Fluid, field: &[
         let mut sum = DVec3::ZERO;
         for j in 0..field.len() {
             let (offset, relative) = (x[i] - x[j], field[i] - field[j]);
-            let volumes = f64::from(fluid.velocity[i][3]) * f64::from(fluid.velocity[j][3]);
+            let volumes = (mass / f64::from(params.fluid.rest_density)).powi(2);
             let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
             sum += f64::from(implicit.viscosity) * volumes / mass * laplacian * relative;
             let softened = offset.length_squared() + 0.0025 * f64::from(radius).powi(2);
@@ -82,7 +82,7 @@ pub(super) fn begin(params: &Params, columns: &mut Columns) {
         fluid.friction[i] = row(DVec3::new(matrix.x_axis.x, matrix.y_axis.y, matrix.z_axis.z), 0.0);
         fluid.friction_between[i] = row(DVec3::new(matrix.y_axis.z, matrix.z_axis.x, matrix.x_axis.y), 0.0);
         fluid.viscosity_residual[i] = row(-h * sum, 0.0);
-        fluid.viscosity_direction[i] = row(-h * sum, f64::from(fluid.velocity[i][3]));
+        fluid.viscosity_direction[i] = row(-h * sum, 0.0);
     }
     fluid.viscosity_solve.begin();
 }

@@ -33,37 +33,36 @@ impl<'a, S: Simd> Pairs<'a, S> {
         let (viscosity, central) = fluid
             .implicit_viscosity
             .map_or((0.0, 0.0), |implicit| (implicit.viscosity, implicit.central_viscosity));
-        let kernel = fluid.smoothing.lanes(simd);
+        let (kernel, volume) = (fluid.smoothing.lanes(simd), fluid.rest_volume());
         Self {
             simd,
             kernel,
-            scale: kernel.viscosity_scale() * (viscosity / fluid.particle_mass),
-            central_scale: kernel.gradient_scale() * (10.0 * central / fluid.particle_mass),
+            scale: kernel.viscosity_scale() * (viscosity * volume / fluid.rest_density),
+            central_scale: kernel.gradient_scale() * (10.0 * central * volume / fluid.rest_density),
             softening: lanes::splat(simd, fluid.smoothing.softening()),
             position,
         }
     }
 
-    /// `D` of vectors with the volume of the particle beside them, for eight rows from `first` with their lists.
+    /// `D` of vectors, for eight rows from `first` with their lists.
     #[inline(always)]
     pub(super) fn of(&self, vectors: &[[f32; 4]], first: usize, list: &[[u32; LANES]]) -> Vec3x8<S> {
         let [x, y, z, _] = lanes::load_rows(self.simd, self.position, first);
-        let [vx, vy, vz, volume] = lanes::load_rows(self.simd, vectors, first);
+        let [vx, vy, vz, _] = lanes::load_rows(self.simd, vectors, first);
         let zero = lanes::splat(self.simd, 0.0);
         let (mut all, mut central) = ([zero; 3], [zero; 3]);
         for entry in list {
             let [xj, yj, zj, _] = lanes::gather_rows(self.simd, self.position, entry);
-            let [vxj, vyj, vzj, volume_j] = lanes::gather_rows(self.simd, vectors, entry);
+            let [vxj, vyj, vzj, _] = lanes::gather_rows(self.simd, vectors, entry);
             let (dx, dy, dz) = (x - xj, y - yj, z - zj);
             let square = dx * dx + dy * dy + dz * dz;
             let u = self.kernel.closeness(square);
             let (wx, wy, wz) = (vx - vxj, vy - vyj, vz - vzj);
-            let pull = volume_j * u;
-            all = [all[0] + pull * wx, all[1] + pull * wy, all[2] + pull * wz];
+            all = [all[0] + u * wx, all[1] + u * wy, all[2] + u * wz];
             let along = (wx * dx + wy * dy + wz * dz) / (square + self.softening);
-            let pull = pull * u * u * along;
+            let pull = u * u * u * along;
             central = [central[0] + pull * dx, central[1] + pull * dy, central[2] + pull * dz];
         }
-        plus(times(all, self.scale * volume), times(central, self.central_scale * volume))
+        plus(times(all, self.scale), times(central, self.central_scale))
     }
 }

@@ -110,7 +110,7 @@ impl Task<'_> {
         let back = lanes::splat(simd, -self.params.step);
         for row in (0..residual.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.position, first + row);
-            let [vx, vy, vz, volume] = lanes::load_rows(simd, self.velocity, first + row);
+            let [vx, vy, vz, _] = lanes::load_rows(simd, self.velocity, first + row);
             let mut own = self.walls(simd, [x, y, z], [vx, vy, vz]);
             for body in near.iter().map(|body| &self.bodies[*body]).filter(|body| body.no_slip) {
                 self.add(simd, body, [x, y, z], [vx, vy, vz], &mut own);
@@ -118,7 +118,7 @@ impl Task<'_> {
             let sum = plus(pairs.of(self.velocity, first + row, lists.group(row)), own.slowed);
             let [rx, ry, rz] = times(sum, back);
             lanes::store_rows(residual, row, [rx, ry, rz, zero]);
-            lanes::store_rows(direction, row, [rx, ry, rz, volume]);
+            lanes::store_rows(direction, row, [rx, ry, rz, lanes::splat(simd, 0.0)]);
             let [xx, yy, zz] = own.axes;
             lanes::store_rows(friction, row, [xx, yy, zz, zero]);
             let [yz, zx, xy] = own.between;
