@@ -19,8 +19,8 @@ mod porous;
 mod shapes;
 mod sph;
 mod surface;
-mod wetting;
 mod viscosity;
+mod wetting;
 
 /// A kernel as a plain loop in f64.
 pub type Oracle = fn(&Params, &mut Columns);

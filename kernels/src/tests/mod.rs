@@ -12,5 +12,5 @@ mod momentum;
 mod oracles;
 pub(crate) mod scene;
 mod strain;
-mod wetting;
 mod viscosity;
+mod wetting;
