@@ -95,8 +95,8 @@ pub struct Cohesion {
     pub boundary_share: f32,
 }
 
-/// The most of the roughness that the compression of one step follows, over the square of the step \[1\].
-const PROMPT_ROUGHNESS: f32 = 0.2;
+/// Step over the root of the roughness from which on the compression of one step follows all of it \[1\].
+const PROMPT: f32 = 2.236;
 
 impl FluidParams {
     /// How far the neighbours in the lists may be \[m\].
@@ -114,7 +114,7 @@ impl FluidParams {
     /// What of [`roughness`](Self::roughness) the compression of a single step may follow \[s^2\]; see `sph::predict`.
     #[must_use]
     pub fn prompt_roughness(&self, step: f32) -> f32 {
-        let most = PROMPT_ROUGHNESS * step * step;
+        let most = step * self.roughness.sqrt() / PROMPT;
         if most < self.roughness { most } else { self.roughness }
     }
 }

@@ -26,11 +26,14 @@ fn outer(a: vec3<f32>, b: vec3<f32>) -> mat3x3<f32> {
     return mat3x3<f32>(a * b.x, a * b.y, a * b.z);
 }
 
-fn inverse_of(m: mat3x3<f32>) -> mat3x3<f32> {
+fn inverse_of(matrix: mat3x3<f32>) -> mat3x3<f32> {
+    // Over its trace: the determinant of stiff material in short steps would be more than a number can be.
+    let small = 1.0 / (matrix[0].x + matrix[1].y + matrix[2].z);
+    let m = matrix * small;
     let a = cross(m[1], m[2]);
     let b = cross(m[2], m[0]);
     let c = cross(m[0], m[1]);
-    let scale = 1.0 / dot(m[0], a);
+    let scale = small / dot(m[0], a);
     return mat3x3<f32>(a * scale, b * scale, c * scale);
 }
 

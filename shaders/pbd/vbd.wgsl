@@ -3,6 +3,7 @@
 const RELAXATION: f32 = 0.25;
 const SOUND: f32 = 0.2;
 const SPOILT: f32 = 0.5;
+const LONG: f32 = 0.1;
 
 struct Batch {
     first: u32,
@@ -42,8 +43,10 @@ fn main(
     let local = local_energy(row, x.xyz, old, sponge, clock.step);
     let quadratic = least(local, x.xyz, goal[row], clock.step);
     var relaxation = 1.0;
+    let edges = (quadratic.point - x.xyz) / sponge.edge;
+    let short = (LONG * LONG - dot(edges, edges)) * 4.0 / (3.0 * LONG * LONG);
     if (sponge.iterations > 1.0) {
-        relaxation += RELAXATION * clamp((SPOILT - local.strain) / (SPOILT - SOUND), 0.0, 1.0);
+        relaxation += RELAXATION * clamp(min((SPOILT - local.strain) / (SPOILT - SOUND), short), 0.0, 1.0);
     }
     let relaxed = x.xyz + (quadratic.point - x.xyz) * relaxation;
     var point = pushed(quadratic, relaxed, old, sponge);

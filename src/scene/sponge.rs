@@ -167,8 +167,8 @@ pub struct Sponge {
     /// all of them. Brooks and Corey have `3 + 2 / l` for a distribution of pores of index l, 3 to 4 in foams.
     pub relative_permeability_exponent: u32,
     /// Capillary pressure against which water leaves pores, in place of `entry_pressure` at which it enters them: a sponge that is lifted
-    /// out of water holds a column of about this over (density * gravity). Range 0 to 100000 Pa, and not below
-    /// `entry_pressure`; default 0, which stands for `entry_pressure`.
+    /// out of water holds a column of about this over (density * gravity). Range 0 to 100000 Pa; default 0,
+    /// which stands for `entry_pressure`, below which it must not be.
     ///
     /// Both are counted positive where they hold water. Between them a node goes from one to the other while its saturation changes by a
     /// tenth.

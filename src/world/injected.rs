@@ -47,8 +47,12 @@ const PLACES: &[Place] = &[
 
 /// What no step notices, and whether it is gone afterwards.
 ///
-/// The engine owns the bodies: their column is written anew in every step, and contact with what is nowhere is none.
+/// The engine owns the bodies: their column is written anew in every step, and contact with what is nowhere is none. The compression
+/// that a particle is allowed begins anew where it is no compression (`sph::predict`).
 const SILENT: &[&str] = &[
+    "fluid.velocity.w = NaN: gone",
+    "fluid.velocity.w = inf: gone",
+    "fluid.velocity.w = -inf: gone",
     "bodies.states.position = NaN: gone",
     "bodies.states.position = inf: gone",
     "bodies.states.position = -inf: gone",
@@ -185,11 +189,14 @@ const NOT_RECOVERED: &[(&str, &str)] = &[
     ("dry", "mirrored: every tet is inside out"),
     ("dry", "turned inside out about its centre"),
     ("dry", "every node somewhere"),
-    ("ball_drop", "all nodes at one place"),
     ("ball_drop", "mirrored: every tet is inside out"),
     ("ball_drop", "turned inside out about its centre"),
     ("ball_drop", "every node somewhere"),
 ];
+
+/// What ends in an error that says why: with water and a ball between them, nodes that come from one place get so fast that steps
+/// would be below the smallest.
+const REFUSED: &[(&str, &str)] = &[("ball_drop", "all nodes at one place")];
 
 #[test]
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
@@ -212,6 +219,11 @@ fn sponges_recover_unless_they_are_tangled() {
                 "| {name}: {deformation} | {deformed:.3} | {:.3} | {recovered:?} | {result:?} |",
                 volume(&world)
             );
+            if REFUSED.contains(&(name, *deformation)) {
+                let why = result.expect_err("no longer refused");
+                assert!(why.contains("below time.minimum_step"), "{name}: {deformation}: {why}");
+                continue;
+            }
             assert_eq!(result, Ok(()), "{name}: {deformation}");
             if recovered.is_none() {
                 lost.push((name, *deformation));

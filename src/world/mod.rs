@@ -225,6 +225,8 @@ impl World {
     /// neither of them there.
     pub(crate) fn summed_density(&self) -> Columns {
         let mut columns = self.stores.view().clone();
+        // Before the first step nothing has asked for compression.
+        columns.fluid.acceleration.resize(columns.fluid.position.len(), [0.0; 4]);
         let params = Params { step: 0.0, ..self.params.clone() };
         let phases = [
             &grid::sort_fluid::KERNEL,

@@ -53,6 +53,7 @@ caught! {
     floating
     drop
     channel
+    honey
     patch
     cantilever
     uniaxial

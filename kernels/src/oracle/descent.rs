@@ -187,12 +187,13 @@ fn react(
 }
 
 /// How far a node goes, over the way to its least energy: a quarter further, in steps of more than one sweep, down to none
-/// where a tet is half of its volume too small or too large.
+/// where a tet is half of its volume too small or too large, or the way a tenth of an edge.
 fn relaxation(
     params: &Params,
     (nodes, node): (&Nodes, usize),
     places: &[DVec3],
     tets: &[([usize; 4], usize)],
+    way: DVec3,
 ) -> f64 {
     let sponge = &params.sponges[nodes.sponge[node] as usize];
     if sponge.iterations < 2 {
@@ -204,7 +205,8 @@ fn relaxation(
         f[0].dot(f[1].cross(f[2]))
     };
     let strain = tets.iter().map(|tet| (volume(tet) - 1.0).abs()).fold(0.0, f64::max);
-    1.0 + 0.25 * ((0.5 - strain) / 0.3).clamp(0.0, 1.0)
+    let short = (0.01 - way.length_squared() / f64::from(sponge.edge).powi(2)) / 0.0075;
+    1.0 + 0.25 * ((0.5 - strain) / 0.3).min(short).clamp(0.0, 1.0)
 }
 
 pub(super) fn vbd(params: &Params, columns: &mut Columns) {
@@ -216,8 +218,9 @@ pub(super) fn vbd(params: &Params, columns: &mut Columns) {
         if columns.nodes.predicted[node][3] > 0.0 && descends(params, &columns.nodes, node) {
             let at = (&places[..], &before[..]);
             let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
-            let further = relaxation(params, (&columns.nodes, node), &places, &incidence[node]);
-            let relaxed = places[node] + (point - places[node]) * further;
+            let way = point - places[node];
+            let further = relaxation(params, (&columns.nodes, node), &places, &incidence[node], way);
+            let relaxed = places[node] + way * further;
             let mut end = relaxed;
             push(params, columns, node, stiffness, &mut end);
             if end != relaxed {

@@ -28,9 +28,10 @@ fn box_inside(params: &Params) -> Option<(DVec3, DVec3)> {
     params.walls.map(|(low, high)| (low.as_dvec3() + margin, high.as_dvec3() - margin))
 }
 
-/// What of the roughness a single step follows: at most a fifth of the square of the step.
+/// What of the roughness a single step follows: all of it from 2.236 times its root on.
 fn prompt_roughness(params: &Params) -> f64 {
-    f64::from(params.fluid.roughness).min(0.2 * f64::from(params.step).powi(2))
+    let roughness = f64::from(params.fluid.roughness);
+    roughness.min(f64::from(params.step) * roughness.sqrt() / 2.236)
 }
 
 pub(super) fn predict(params: &Params, columns: &mut Columns) {

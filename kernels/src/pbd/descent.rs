@@ -83,9 +83,12 @@ pub(super) fn product<S: Simd>(m: &Symmetric<S>, v: Vec3x8<S>) -> Vec3x8<S> {
 /// Inverse of a positive definite matrix.
 #[inline(always)]
 pub(super) fn inverse<S: Simd>(simd: S, m: &Symmetric<S>) -> Symmetric<S> {
-    let [xx, yy, zz, xy, xz, yz] = *m;
+    // Over its trace: the determinant of stiff material in short steps would be more than a number can be.
+    let small = lanes::splat(simd, 1.0) / (m[0] + m[1] + m[2]);
+    let [xx, yy, zz, xy, xz, yz] =
+        [m[0] * small, m[1] * small, m[2] * small, m[3] * small, m[4] * small, m[5] * small];
     let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
-    let scale = lanes::splat(simd, 1.0) / (xx * a + xy * b + xz * c);
+    let scale = small / (xx * a + xy * b + xz * c);
     [
         a * scale,
         (xx * zz - xz * xz) * scale,

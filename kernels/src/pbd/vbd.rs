@@ -8,7 +8,7 @@
 //! (`couple::drag_target`). Four vertex colours: the neighbours of a node have another one, so
 //! nodes of a colour can move at the same time. A node goes further than to its least energy by a quarter of the way there,
 //! which needs fewer sweeps for what reaches far, but not in a step of a single sweep, where it would feed vibrations, nor
-//! where a tet is far from its volume at rest, where the energy is not nearly quadratic. Contact and friction are solved together with the elasticity of the node,
+//! where a tet is far from its volume at rest or the way is long, where the energy is not nearly quadratic. Contact and friction are solved together with the elasticity of the node,
 //! in `obstacles.rs`. What a sweep does never raises the total energy without contact; it is stable at any step.
 //!
 //! Differs from the paper: the Hessian is exact and positive definite as it is, because the energy is quadratic in one
@@ -34,6 +34,8 @@ use crate::{
 /// from which on it goes no further than to its least energy \[1\].
 const SOUND: f32 = 0.2;
 const SPOILT: f32 = 0.5;
+/// Way, in edges, from which on a node goes no further than to its least energy; it goes all the way further up to half of that \[1\].
+const LONG: f32 = 0.1;
 
 /// `pbd::vbd`: one sweep over all colours.
 pub static KERNEL: Kernel = Kernel {
@@ -104,9 +106,10 @@ impl Task<'_> {
         let moves = w.simd_gt(zero) & material.own.simd_gt(zero);
         let places = (self.predicted, self.position, self.wet);
         let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
-        let further = relaxation(simd, material, energy.strain);
+        let strain = energy.strain;
         let (point, quadratic) = least(simd, energy, (x, target, mass), self.params.step);
-        let relaxed = plus(x, times(minus(point, x), further));
+        let way = minus(point, x);
+        let relaxed = plus(x, times(way, relaxation(simd, material, strain, way)));
         let own = select(moves, lanes::splat(simd, 1.0), zero);
         let mut contact = quadratic.contact((relaxed, old), material, own);
         obstacles.push(&mut contact, None);
@@ -125,10 +128,13 @@ impl Task<'_> {
 
 /// How far a node goes, over the way to its least energy.
 #[inline(always)]
-fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>) -> f32x8<S> {
+fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: Vec3x8<S>) -> f32x8<S> {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let edges = times(way, material.inverse_edge);
+    let short =
+        (lanes::splat(simd, LONG * LONG) - dot(edges, edges)) * lanes::splat(simd, 4.0 / (3.0 * LONG * LONG));
     let share = (lanes::splat(simd, SPOILT) - strain) * lanes::splat(simd, 1.0 / (SPOILT - SOUND));
-    let share = share.max(lanes::splat(simd, 0.0)).min(lanes::splat(simd, 1.0));
-    lanes::splat(simd, 1.0) + share * material.relaxation
+    one + share.min(short).max(zero).min(one) * material.relaxation
 }
 
 /// Where an energy is least without obstacles, and its second derivative; with what draws it to its target.
