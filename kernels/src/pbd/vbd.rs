@@ -131,6 +131,7 @@ impl Task<'_> {
 fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: Vec3x8<S>) -> f32x8<S> {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
     let edges = times(way, material.inverse_edge);
+    // From 1 at half of that way down to 0 at all of it.
     let short =
         (lanes::splat(simd, LONG * LONG) - dot(edges, edges)) * lanes::splat(simd, 4.0 / (3.0 * LONG * LONG));
     let share = (lanes::splat(simd, SPOILT) - strain) * lanes::splat(simd, 1.0 / (SPOILT - SOUND));

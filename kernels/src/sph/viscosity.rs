@@ -1,11 +1,11 @@
 //! The matrix of the implicit viscosity between pairs, for a group of rows.
 //!
 //! ```text
-//! D_i(v) = mu V_i / m sum_j V_j lap W_visc(r_ij) (v_i - v_j)
-//!        + 10 mu_c V_i / m sum_j V_j (v_i - v_j) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
+//! D_i(v) = mu V / rho_0 sum_j lap W_visc(r_ij) (v_i - v_j)
+//!        + 10 mu_c V / rho_0 sum_j (v_i - v_j) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
 //! ```
 //!
-//! These are the viscous accelerations of `sph::forces`, with the opposite sign: symmetric, never negative, equal and opposite for the two
+//! These are the viscous accelerations of `sph::forces` at rest density, `V = m / rho_0`, with the opposite sign: symmetric, never negative, equal and opposite for the two
 //! particles of a pair.
 
 use crate::{

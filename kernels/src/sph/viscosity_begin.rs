@@ -118,7 +118,7 @@ impl Task<'_> {
             let sum = plus(pairs.of(self.velocity, first + row, lists.group(row)), own.slowed);
             let [rx, ry, rz] = times(sum, back);
             lanes::store_rows(residual, row, [rx, ry, rz, zero]);
-            lanes::store_rows(direction, row, [rx, ry, rz, lanes::splat(simd, 0.0)]);
+            lanes::store_rows(direction, row, [rx, ry, rz, zero]);
             let [xx, yy, zz] = own.axes;
             lanes::store_rows(friction, row, [xx, yy, zz, zero]);
             let [yz, zx, xy] = own.between;
