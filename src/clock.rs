@@ -52,6 +52,8 @@ pub enum Bound {
     SpongeSpeed,
     /// The surface of a body crosses the same as fluid and nodes may.
     BodySpeed,
+    /// None: the scene is asleep, see [`Time::sleep_after`].
+    Asleep,
 }
 
 impl Bound {
@@ -70,6 +72,7 @@ impl Bound {
             Self::Elasticity => "elasticity",
             Self::SpongeSpeed => "sponge_speed",
             Self::BodySpeed => "body_speed",
+            Self::Asleep => "asleep",
         }
     }
 }

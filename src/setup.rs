@@ -41,7 +41,7 @@ impl Setup {
         let setups = scene.bodies.iter().map(body_setup).collect::<Result<Vec<_>, _>>()?;
         let engine = engine(scene, &setups)?;
         place_bodies(scene, &setups, &*engine, &mut columns);
-        let lattice = lattice(scene)?;
+        let lattice = lattice(scene, &columns.bodies.states.0)?;
         fill_nodes(scene, &params, &lattice, &mut columns);
         if scene.fluid.is_some() && !scene.sponges.is_empty() {
             columns.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &columns));
@@ -114,17 +114,34 @@ fn mask(shape: scene::SpongeShape) -> Box<dyn Fn(Vec3) -> bool> {
     }
 }
 
-fn lattice(scene: &Scene) -> Result<Lattice, WorldError> {
+/// How deep in a body a node may begin, over the edge of a cell: contact, and rounding.
+const TOUCH: f32 = 1.0e-3;
+
+/// The sponges, less what bodies take up: material that begins inside a body would be flung out of it. Bodies that grip hold the nodes that
+/// they contain.
+fn lattice(scene: &Scene, bodies: &[Body]) -> Result<Lattice, WorldError> {
     let masks: Vec<_> = scene.sponges.iter().map(|sponge| mask(sponge.shape)).collect();
+    let rooms: Vec<_> = scene
+        .sponges
+        .iter()
+        .map(|sponge| {
+            let (origin, size, depth) = (sponge.position, sponge.size(), TOUCH * sponge.edge);
+            move |place: Vec3| {
+                let point = origin + place * size;
+                !bodies.iter().any(|body| body.touches_nodes && body.distance(point) < -depth)
+            }
+        })
+        .collect();
     let sponges: Vec<_> = scene
         .sponges
         .iter()
-        .zip(&masks)
-        .map(|(sponge, mask)| LatticeSponge {
+        .zip(masks.iter().zip(&rooms))
+        .map(|(sponge, (mask, room))| LatticeSponge {
             edge: sponge.edge,
             cells: sponge.cells.to_array(),
             origin: sponge.position,
             keep: &**mask,
+            has_room: room,
         })
         .collect();
     Ok(Lattice::new(&sponges)?)

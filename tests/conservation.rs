@@ -9,7 +9,7 @@ use sorb::{
     scene::{Body, Domain, Fluid, FluidBlock, FluidSolver, Scene, ShapeKind, Sponge},
 };
 
-const SOLVERS: [FluidSolver; 2] = [FluidSolver::Wcsph, FluidSolver::Dfsph];
+const SOLVERS: [FluidSolver; 3] = [FluidSolver::Wcsph, FluidSolver::Dfsph, FluidSolver::Pbf];
 
 /// Steps over which balances are drawn.
 const STEPS: u32 = 300;

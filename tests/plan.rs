@@ -148,6 +148,7 @@ const WET: Content = Content {
     porous: false,
     wetting: false,
     rounds: 0,
+    projections: 0,
     viscosity_rounds: 0,
 };
 
@@ -206,6 +207,7 @@ fn the_step_itself_is_consistent_for_every_content() {
             porous,
             wetting: bodies,
             rounds,
+            projections: rounds * viscosity_rounds,
             viscosity_rounds,
         };
         if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
@@ -230,6 +232,22 @@ fn a_plan_counts_repetitions_from_the_scene() {
     let calls = |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
     assert_eq!((calls("pbd::vbd"), calls("pbd::predict")), (Some(21), Some(3)));
     assert_eq!(calls("sph::density"), None, "a skipped phase is not timed");
+}
+
+#[test]
+fn position_based_fluids_take_the_rounds_that_the_scene_says() {
+    const NAMES: [&str; 4] =
+        ["sph::factors", "sph::position_correction", "sph::pressure_residual", "sph::pressure_kick"];
+    let calls = |keys: &[&str]| {
+        let mut world = common::world(&common::with(&common::preset("water", 0.5), keys));
+        common::steps(&mut world, 5);
+        NAMES.map(|name| {
+            world.phase_times().iter().find(|time| time.name == name).map_or(0, |time| time.calls)
+        })
+    };
+    assert_eq!(calls(&["fluid.solver=pbf", "fluid.projections=3"]), [15, 15, 0, 0]);
+    let [factors, moved, residual, kick] = calls(&["fluid.projections=3"]);
+    assert!((factors, moved, kick) == (5, 0, 5) && residual >= 5, "the default solves: {residual} rounds");
 }
 
 #[test]

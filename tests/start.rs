@@ -5,7 +5,7 @@ mod common;
 use sorb::{
     World, WorldError,
     glam::Vec3,
-    scene::{Fluid, FluidBlock, Scene},
+    scene::{Body, Fluid, FluidBlock, Scene, ShapeKind, Sponge},
 };
 
 /// A cube of water in the open, whose block moves.
@@ -66,4 +66,33 @@ fn what_is_out_of_range_or_too_late_is_refused_and_changes_nothing() {
     common::steps(&mut world, 1);
     let late = world.set_particle_velocities(|_| Vec3::ZERO).expect_err("too late");
     assert!(matches!(late, WorldError::Started { steps: 1 }), "{late}");
+}
+
+/// A sponge of 8 cm, and a ball that begins at a height above its bottom.
+fn sponge_and_ball(height: f32) -> World {
+    let sponge =
+        Sponge { cells: [8, 8, 8].into(), edge: 0.01, ..Sponge::new("sponge", Vec3::new(-0.04, 0.0, -0.04)) };
+    let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.02 }, Vec3::Y * height, 500.0);
+    let mut scene = Scene::new("embedded").with_sponge(sponge).with_body(ball);
+    scene.gravity = Vec3::ZERO;
+    common::world(&scene)
+}
+
+#[test]
+fn a_sponge_leaves_room_for_a_body_that_begins_inside_it() {
+    let (mut embedded, apart, touching) =
+        (sponge_and_ball(0.041), sponge_and_ball(0.15), sponge_and_ball(0.1));
+    let within = |world: &World| {
+        let centre = Vec3::Y * 0.041;
+        let nodes = world.node_positions().iter();
+        nodes.filter(|x| Vec3::new(x[0], x[1], x[2]).distance(centre) < 0.0199).count()
+    };
+    assert_eq!(within(&embedded), 0);
+    // The control: without the ball there are some, and contact takes none away.
+    assert!(within(&apart) > 20);
+    assert_eq!(touching.node_positions().len(), apart.node_positions().len());
+    common::steps(&mut embedded, 100);
+    let fastest =
+        embedded.node_velocities().iter().flat_map(|v| v[..3].iter().map(|v| v.abs())).fold(0.0, f32::max);
+    assert!(fastest < 1.0e-3, "nothing is flung out, but {fastest} m/s");
 }

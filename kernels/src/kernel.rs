@@ -112,6 +112,7 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::pressure_acceleration::KERNEL,
     &sph::pressure_residual::KERNEL,
     &sph::pressure_kick::KERNEL,
+    &sph::position_correction::KERNEL,
     &sph::boundary_reaction::KERNEL,
     &sph::sweep::KERNEL,
     &sph::advect::KERNEL,

@@ -57,6 +57,8 @@ pub struct Incompressible {
     pub tolerance: f32,
     /// Most rounds of a step.
     pub rounds: u32,
+    /// Rounds of a step in which positions are moved instead \[MM13\]; none where the pressure is solved for.
+    pub projections: Option<u32>,
     /// Diagonal of a lattice at rest, over the square of the step \[1/m^2\].
     pub lattice_diagonal: f32,
     /// Speed at which an error of the density may be put right \[m/s\].

@@ -83,6 +83,7 @@ pub static SHADERS: &[Shader] = shaders! {
     sph::factors: smoothing sums roughness;
     sph::forces: smoothing;
     sph::kick: ;
+    sph::position_correction: ;
     sph::predict: roughness;
     sph::pressure: ;
     sph::pressure_acceleration: smoothing middle roughness;

@@ -76,6 +76,10 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
     /// nothing has moved then. A state that is no longer finite after the step: the run cannot go on.
     fn step(&mut self, dt: f32, wrenches: &[Wrench]) -> Result<(), RigidError>;
 
+    /// Lets time pass \[s\] in which nothing moves: bodies stay where they are, with their velocities, and scripts go on from the
+    /// time after it.
+    fn wait(&mut self, time: f64);
+
     /// Copies the engine with everything that its future depends on: the copy continues with the same bits.
     fn boxed_clone(&self) -> Box<dyn RigidEngine>;
 }

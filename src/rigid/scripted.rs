@@ -72,6 +72,10 @@ impl RigidEngine for ScriptedEngine {
         Ok(())
     }
 
+    fn wait(&mut self, time: f64) {
+        self.time += time;
+    }
+
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())
     }

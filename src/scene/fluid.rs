@@ -29,6 +29,8 @@ pub struct Fluid {
     ///
     /// Deep water needs more: with 50, a column 30 particles deep does not come to rest.
     pub rounds: u32,
+    /// Rounds of a step of `pbf`. Range 1 to 100; default 4.
+    pub projections: u32,
     /// How water and sponges meet; default: `porous` with the solvers `dfsph` and `vbd`, else `paper`.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub coupling: Option<Coupling>,
@@ -79,6 +81,7 @@ impl Default for Fluid {
             solver: FluidSolver::Dfsph,
             density_tolerance: 1e-3,
             rounds: 200,
+            projections: 4,
             coupling: None,
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,
@@ -114,6 +117,9 @@ pub enum FluidSolver {
     /// By a solve that keeps the density at rest density: few long steps \[BK17\].
     #[default]
     Dfsph,
+    /// Not at all: particles are moved to where the density is right, in a fixed number of rounds \[MM13\]. Never slow and always
+    /// stable, and soft: how far water gives way depends on `projections` and on the step.
+    Pbf,
 }
 
 /// Between which velocities of neighbours viscosity acts.
@@ -221,7 +227,7 @@ impl Scene {
 
     /// Whether all solvers are those that [`Coupling::Porous`] needs.
     pub(super) fn allows_porous(&self) -> bool {
-        self.fluid.as_ref().is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph)
+        self.fluid.as_ref().is_some_and(|fluid| fluid.solver != FluidSolver::Wcsph)
             && self.sponges.iter().all(|sponge| sponge.solver == super::Solver::Vbd)
     }
 

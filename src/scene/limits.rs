@@ -100,6 +100,8 @@ pub(super) const TIME: &[Row<Time>] = fields! { Time, "time.";
     maximum_step: 1e-6 to 0.1, "s";
     minimum_step: 1e-9 to 0.1, "s";
     courant: 0.01 to 1.0, "1";
+    sleep_after: 0.0 to 1e3, "s";
+    sleep_speed: 0.0 to 1.0, "m/s";
 };
 
 pub(super) const DOMAIN: &[Row<Domain>] = variants! { Domain, "domain.";
@@ -113,6 +115,7 @@ pub(super) const FLUID: &[Row<Fluid>] = fields! { Fluid, "fluid.";
     support: 1.8 to 3.0, "1";
     density_tolerance: 1e-6 to 0.1, "1";
     rounds: 1.0 to 1000.0, "1";
+    projections: 1.0 to 100.0, "1";
     sound_speed: 0.1 to 2000.0, "m/s";
     viscosity: 0.0 to 1000.0, "Pa s";
     viscosity_tolerance: 1e-6 to 0.1, "1";

@@ -125,11 +125,27 @@ pub struct Time {
     ///
     /// Above 0.4 violent scenes may blow up.
     pub courant: f32,
+    /// Time in which nothing may move before the scene sleeps, and costs nothing until a script moves a body. Range 0 to 1000 s; default 0:
+    /// never.
+    ///
+    /// For what is played, 1 s. For what is measured, never: water that rises by less than `sleep_speed` stops.
+    pub sleep_after: f32,
+    /// Mean speed of particles, of nodes and of every body, from where they were to where they are, up to which nothing moves. Range 0 to
+    /// 1 m/s; default 0.001.
+    pub sleep_speed: f32,
 }
 
 impl Default for Time {
     fn default() -> Self {
-        Self { frame_rate: 60.0, duration: 10.0, maximum_step: 0.004, minimum_step: 1e-6, courant: 0.25 }
+        Self {
+            frame_rate: 60.0,
+            duration: 10.0,
+            maximum_step: 0.004,
+            minimum_step: 1e-6,
+            courant: 0.25,
+            sleep_after: 0.0,
+            sleep_speed: 1e-3,
+        }
     }
 }
 

@@ -162,7 +162,7 @@ pub(super) fn inside(
 
 fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
     if fluid.coupling == Some(Coupling::Porous) && !scene.allows_porous() {
-        let rule = "needs `fluid.solver` = \"dfsph\", and `solver` = \"vbd\" of every sponge";
+        let rule = "needs `fluid.solver` = \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
         problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));
     }
     // Corners are written in decimals, which f32 rounds: a thousandth of the spacing forgives that.

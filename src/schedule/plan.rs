@@ -40,6 +40,8 @@ pub struct Content {
     pub wetting: bool,
     /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
     pub rounds: u32,
+    /// Rounds in which positions are moved; 0 where the pressure is solved for.
+    pub projections: u32,
     /// Most rounds of the solve for the viscosity; 0 where it is explicit.
     pub viscosity_rounds: u32,
 }
@@ -163,6 +165,7 @@ impl Plan {
                     let number = match times {
                         Times::SolverIterations => content.iterations,
                         Times::Fixed(times) => *times,
+                        Times::Projections => content.projections,
                         Times::UntilConverged(Solve::Pressure) => content.rounds,
                         Times::UntilConverged(Solve::Viscosity) => content.viscosity_rounds,
                     };
@@ -170,6 +173,10 @@ impl Plan {
                     self.collect(phases, content, Some((*groups, number)), groups);
                     let until_converged = matches!(times, Times::UntilConverged(_));
                     self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
+                }
+                Phase::KeepDensity { solve, projection } => {
+                    let phases = if content.projections > 0 { projection } else { solve };
+                    self.collect(phases, content, repeat, groups);
                 }
                 Phase::Host(host) => {
                     let verdict = if content.bodies { Verdict::Runs } else { Verdict::Skipped(RIGID_NEEDS) };

@@ -20,6 +20,13 @@ pub enum Phase {
         /// What is repeated.
         phases: &'static [Self],
     },
+    /// What keeps the density of the fluid, where that is no matter of an equation of state.
+    KeepDensity {
+        /// By a solve for the pressure.
+        solve: &'static [Self],
+        /// By moving particles.
+        projection: &'static [Self],
+    },
     /// Something that the host does between kernels.
     Host(&'static HostPhase),
 }
@@ -29,6 +36,8 @@ pub enum Phase {
 pub enum Times {
     /// As often as the sponge that asks for most: `sponges[..].iterations`.
     SolverIterations,
+    /// As often as `fluid.projections` says.
+    Projections,
     /// A fixed number.
     Fixed(u32),
     /// Until a solve has converged.
@@ -67,7 +76,41 @@ pub static RIGID: HostPhase = HostPhase {
 /// energy falls at any number.
 pub(super) const FILTER_SWEEPS: u32 = 2;
 
-use Phase::{Host, Repeat, Run};
+use Phase::{Host, KeepDensity, Repeat, Run};
+
+/// The density by a solve for the pressure \[BK17\].
+static SOLVE: &[Phase] = &[
+    Run(&sph::boundary::KERNEL),
+    Run(&couple::solid_share::KERNEL),
+    Run(&sph::factors::KERNEL),
+    Repeat {
+        times: Times::UntilConverged(Solve::Pressure),
+        phases: &[
+            Run(&sph::pressure_update::KERNEL),
+            Run(&sph::pressure_acceleration::KERNEL),
+            Run(&sph::pressure_residual::KERNEL),
+        ],
+    },
+    // While the position still has the pressure of the step before beside it.
+    Run(&couple::solid_reaction::KERNEL),
+    Run(&sph::pressure_kick::KERNEL),
+    Run(&sph::boundary_reaction::KERNEL),
+];
+
+/// The density by moving particles \[MM13\]: every round begins at the positions that the one before has left.
+static PROJECTION: &[Phase] = &[Repeat {
+    times: Times::Projections,
+    phases: &[
+        Run(&sph::boundary::KERNEL),
+        Run(&couple::solid_share::KERNEL),
+        Run(&sph::factors::KERNEL),
+        Run(&sph::pressure_update::KERNEL),
+        Run(&sph::pressure_acceleration::KERNEL),
+        Run(&couple::solid_reaction::KERNEL),
+        Run(&sph::boundary_reaction::KERNEL),
+        Run(&sph::position_correction::KERNEL),
+    ],
+}];
 
 /// The step. Reads and writes of the kernels check this order; they do not make it.
 pub static STEP: &[Phase] = &[
@@ -112,18 +155,7 @@ pub static STEP: &[Phase] = &[
     Run(&sph::viscosity_reaction::KERNEL),
     Run(&sph::viscosity_kick::KERNEL),
     Run(&sph::predict::KERNEL),
-    Run(&sph::boundary::KERNEL),
-    Run(&sph::factors::KERNEL),
-    Repeat {
-        times: Times::UntilConverged(Solve::Pressure),
-        phases: &[
-            Run(&sph::pressure_update::KERNEL),
-            Run(&sph::pressure_acceleration::KERNEL),
-            Run(&sph::pressure_residual::KERNEL),
-        ],
-    },
-    Run(&sph::pressure_kick::KERNEL),
-    Run(&sph::boundary_reaction::KERNEL),
+    KeepDensity { solve: SOLVE, projection: PROJECTION },
     Run(&couple::control_velocity::KERNEL),
     Repeat {
         times: Times::Fixed(FILTER_SWEEPS),
@@ -170,21 +202,7 @@ pub static POROUS_STEP: &[Phase] = &[
     Run(&sph::viscosity_reaction::KERNEL),
     Run(&sph::viscosity_kick::KERNEL),
     Run(&sph::predict::KERNEL),
-    Run(&sph::boundary::KERNEL),
-    Run(&couple::solid_share::KERNEL),
-    Run(&sph::factors::KERNEL),
-    Repeat {
-        times: Times::UntilConverged(Solve::Pressure),
-        phases: &[
-            Run(&sph::pressure_update::KERNEL),
-            Run(&sph::pressure_acceleration::KERNEL),
-            Run(&sph::pressure_residual::KERNEL),
-        ],
-    },
-    // While the position still has the pressure of the step before beside it.
-    Run(&couple::solid_reaction::KERNEL),
-    Run(&sph::pressure_kick::KERNEL),
-    Run(&sph::boundary_reaction::KERNEL),
+    KeepDensity { solve: SOLVE, projection: PROJECTION },
     Run(&pbd::predict::KERNEL),
     Run(&pbd::guess::KERNEL),
     Repeat {

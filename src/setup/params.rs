@@ -88,8 +88,11 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     let numerical = fluid.rest_density * fluid.artificial_viscosity * sound_speed * support / 20.0;
     let is_incompressible = fluid.solver != scene::FluidSolver::Wcsph;
     let (viscosity, central_viscosity) = match (is_incompressible, fluid.viscosity_form) {
-        (_, scene::ViscosityForm::Monaghan) => (0.0, fluid.viscosity + numerical),
-        (true, scene::ViscosityForm::Morris) => (fluid.viscosity, numerical),
+        (true, scene::ViscosityForm::Monaghan) => {
+            (0.0, fluid.viscosity / lattice_central_viscosity(fluid) + numerical)
+        }
+        (true, scene::ViscosityForm::Morris) => (fluid.viscosity / lattice_viscosity(fluid), numerical),
+        (false, scene::ViscosityForm::Monaghan) => (0.0, fluid.viscosity + numerical),
         // As the paper has it.
         (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
     };
@@ -122,7 +125,12 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         viscosity,
         central_viscosity,
         implicit_viscosity,
-        roughness: if is_incompressible { ROUGHNESS * (fluid.spacing / sound_speed).powi(2) } else { 0.0 },
+        // No pressure is remembered, rough or not, where positions are moved.
+        roughness: if fluid.solver == scene::FluidSolver::Dfsph {
+            ROUGHNESS * (fluid.spacing / sound_speed).powi(2)
+        } else {
+            0.0
+        },
         wall_viscosity: fluid.viscosity,
         surface_tension: if is_incompressible { 0.0 } else { fluid.surface_tension },
         cohesion: cohesion(fluid).filter(|_| is_incompressible),
@@ -130,6 +138,15 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         repulsion_stiffness: frequency * frequency,
         repulsion_damping: 2.0 * fluid.repulsion_damping * frequency,
     }
+}
+
+/// What particles a spacing apart make of a viscosity of 1, in either form: it is made up for.
+fn lattice_viscosity(fluid: &scene::Fluid) -> f32 {
+    Wendland::lattice_viscosity(f64::from(fluid.support_radius()), f64::from(fluid.spacing)) as f32
+}
+
+fn lattice_central_viscosity(fluid: &scene::Fluid) -> f32 {
+    Wendland::lattice_central_viscosity(f64::from(fluid.support_radius()), f64::from(fluid.spacing)) as f32
 }
 
 /// Surface tension from an energy of the surface, if there is any.
@@ -154,6 +171,7 @@ fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) 
     Some(Incompressible {
         tolerance: fluid.density_tolerance,
         rounds: fluid.rounds,
+        projections: (fluid.solver == scene::FluidSolver::Pbf).then_some(fluid.projections),
         lattice_diagonal: lattice_diagonal(smoothing, fluid.spacing),
         // The speed of sound is ten times what the fastest water is expected to reach.
         correction_speed: 0.1 * sound_speed,

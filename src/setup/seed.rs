@@ -36,7 +36,7 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
         let counts = match fluid.solver {
             // A few too many yield slowly to an equation of state.
             scene::FluidSolver::Wcsph => wanted.map(|count| count.round().max(1.0) as u32),
-            scene::FluidSolver::Dfsph => filling(wanted),
+            scene::FluidSolver::Dfsph | scene::FluidSolver::Pbf => filling(wanted),
         };
         let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
         let first_of = |other: &scene::Sponge, point: Vec3| other.saturation > 0.0 && holds(other, point);

@@ -58,10 +58,10 @@ pub enum LatticeError {
         /// Largest reach for this edge \[m\].
         limit: f64,
     },
-    /// No tet is left, because the block is too small or the mask keeps nothing.
+    /// No tet is left, because the block is too small, or the mask or bodies leave nothing.
     #[error(
-        "sponges[{sponge}]: the mask keeps none of the {candidates} tets of cells = {cells:?} (a block of one cell has \
-         none)"
+        "sponges[{sponge}]: shape and bodies leave none of the {candidates} tets of cells = {cells:?} (a block of one \
+         cell has none)"
     )]
     Empty {
         /// Index of the sponge.

@@ -1,6 +1,6 @@
 //! The dense lattice of one sponge while it is set up: which tets exist and the row of every site.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::class::{CLASS_OFFSET, TET_CLASS_COUNT, doubled};
 use super::error::LatticeError;
@@ -39,7 +39,7 @@ impl Grid {
             node_count: 0,
             candidates: 0,
         };
-        grid.select(sponge.keep);
+        grid.select(sponge);
         if grid.tet_count == 0 {
             return Err(LatticeError::Empty { sponge: index, cells, candidates: grid.candidates });
         }
@@ -47,12 +47,9 @@ impl Grid {
         Ok(grid)
     }
 
-    fn select(&mut self, keep: &dyn Fn(Vec3) -> bool) {
+    fn select(&mut self, sponge: &LatticeSponge<'_>) {
         // Eight times the offset of the centroid from its cell, in edges: sums of small integers are exact.
-        let centroids: [[i32; 3]; TET_CLASS_COUNT] = std::array::from_fn(|class| {
-            let nodes = doubled(class);
-            std::array::from_fn(|axis| nodes.iter().map(|node| node[axis]).sum())
-        });
+        let nodes: [_; TET_CLASS_COUNT] = std::array::from_fn(doubled);
         let extent = self.cells.map(|n| 8.0 * f64::from(n));
         let [nx, ny, nz] = self.cells;
         let deltas = self.deltas();
@@ -64,9 +61,13 @@ impl Grid {
                     self.candidates += inside.count_ones();
                     for class in classes(inside) {
                         let middle = [i, j, k].map(|index| 8.0 * f64::from(index));
-                        let centroid = centroids[class];
-                        let unit = |axis: usize| (middle[axis] + f64::from(centroid[axis])) / extent[axis];
-                        if !keep(DVec3::new(unit(0), unit(1), unit(2)).as_vec3()) {
+                        let place = |eighths: [i32; 3]| {
+                            let unit = |axis: usize| (middle[axis] + f64::from(eighths[axis])) / extent[axis];
+                            DVec3::new(unit(0), unit(1), unit(2)).as_vec3()
+                        };
+                        let centroid = [0, 1, 2].map(|axis| nodes[class].iter().map(|node| node[axis]).sum());
+                        let has_room = |node: &[i32; 3]| (sponge.has_room)(place(node.map(|half| 4 * half)));
+                        if !(sponge.keep)(place(centroid)) || !nodes[class].iter().all(has_room) {
                             continue;
                         }
                         self.present[corner] |= 1 << class;

@@ -23,6 +23,8 @@ pub struct LatticeSponge<'a> {
     pub origin: Vec3,
     /// Whether a tet belongs to the shape, given its centroid in the unit cube of the block; asked once for each tet.
     pub keep: &'a dyn Fn(Vec3) -> bool,
+    /// Whether there is room for a node at a place in the unit cube of the block: tets with a node where there is none are left out.
+    pub has_room: &'a dyn Fn(Vec3) -> bool,
 }
 
 impl fmt::Debug for LatticeSponge<'_> {

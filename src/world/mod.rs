@@ -5,6 +5,7 @@ mod error;
 mod injected;
 #[cfg(test)]
 mod pool;
+mod sleep;
 mod start;
 mod views;
 
@@ -100,6 +101,7 @@ pub struct World {
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
+    sleep: sleep::Sleep,
     pub(crate) failed: Option<StepError>,
     #[cfg(feature = "gpu")]
     pub(crate) options: Options,
@@ -152,6 +154,12 @@ impl World {
             porous: params.solid.is_some(),
             wetting: params.has_wetting(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
+            projections: params
+                .fluid
+                .incompressible
+                .as_ref()
+                .and_then(|solve| solve.projections)
+                .unwrap_or(0),
             viscosity_rounds: params.fluid.implicit_viscosity.map_or(0, |implicit| implicit.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
         };
@@ -180,6 +188,7 @@ impl World {
             engine,
             plan,
             clock: Clock::default(),
+            sleep: sleep::Sleep::new(scene),
             failed: None,
             #[cfg(feature = "gpu")]
             options: options.clone(),
@@ -261,27 +270,30 @@ impl World {
     /// # Errors
     /// As [`Self::step`].
     pub fn advance_frame(&mut self) -> Result<FrameReport, StepError> {
-        #[cfg(feature = "gpu")]
-        if self.is_on_device() {
-            return self.going_on(Self::frame_on_device);
-        }
         // A frame that single steps have already filled takes none: it would not notice.
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
+        let is_over = self.sleep_until(end);
+        #[cfg(feature = "gpu")]
+        if self.is_on_device() && !is_over {
+            let report = self.going_on(Self::frame_on_device)?;
+            self.watch();
+            return Ok(report);
+        }
         let mut report = FrameReport {
             time: self.clock.time,
             steps: 0,
             shortest_step: f32::INFINITY,
-            bound: Bound::Frame,
+            bound: if is_over { Bound::Asleep } else { Bound::Frame },
             maximum_speed: 0.0,
         };
         let mut bounds: Vec<(Bound, u32)> = Vec::new();
         // The end is reached exactly: the last step is cut to what is left, and time is summed in f64.
         while end - self.clock.time > 1e-9 {
             let step = self.step_within(end - self.clock.time)?;
-            report.steps += 1;
+            report.steps += u32::from(step.bound != Bound::Asleep);
             report.shortest_step = report.shortest_step.min(step.step);
             report.maximum_speed = report.maximum_speed.max(step.maximum_speed);
             match bounds.iter_mut().find(|(bound, _)| *bound == step.bound) {
@@ -292,16 +304,28 @@ impl World {
         self.clock.frames += 1;
         report.time = self.clock.time;
         report.bound =
-            bounds.iter().rev().max_by_key(|(_, count)| *count).map_or(Bound::Frame, |best| best.0);
+            bounds.iter().rev().max_by_key(|(_, count)| *count).map_or(report.bound, |best| best.0);
         Ok(report)
     }
 
     fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {
-        #[cfg(feature = "gpu")]
-        if self.is_on_device() {
-            return self.going_on(Self::step_on_device);
+        if self.failed.is_none()
+            && let Some(slept) = self.sleep_within(left)
+        {
+            let time = self.clock.time;
+            let maximum_speed = self.clock.fluid_speed.max(self.clock.node_speed);
+            return Ok(StepReport { step: slept as f32, bound: Bound::Asleep, time, maximum_speed });
         }
-        self.going_on(|world| world.try_step(left))
+        #[cfg(feature = "gpu")]
+        let report = if self.is_on_device() {
+            self.going_on(Self::step_on_device)
+        } else {
+            self.going_on(|world| world.try_step(left))
+        };
+        #[cfg(not(feature = "gpu"))]
+        let report = self.going_on(|world| world.try_step(left));
+        self.watch();
+        report
     }
 
     /// Does something unless the world has failed, and remembers if it fails now.

@@ -30,14 +30,19 @@ pub(crate) fn as_in_the_paper(scene: &mut Scene) {
     }
 }
 
-/// A preset at a resolution, in the middle of things; with `_paper` behind its name, with the models of the paper.
+/// A preset at a resolution, in the middle of things; with `_paper` behind its name, with the models of the paper, with `_pbf`, with
+/// position based fluids.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
+    let (name, projected) = name.strip_suffix("_pbf").map_or((name, false), |name| (name, true));
     let mut scene = scene::preset(name)
         .and_then(|scene| scene.scaled(resolution))
         .unwrap_or_else(|error| panic!("{name}: {error}"));
     if paper {
         as_in_the_paper(&mut scene);
+    }
+    if let Some(fluid) = scene.fluid.as_mut().filter(|_| projected) {
+        fluid.solver = FluidSolver::Pbf;
     }
     match name {
         "ball_drop" | "dry" => {

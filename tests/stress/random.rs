@@ -73,7 +73,12 @@ fn fluid(draw: &mut Draw<'_>, spacing: f32) -> Fluid {
         artificial_viscosity: draw.unit(),
         surface_tension: draw.value("fluid.surface_tension"),
         repulsion_damping: draw.unit(),
-        solver: if draw.choice(4) == 0 { scene::FluidSolver::Wcsph } else { scene::FluidSolver::Dfsph },
+        solver: match draw.choice(8) {
+            0 | 1 => scene::FluidSolver::Wcsph,
+            2 => scene::FluidSolver::Pbf,
+            _ => scene::FluidSolver::Dfsph,
+        },
+        projections: 1 + draw.choice(8),
         blocks: vec![block],
         ..Fluid::default()
     }

@@ -254,6 +254,7 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
         &[pass("sph::pressure_residual", Rows::Fluid, FLUID), pass("sph::solve_round", Rows::One, FLUID)],
     ),
     ("sph::pressure_kick", &[pass("sph::pressure_kick", Rows::Fluid, FLUID)]),
+    ("sph::position_correction", &[pass("sph::position_correction", Rows::Fluid, FLUID)]),
     ("sph::boundary_reaction", &[pass("sph::boundary_reaction", Rows::Fluid, FLUID)]),
     ("sph::sweep", &[pass("sph::sweep", Rows::Fluid, FLUID)]),
     ("sph::advect", &[pass("sph::advect", Rows::Fluid, SORT)]),

@@ -264,3 +264,15 @@ pub(super) fn pressure_kick(params: &Params, columns: &mut Columns) {
         fluid.position[i][3] = (f64::from(fluid.pressure_rows[i][0]) / density) as f32;
     }
 }
+
+pub(super) fn position_correction(params: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let step = f64::from(params.step);
+    for i in 0..columns.rows.fluid {
+        let change = step * vector(fluid.correction[i]);
+        let end = vector(fluid.predicted[i]) + step * change;
+        let end = box_inside(params).map_or(end, |(low, high)| end.clamp(low, high));
+        fluid.predicted[i] = row(end, f64::from(fluid.predicted[i][3]));
+        fluid.velocity[i] = row(vector(fluid.velocity[i]) + change, f64::from(fluid.velocity[i][3]));
+    }
+}

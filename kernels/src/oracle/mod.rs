@@ -53,6 +53,7 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "sph::pressure_acceleration" => incompressible::pressure_acceleration,
         "sph::pressure_residual" => incompressible::pressure_residual,
         "sph::pressure_kick" => incompressible::pressure_kick,
+        "sph::position_correction" => incompressible::position_correction,
         "sph::boundary_reaction" => incompressible::boundary_reaction,
         "sph::sweep" => obstacles::sweep_fluid,
         "sph::advect" => sph::advect,

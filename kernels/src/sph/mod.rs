@@ -11,6 +11,7 @@ pub mod density;
 pub mod factors;
 pub mod forces;
 pub mod kick;
+pub mod position_correction;
 pub mod predict;
 pub mod pressure;
 pub mod pressure_acceleration;

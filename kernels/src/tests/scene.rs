@@ -67,6 +67,7 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::solid_reaction",
     "sph::pressure_kick",
     "sph::boundary_reaction",
+    "sph::position_correction",
     "pbd::predict",
     "pbd::guess",
     "couple::node_velocity",
@@ -388,6 +389,7 @@ fn incompressible(radius: f32, spacing: f32) -> Incompressible {
     let smoothing = Wendland::new(radius);
     let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
     Incompressible {
+        projections: None,
         tolerance: 0.0,
         rounds: 50,
         lattice_diagonal: lattice_diagonal(&smoothing, spacing),

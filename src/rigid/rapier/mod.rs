@@ -286,6 +286,10 @@ impl RigidEngine for RapierEngine {
         self.read_back()
     }
 
+    fn wait(&mut self, time: f64) {
+        self.time += time;
+    }
+
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())
     }

@@ -48,7 +48,7 @@ fn a_place_beyond_single_precision_is_refused() {
 fn an_empty_shape_is_refused() {
     let found = error(sponge([3; 3], &|_| false));
     assert_eq!(found, LatticeError::Empty { sponge: 1, cells: [3; 3], candidates: 216 });
-    assert!(found.to_string().contains("sponges[1]: the mask keeps none of the 216 tets"), "{found}");
+    assert!(found.to_string().contains("sponges[1]: shape and bodies leave none of the 216 tets"), "{found}");
     let found = error(sponge([1; 3], &block));
     assert_eq!(found, LatticeError::Empty { sponge: 1, cells: [1; 3], candidates: 0 });
 }

@@ -15,7 +15,7 @@ use super::{Lattice, LatticeSponge, block};
 const EDGE: f32 = 0.0625;
 
 fn sponge<'a>(cells: [u32; 3], keep: &'a dyn Fn(Vec3) -> bool) -> LatticeSponge<'a> {
-    LatticeSponge { edge: EDGE, cells, origin: Vec3::ZERO, keep }
+    LatticeSponge { edge: EDGE, cells, origin: Vec3::ZERO, keep, has_room: &block }
 }
 
 fn lattice(sponges: &[LatticeSponge<'_>]) -> Lattice {
@@ -34,13 +34,21 @@ fn mixed() -> Lattice {
             cells: [6, 4, 9],
             origin: Vec3::new(-0.3, 0.1, 0.7),
             keep: &super::ellipsoid,
+            has_room: &block,
         },
-        LatticeSponge { edge: 0.02, cells: [3, 5, 2], origin: Vec3::new(0.5, 0.0, -0.2), keep: &block },
+        LatticeSponge {
+            edge: 0.02,
+            cells: [3, 5, 2],
+            origin: Vec3::new(0.5, 0.0, -0.2),
+            keep: &block,
+            has_room: &block,
+        },
         LatticeSponge {
             edge: 0.013,
             cells: [7, 4, 6],
             origin: Vec3::new(0.0, 1.0, 0.0),
             keep: &super::cylinder(super::Axis::Y),
+            has_room: &block,
         },
     ])
 }

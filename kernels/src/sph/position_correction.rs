@@ -1,0 +1,42 @@
+//! End of a round of position based fluids \[MM13\]: particles are moved to where the density is right, and have moved at that speed.
+//!
+//! ```text
+//! x*_i += h^2 a_i,   v_i += h a_i
+//! ```
+//!
+//! with `h^2 a` the displacement of \[MM13, eq. 12\]: `a` comes from `sph::pressure_acceleration`, with the multipliers of a single relaxed
+//! Jacobi step from zero (`sph::pressure_update`). The next round begins where this one ends, with a new density: no linear system is solved,
+//! and no pressure is remembered.
+
+use crate::{
+    columns::{Column::*, Columns, Fluid},
+    cpu::Cpu,
+    kernel::{Kernel, Need},
+    params::Params,
+};
+
+/// `sph::position_correction`.
+pub static KERNEL: Kernel = Kernel {
+    name: "sph::position_correction",
+    needs: &[Need::Fluid, Need::Incompressible],
+    reads: &[FluidPredicted, FluidVelocity, FluidCorrection],
+    writes: &[FluidPredicted, FluidVelocity],
+    cpu,
+};
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.fluid;
+    let Fluid { predicted, velocity, correction, .. } = &mut columns.fluid;
+    let inside = super::advect::inside(params);
+    let step = params.step;
+    cpu.for_chunks((&mut predicted[..count], &mut velocity[..count]), |first, (predicted, velocity)| {
+        for ((x, v), a) in predicted.iter_mut().zip(velocity).zip(&correction[first..]) {
+            for axis in 0..3 {
+                let change = step * a[axis];
+                let end = x[axis] + step * change;
+                x[axis] = inside.map_or(end, |(low, high)| end.clamp(low[axis], high[axis]));
+                v[axis] += change;
+            }
+        }
+    });
+}

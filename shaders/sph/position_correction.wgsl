@@ -1,0 +1,34 @@
+// End of a round of position based fluids: particles are moved to where the density is right, and have moved at that speed.
+//
+//     x*_i += h^2 a_i,   v_i += h a_i
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> correction: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> predicted: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let change = clock.step * correction[row].xyz;
+    let before = predicted[row];
+    var end = before.xyz + clock.step * change;
+    if (params.wall_low.w > 0.0) {
+        let margin = params.spacing * 0.05;
+        let low = params.wall_low.xyz + margin;
+        let high = params.wall_high.xyz - margin;
+        end = select(select(end, high, end > high), low, end < low);
+    }
+    predicted[row] = vec4<f32>(end, before.w);
+    let velocity_before = velocity[row];
+    velocity[row] = vec4<f32>(velocity_before.xyz + change, velocity_before.w);
+}
