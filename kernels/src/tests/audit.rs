@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{
     levels::words,
-    scene::{FULL, Options, Scene, best},
+    scene::{CHANNEL, FULL, Options, Scene, best},
 };
 use crate::{
     columns::{Column, Columns},
@@ -55,6 +55,7 @@ fn scenes() -> Vec<Options> {
         WETTED,
         FULL,
         Options { fluid: 200, bounded: false, ..FULL },
+        CHANNEL,
         Options { fluid: 9, walls: false, ..FULL },
     ]
 }

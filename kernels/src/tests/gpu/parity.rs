@@ -1,10 +1,12 @@
 //! Every kernel on the GPU against its body for the CPU.
 
+use glam::Vec3;
+
 use super::{
     super::{
         compare::errors_of,
         oracles,
-        scene::{FULL, Options, Scene, best},
+        scene::{CHANNEL, FULL, Options, Scene, TORUS, best},
     },
     after_on, after_on_all, gpu,
 };
@@ -13,6 +15,7 @@ use crate::{
     gpu::is_internal,
     grid::neighbors::Neighbors,
     kernel::{KERNELS, Kernel, kernel},
+    oracle::apart,
     params::EquationOfState,
 };
 
@@ -77,7 +80,8 @@ fn list_error(column: Column, before: &Scene, found: &Columns, expected: &Column
         for query in 0..queries {
             for target in lists.of(query, targets) {
                 let (a, b) = (place(query, of_fluid), place(target as usize, to_fluid));
-                let square: f64 = (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum();
+                let [a, b] = [a, b].map(|[x, y, z, _]| Vec3::new(x, y, z).as_dvec3());
+                let square = apart(&before.params, a, b).length_squared();
                 let ratio = square / f64::from(radius).powi(2);
                 if (ratio - 1.0).abs() > 1e-6 {
                     all.push((identity(query, of_fluid), identity(target as usize, to_fluid)));
@@ -109,6 +113,7 @@ fn scenes() -> Vec<Options> {
     all.push(Options { sponges: false, ..FULL });
     all.push(Options { wetting: true, ..FULL });
     all.push(Options { wetting: true, fluid: 65, walls: false, ..FULL });
+    all.extend([CHANNEL, TORUS, Options { fluid: 65_537, ..TORUS }]);
     all
 }
 
