@@ -190,7 +190,9 @@ impl World {
         world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
         world.clock.body_speed = fastest_body(&bodies.states.0);
         if world.params.fluid.incompressible.is_some() {
-            world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], scene.gravity);
+            // Nothing bears the weight along an axis without walls.
+            let held = Vec3::select(scene.periodic().into(), Vec3::ZERO, scene.gravity);
+            world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], held);
         }
         world.look();
         Ok(world)

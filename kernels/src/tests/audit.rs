@@ -70,6 +70,10 @@ fn kernels_read_and_write_what_they_declare() {
     for options in scenes() {
         for kernel in KERNELS {
             let before = Scene::new(options.suiting(kernel)).before(kernel.name, &best());
+            // Without sponges there are no columns that a kernel of theirs could be seen to read.
+            if !options.sponges && !before.has_work(kernel) {
+                continue;
+            }
             if let Err(error) = audit(kernel.cpu, kernel.reads, kernel.writes, &before) {
                 failures.push(format!("{} {error} in {options:?}", kernel.name));
             }

@@ -79,6 +79,8 @@ fn missing_keys_are_named() {
     assert!(text.ends_with("missing key `bodies[0].shape.radius`"), "{text}");
     let text = message("version = 1\n[domain]\nminimum = [0, 0, 0]\n");
     assert!(text.ends_with("missing key `domain.kind`"), "{text}");
+    let text = message("version = 1\n[domain]\nkind = \"open\"\nperiodic = [true, true, true]\n");
+    assert!(text.contains("unknown key `domain.periodic`"), "{text}");
 }
 
 #[test]
