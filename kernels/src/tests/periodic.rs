@@ -133,7 +133,7 @@ fn no_place_of_a_box_that_repeats_is_special() {
 }
 
 /// Kernels in which pairs see each other across, and that which brings particles back.
-const ACROSS: &[&str] = &[
+pub(super) const ACROSS: &[&str] = &[
     "grid::fluid_neighbors",
     "sph::density",
     "sph::forces",

@@ -29,11 +29,8 @@ const SPEED: f64 = 0.1;
 const REYNOLDS: f64 = 100.0;
 /// Particles along the side.
 const PARTICLES: u32 = 50;
-/// Layers of particles: pairs reach two spacings, so that the middle of the slab does not feel both of its walls.
-const LAYERS: u32 = 4;
-/// Room beside the layers, over what they take: particles that flow lie less densely than in a lattice. In a box that is full no
-/// pressure is high enough, and the particles jam.
-const ROOM: f64 = 1.0 / 16.0;
+/// Layers of particles along the axis in which nothing happens, and which repeats: pairs reach two spacings.
+const LAYERS: u32 = 6;
 /// Times of the fit, in units of the side over the speed. Before, the lattice that it begins with breaks.
 const FIT: [f64; 2] = [0.5, 2.5];
 
@@ -92,7 +89,6 @@ fn scene(
     (viscosity_form, artificial_viscosity): (ViscosityForm, f32),
 ) -> Scene {
     let corner = Vec3::new(SIDE as f32, SIDE as f32, (f64::from(LAYERS) * spacing) as f32);
-    let room = corner * Vec3::new(1.0, 1.0, 1.0 + ROOM as f32);
     let rest_density = Fluid::default().rest_density;
     let fluid = Fluid {
         spacing: spacing as f32,
@@ -109,7 +105,8 @@ fn scene(
         time: Time { frame_rate: 25.0, ..Time::default() },
         ..Scene::new("taylor_green")
     }
-    .in_box(Vec3::ZERO, room)
+    .in_box(Vec3::ZERO, corner)
+    .repeating([false, false, true])
     .with_fluid(fluid)
 }
 

@@ -6,6 +6,7 @@ use super::{
     super::{
         compare::errors_of,
         oracles,
+        periodic::ACROSS,
         scene::{CHANNEL, FULL, Options, Scene, TORUS, best},
     },
     after_on, after_on_all, gpu,
@@ -199,6 +200,23 @@ fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
             assert!(is_noticed, "{} does not notice {}: {errors:?}", kernel.name, column.name());
         }
         assert!(planted > 0, "{} reads no numbers", kernel.name);
+    }
+}
+
+/// The control of what repeats: a twin that does not know differs from the CPU.
+#[test]
+fn a_twin_that_does_not_look_across_is_noticed() {
+    for kernel in KERNELS.iter().filter(|kernel| ACROSS.contains(&kernel.name)) {
+        let mut before = Scene::new(CHANNEL.suiting(kernel)).before(kernel.name, &best());
+        // Some particles leave the box in the step.
+        before.columns.fluid.velocity.iter_mut().for_each(|row| row[0] *= 10.0);
+        let expected = on_cpu(kernel, &before);
+        let mut altered = before.clone();
+        altered.params.periodic = None;
+        let found = after_on(gpu(), kernel, &altered);
+        let errors = gpu_errors(kernel, &before, &found, &expected);
+        let is_noticed = errors.iter().any(|(_, error)| *error > bound(kernel));
+        assert!(is_noticed, "{} does not notice: {errors:?}", kernel.name);
     }
 }
 
