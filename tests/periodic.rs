@@ -50,12 +50,6 @@ fn whirl(scene: &Scene, speed: f32) -> impl Fn(Vec3) -> Vec3 {
     }
 }
 
-fn whirling(scene: &Scene) -> World {
-    let mut world = common::world(scene);
-    world.set_particle_velocities(whirl(scene, 0.3)).unwrap_or_else(|error| panic!("{error}"));
-    world
-}
-
 /// Places or velocities in the order of the particles' identities.
 fn by_id(world: &World, rows: &[[f32; 4]]) -> Vec<DVec3> {
     let mut all: Vec<(u32, DVec3)> = world
@@ -102,11 +96,15 @@ fn rows_are_a_spacing_apart_across_the_sides() {
 #[test]
 fn a_full_box_that_repeats_is_at_rest_density_everywhere() {
     let errors = |periodic| {
-        let world = common::world(&full(periodic));
+        let mut scene = full(periodic);
+        // The solve for the pressure has no density.
+        fluid(&mut scene).solver = FluidSolver::Wcsph;
+        let world = common::world(&scene);
         let density = &world.columns().fluid.density[..world.particle_ids().len()];
         density.iter().map(|density| f64::from((density / 1000.0 - 1.0).abs())).fold(0.0, f64::max)
     };
-    assert!(errors([true; 3]) < 0.01, "{}", errors([true; 3]));
+    // Particles are put up to a hundredth of a spacing beside their places: 1.1 %.
+    assert!(errors([true; 3]) < 0.02, "{}", errors([true; 3]));
     // The control: at walls neighbours are missing.
     assert!(errors([true, false, true]) > 0.1);
 }
@@ -118,14 +116,18 @@ fn momentum_is_kept_without_gravity() {
             let mut scene = full(periodic);
             let fluid = fluid(&mut scene);
             (fluid.solver, fluid.viscosity, fluid.sound_speed) = (solver, 0.5, Some(10.0));
-            let mut world = whirling(&scene);
+            let (mut world, whirl) = (common::world(&scene), whirl(&scene, 0.3));
+            let field = |at| whirl(at) + Vec3::new(0.2, 0.1, -0.1);
+            world.set_particle_velocities(field).unwrap_or_else(|error| panic!("{error}"));
             let speed = |world: &World| {
                 let all = world.particle_velocities().iter();
                 all.map(|[x, y, z, _]| f64::from(Vec3::new(*x, *y, *z).length())).sum::<f64>()
             };
             let scale = speed(&world) / world.particle_ids().len() as f64 * world.measures().water_mass;
             let before = world.measures().linear_momentum;
-            common::steps(&mut world, 60);
+            while world.clock().time < 0.04 {
+                common::steps(&mut world, 1);
+            }
             assert_eq!(common::unhealthy(&world, world.particle_ids().len()), None);
             (world.measures().linear_momentum - before).length() / scale
         };
@@ -136,7 +138,7 @@ fn momentum_is_kept_without_gravity() {
 }
 
 /// Largest distance, over the spacing, of particles from where they are in the scene as it is, after some steps.
-fn wandered(scene: &Scene, offset: Vec3, fault: f32) -> f64 {
+fn wandered(scene: &Scene, steps: u32, offset: Vec3, fault: f32) -> f64 {
     let periodic = scene.periodic();
     let mut places = Vec::new();
     for (moved, speed) in [(Vec3::ZERO, 0.3), (offset, 0.3 + fault)] {
@@ -147,7 +149,7 @@ fn wandered(scene: &Scene, offset: Vec3, fault: f32) -> f64 {
         (block.minimum, block.maximum) = (block.minimum + moved, block.maximum + moved);
         let mut world = common::world(&scene);
         world.set_particle_velocities(whirl(&scene, speed)).unwrap_or_else(|error| panic!("{error}"));
-        common::steps(&mut world, 10);
+        common::steps(&mut world, steps);
         let back = |place: DVec3| place - moved.as_dvec3();
         places.push(by_id(&world, world.particle_positions()).into_iter().map(back).collect::<Vec<_>>());
     }
@@ -157,11 +159,20 @@ fn wandered(scene: &Scene, offset: Vec3, fault: f32) -> f64 {
 
 #[test]
 fn where_the_box_begins_does_not_matter() {
-    let scene = full([true; 3]);
     let offset = Vec3::new(0.0137, -0.0071, 0.0203);
-    assert!(wandered(&scene, offset, 0.0) < 1e-3, "{:.1e}", wandered(&scene, offset, 0.0));
-    // The control: a little faster.
-    assert!(wandered(&scene, offset, 3e-3) > 3e-3, "{:.1e}", wandered(&scene, offset, 3e-3));
+    for solver in [FluidSolver::Dfsph, FluidSolver::Wcsph] {
+        let mut scene = full([true; 3]);
+        let fluid = fluid(&mut scene);
+        (fluid.solver, fluid.sound_speed) = (solver, Some(10.0));
+        // As many rounds in any case: within a tolerance, one more of them may be due to rounding.
+        (fluid.density_tolerance, fluid.rounds) = (1e-6, 4);
+        // Found: 2.9e-6 and 3.8e-6.
+        let moved = wandered(&scene, 4, offset, 0.0);
+        assert!(moved < 2e-5, "{solver:?}: {moved:.1e}");
+        // The control: a thousandth faster, 7.0e-5 and 1.3e-4.
+        let faster = wandered(&scene, 4, offset, 3e-4);
+        assert!(faster > 4e-5, "{solver:?}: {faster:.1e}");
+    }
 }
 
 #[test]

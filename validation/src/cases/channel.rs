@@ -29,6 +29,8 @@ const PARTICLES: u32 = 40;
 /// Distance of the plates \[m\], and their thickness.
 const GAP: f64 = 0.02;
 const PLATE: f64 = 0.004;
+/// Room between the plates beside what the particles take in a lattice, over that: in a box that is full they jam.
+const ROOM: f64 = 0.01;
 /// Length of what repeats, over the distance of the plates.
 const LENGTH: f64 = 1.0;
 /// Particles across the channel, along the axis in which nothing happens, and which repeats: pairs reach two spacings.
@@ -90,7 +92,7 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
         blocks: vec![FluidBlock::new(centre - half, centre + half)],
         ..Fluid::default()
     };
-    let reach = Vec3::Y * PLATE as f32;
+    let (reach, room) = (Vec3::Y * PLATE as f32, Vec3::Y * (ROOM * GAP) as f32);
     let plate = |name: &str, y: f64, way: f64| {
         let half_extents = Vec3::new(half.x + GAP as f32, 0.5 * PLATE as f32, half.z + GAP as f32);
         let motion = Motion::Linear { velocity: Vec3::X * (SPEED * way) as f32, start: 0.0, end: 1.0 };
@@ -105,9 +107,9 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
         time: Time { frame_rate: 1000.0, ..Time::default() },
         ..Scene::new("channel")
     }
-    .in_box(centre - half - reach, centre + half + reach)
+    .in_box(centre - half - reach, centre + half + reach + room)
     .repeating([true, false, true])
     .with_fluid(fluid)
     .with_body(plate("lower", -0.5 * PLATE, lower))
-    .with_body(plate("upper", GAP + 0.5 * PLATE, 1.0))
+    .with_body(plate("upper", GAP + 0.5 * PLATE + f64::from(room.y), 1.0))
 }
