@@ -253,8 +253,8 @@ fn what_repeats_is_longer_than_pairs_reach() {
     assert_eq!(scene.problems(), []);
     fluid(&mut scene).surface_tension = 0.07;
     assert_eq!(scene.problems(), [], "5 cm are more than four times 1 cm");
-    fluid(&mut scene).support = 2.6;
-    let text = "`domain.periodic[2]` = true: needs a box that is longer than 0.052 m there, \
+    fluid(&mut scene).support = 2.75;
+    let text = "`domain.periodic[2]` = true: needs a box that is longer than 0.055 m there, \
                 twice as far as particles feel each other; this one is 0.05 m";
     assert_eq!(only(&scene).to_string(), text);
     // Where there are walls, and with the equation of state, the radius is another one.

@@ -29,8 +29,11 @@ const SPEED: f64 = 0.1;
 const REYNOLDS: f64 = 100.0;
 /// Particles along the side.
 const PARTICLES: u32 = 50;
-/// Layers of particles along the axis in which nothing happens, and which repeats: pairs reach two spacings.
-const LAYERS: u32 = 6;
+/// Layers of particles along the axis in which nothing happens, and which repeats.
+const LAYERS: u32 = 8;
+/// Room beside the layers, over what they take: particles that flow lie less densely than in a lattice. In a box that is full no
+/// pressure is high enough, and the particles jam.
+const ROOM: f64 = 0.07;
 /// Times of the fit, in units of the side over the speed. Before, the lattice that it begins with breaks.
 const FIT: [f64; 2] = [0.5, 2.5];
 
@@ -89,6 +92,7 @@ fn scene(
     (viscosity_form, artificial_viscosity): (ViscosityForm, f32),
 ) -> Scene {
     let corner = Vec3::new(SIDE as f32, SIDE as f32, (f64::from(LAYERS) * spacing) as f32);
+    let room = corner * Vec3::new(1.0, 1.0, 1.0 + ROOM as f32);
     let rest_density = Fluid::default().rest_density;
     let fluid = Fluid {
         spacing: spacing as f32,
@@ -105,7 +109,7 @@ fn scene(
         time: Time { frame_rate: 25.0, ..Time::default() },
         ..Scene::new("taylor_green")
     }
-    .in_box(Vec3::ZERO, corner)
+    .in_box(Vec3::ZERO, room)
     .repeating([false, false, true])
     .with_fluid(fluid)
 }
