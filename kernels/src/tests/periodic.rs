@@ -45,8 +45,8 @@ fn unevenness(scene: &Scene) -> (f64, f64) {
 #[test]
 fn a_lattice_that_fills_a_box_that_repeats_has_no_end() {
     let (spread, acceleration) = unevenness(&lattice(FILLED));
-    // Rounding of places: 1.2e-6 of the density.
-    assert!(spread < 4e-6 && acceleration < 2e-5, "{spread:.1e} {acceleration:.1e}");
+    // Rounding of places: 1.2e-6 of the density, and 3.7e-5 of what the pressure does on one side.
+    assert!(spread < 4e-6 && acceleration < 1e-4, "{spread:.1e} {acceleration:.1e}");
     // The control: along one axis it ends.
     let (spread, acceleration) = unevenness(&lattice(Options { periodic: [true, true, false], ..FILLED }));
     assert!(spread > 0.1 && acceleration > 0.1, "{spread:.1e} {acceleration:.1e}");
