@@ -84,7 +84,11 @@ fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, W
     #[cfg(feature = "rigid")]
     if setups.iter().any(|setup| setup.kind == sorb_kernels::body::BodyKind::Dynamic) {
         let container = match scene.domain {
-            scene::Domain::Box { minimum, maximum } => Some((minimum, maximum)),
+            scene::Domain::Box { minimum, maximum, periodic } => {
+                let open = Vec3::splat(f32::INFINITY);
+                let corner = |own: Vec3, far: Vec3| Vec3::select(periodic.into(), far, own);
+                Some((corner(minimum, -open), corner(maximum, open)))
+            }
             scene::Domain::Open => None,
         };
         return Ok(Box::new(crate::rigid::RapierEngine::new(scene.gravity, container, setups)?));

@@ -17,6 +17,7 @@ mod lanes;
 pub mod oracle;
 pub mod params;
 pub mod pbd;
+pub mod periodic;
 pub mod reduce;
 pub mod smoothing;
 pub mod sph;

@@ -2,7 +2,10 @@
 
 use glam::Vec3;
 
-use crate::{grid::cells::Domain, smoothing::Wendland};
+use crate::{columns::FAR, grid::cells::Domain, periodic::Periodic, smoothing::Wendland};
+
+/// Distance from the origin of walls that are not there \[m\]: finite, as shaders ask for, and out of reach.
+pub const NO_WALL: f32 = FAR;
 
 /// Everything that kernels need to know beside the columns.
 #[derive(Clone, Debug)]
@@ -13,8 +16,10 @@ pub struct Params {
     pub gravity: Vec3,
     /// Where points may be, for the search.
     pub domain: Domain,
-    /// Walls of the container: corners of the box that everything stays in.
+    /// Walls of the container: corners of the box that everything stays in, at [`NO_WALL`] along axes that have none.
     pub walls: Option<(Vec3, Vec3)>,
+    /// Axes on which space repeats.
+    pub periodic: Option<Periodic>,
     /// Whether the fluid at those walls rests (no-slip); else it slides along them.
     pub no_slip: bool,
     /// The fluid.
@@ -278,6 +283,7 @@ impl Params {
     /// Where coordinates are taken from where their size would cost digits: the middle of the container, or the origin.
     #[must_use]
     pub(crate) fn origin(&self) -> Vec3 {
-        self.walls.map_or(Vec3::ZERO, |(low, high)| 0.5 * (low + high))
+        let middle = self.walls.map_or(Vec3::ZERO, |(low, high)| 0.5 * (low + high));
+        self.periodic.map_or(middle, |periodic| periodic.centred(middle))
     }
 }

@@ -14,7 +14,7 @@ struct Smoothing {
 
 struct Params {
     gravity: vec4<f32>,
-    // Corners of the container; w of the first is 1 if there is one.
+    // Corners of the container, out of reach along axes without walls; w of the first is 1 if there is one.
     wall_low: vec4<f32>,
     wall_high: vec4<f32>,
     fluid_rows: u32,
@@ -78,6 +78,15 @@ struct Params {
     implicit_central_viscosity: f32,
     viscosity_tolerance: f32,
     viscosity_rounds: u32,
+    // Where coordinates are taken from where their size would cost digits.
+    middle: vec4<f32>,
+    // The box that repeats.
+    period_low: vec4<f32>,
+    period_high: vec4<f32>,
+    // Its length along the axes on which it repeats, 0 along the others; w: 1 if there is such an axis.
+    periods: vec4<f32>,
+    // Half of the periods; along the other axes farther than any two points are apart.
+    half_periods: vec4<f32>,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.

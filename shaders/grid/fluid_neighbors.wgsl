@@ -1,5 +1,5 @@
-// For every particle, the particles within the support radius; and, since every pair is at hand, the density, which is
-// what `sph::density` computes from the lists.
+// For every particle, the particles within the support radius, or whose images are; and, since every pair is at hand, the
+// density, which is what `sph::density` computes from the lists.
 //
 // Rows of cells along x that the ball touches are runs of particles; the run is as long as the chord of the ball there.
 // `list[row]` is the number of neighbours, `list[(k + 1) * rows + row]` the k-th.
@@ -13,21 +13,37 @@
 @group(0) @binding(6) var<storage, read_write> density: array<f32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
-@compute @workgroup_size(GROUP)
-fn main(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
-        return;
+struct Found {
+    count: u32,
+    slot: u32,
+    // Of the shapes.
+    sum: f32,
+}
+
+// Adds the particles of a run of rows that are near a point.
+fn add_run(before: Found, point: vec3<f32>, begin: u32, end: u32) -> Found {
+    var found = before;
+    let square = params.list_radius * params.list_radius;
+    for (var other = begin; other < end; other += 1u) {
+        let apart = point - position[other].xyz;
+        let distance_square = dot(apart, apart);
+        if (distance_square < square) {
+            if (found.count < params.neighbor_capacity) {
+                found.slot += params.fluid_rows;
+                list[found.slot] = other;
+            }
+            found.count += 1u;
+            found.sum += shape(closeness(params.smoothing, distance_square));
+        }
     }
-    let point = position[row].xyz;
+    return found;
+}
+
+// Adds the particles near a point.
+fn add_ball(before: Found, point: vec3<f32>) -> Found {
+    var found = before;
     let radius = params.list_radius;
-    let square = radius * radius;
-    let cell_square = square * grid.origin.w * grid.origin.w;
+    let cell_square = radius * radius * grid.origin.w * grid.origin.w;
     let reach = radius * grid.origin.w;
     let at = vec3<f32>(
         coordinate_of(grid, point.x, 0u),
@@ -36,9 +52,6 @@ fn main(
     );
     let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
     let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
-    var found = 0u;
-    var slot = row;
-    var sum = 0.0;
     for (var z = span_z.x; z <= span_z.y; z += 1) {
         let dz = slab_distance(grid, at.z, z, 2u);
         let plane = wrapped(grid, z, 2u) * grid.size.y;
@@ -56,25 +69,46 @@ fn main(
                 let first = wrapped(grid, x, 0u);
                 let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
                 x += i32(last - first) + 1;
-                let end = starts[line + last + 1u];
-                for (var other = starts[line + first]; other < end; other += 1u) {
-                    let apart = point - position[other].xyz;
-                    let distance_square = dot(apart, apart);
-                    if (distance_square < square) {
-                        if (found < params.neighbor_capacity) {
-                            slot += rows;
-                            list[slot] = other;
-                        }
-                        found += 1u;
-                        sum += shape(closeness(params.smoothing, distance_square));
-                    }
-                }
+                found = add_run(found, point, starts[line + first], starts[line + last + 1u]);
             }
         }
     }
-    list[row] = found;
-    density[row] = sum * (params.smoothing.value * params.particle_mass);
-    if (found > params.neighbor_capacity) {
-        atomicMax(&extremes[5], found);
+    return found;
+}
+
+// Whether images of the box come near a point: those before it (-1) and those behind it (1) along the axes that repeat.
+fn touches(point: vec3<f32>, image: vec3<f32>) -> bool {
+    let before = point - params.list_radius <= params.period_low.xyz;
+    let behind = point + params.list_radius >= params.period_high.xyz;
+    let near = select(before, behind, image > vec3<f32>(0.0)) & (params.periods.xyz > vec3<f32>(0.0));
+    return all(near | (image == vec3<f32>(0.0)));
+}
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    if (clock.running == 0u || row >= rows) {
+        return;
+    }
+    let point = position[row].xyz;
+    var found = Found(0u, row, 0.0);
+    // The box itself first, then its images.
+    let images = select(1u, 27u, params.periods.w > 0.0);
+    for (var index = 0u; index < images; index += 1u) {
+        let place = vec3<f32>(vec3<u32>(index % 3u, index / 3u % 3u, index / 9u));
+        let image = select(place, vec3<f32>(-1.0), place > vec3<f32>(1.0));
+        if (index == 0u || touches(point, image)) {
+            found = add_ball(found, point - image * params.periods.xyz);
+        }
+    }
+    list[row] = found.count;
+    density[row] = found.sum * (params.smoothing.value * params.particle_mass);
+    if (found.count > params.neighbor_capacity) {
+        atomicMax(&extremes[5], found.count);
     }
 }

@@ -1,5 +1,5 @@
-// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls; the largest speed, and the first row that is
-// not finite. Leaves the particles in the columns that the next step sorts.
+// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls and, where space repeats, put into the box;
+// the largest speed, and the first row that is not finite. Leaves the particles in the columns that the next step sorts.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -12,6 +12,18 @@
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> largest: atomic<u32>;
+
+// What leaves the box along an axis on which space repeats enters it on the other side; what is not finite stays so.
+fn wrapped_into_box(x: vec3<f32>) -> vec3<f32> {
+    let low = params.period_low.xyz;
+    let high = params.period_high.xyz;
+    let period = params.periods.xyz;
+    let repeats = period > vec3<f32>(0.0);
+    let divisor = select(vec3<f32>(1.0), period, repeats);
+    let moved = clamp(x - period * floor((x - low) / divisor), low, high);
+    let leaves = repeats & ((x < low) | (x >= high)) & (abs(x) < vec3<f32>(3.0e38));
+    return select(x, moved, leaves);
+}
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -39,6 +51,9 @@ fn main(
             v = select(v, max(v, vec3<f32>(0.0)), x < low);
             v = select(v, min(v, vec3<f32>(0.0)), x > high);
             x = select(select(x, high, x > high), low, x < low);
+        }
+        if (params.periods.w > 0.0) {
+            x = wrapped_into_box(x);
         }
         position[row] = vec4<f32>(x, own.w);
         velocity[row] = vec4<f32>(v, its_velocity.w);

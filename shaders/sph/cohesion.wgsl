@@ -28,7 +28,7 @@ fn main(
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = list[slot];
-        let apart = point - position[other].xyz;
+        let apart = apart_from(point, position[other].xyz);
         let u = closeness(params.cohesion, dot(apart, apart));
         sum += apart * (u * u * u * (lacks + deficit[other]));
     }

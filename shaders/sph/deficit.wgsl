@@ -48,7 +48,7 @@ fn main(
     var sum = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let apart = point - position[list[slot]].xyz;
+        let apart = apart_from(point, position[list[slot]].xyz);
         sum += shape(closeness(params.cohesion, dot(apart, apart)));
     }
     let there = sum * (params.cohesion.value * params.cohesion_volume);

@@ -25,7 +25,7 @@ fn main(
     var sum = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let apart = point - position[list[slot]].xyz;
+        let apart = apart_from(point, position[list[slot]].xyz);
         sum += shape(closeness(params.smoothing, dot(apart, apart)));
     }
     density[row] = sum * (params.smoothing.value * params.particle_mass);

@@ -40,7 +40,7 @@ fn main(
         var slot = row;
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
-            let apart = point - predicted[list[slot]].xyz;
+            let apart = apart_from(point, predicted[list[slot]].xyz);
             let square = dot(apart, apart);
             let u = closeness(params.smoothing, square);
             let c = gradient * (u * u * u);

@@ -41,7 +41,7 @@ fn main(
         let other = list[slot];
         let there = position[other];
         let its_velocity = velocity[other];
-        let apart = own.xyz - there.xyz;
+        let apart = apart_from(own.xyz, there.xyz);
         let square = dot(apart, apart);
         let u = closeness(params.smoothing, square);
         let cube = u * u * u;

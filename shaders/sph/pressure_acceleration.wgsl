@@ -28,7 +28,7 @@ fn main(
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let there = predicted[list[slot]];
-        let apart = own.xyz - there.xyz;
+        let apart = apart_from(own.xyz, there.xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
         sum += (gradient * (u * u * u) * there.w) * apart;
     }

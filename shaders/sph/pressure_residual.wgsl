@@ -36,11 +36,12 @@ fn main(
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
             let other = list[slot];
-            let apart = own.xyz - predicted[other].xyz;
+            let shift = image_shift(own.xyz - predicted[other].xyz);
+            let apart = (own.xyz - predicted[other].xyz) + shift;
             let u = closeness(params.smoothing, dot(apart, apart));
             let there = correction[other];
             let c = gradient * (u * u * u);
-            sum += c * (dot(there.xyz, point) - there.w);
+            sum += c * (dot(there.xyz, point + shift) - there.w);
             pairs += c;
         }
         let factor = factors[row];

@@ -31,7 +31,7 @@ fn main(
         slot += rows;
         let other = list[slot];
         let there = velocity[other];
-        sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz);
+        sum += viscosity_pair(apart_from(point, position[other].xyz), own.xyz - there.xyz);
     }
     let residual = viscosity_residual[row].xyz - clock.step * sum;
     viscosity_residual[row] = vec4<f32>(residual, 0.0);

@@ -36,7 +36,7 @@ fn main(
             slot += rows;
             let other = list[slot];
             let there = viscosity_direction[other];
-            sum += viscosity_pair(point - position[other].xyz, own.xyz - there.xyz);
+            sum += viscosity_pair(apart_from(point, position[other].xyz), own.xyz - there.xyz);
         }
         let p = own.xyz;
         let between = friction_between[row].xyz;

@@ -30,7 +30,7 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
         triangles: &world.lattice().triangles,
         bodies: &bodies,
         container: match world.scene().domain {
-            Domain::Box { minimum, maximum } => Some((minimum, maximum)),
+            Domain::Box { minimum, maximum, .. } => Some((minimum, maximum)),
             Domain::Open => None,
         },
         style,

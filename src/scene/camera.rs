@@ -48,7 +48,7 @@ impl Scene {
     /// bodies at time zero (planes left out) \[m\]; a box of 0.2 m around the origin when there is nothing.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        if let Domain::Box { minimum, maximum } = self.domain {
+        if let Domain::Box { minimum, maximum, .. } = self.domain {
             return (minimum, maximum);
         }
         let blocks = self.fluid.iter().flat_map(|fluid| &fluid.blocks).map(|b| (b.minimum, b.maximum));

@@ -161,7 +161,11 @@ fn expected(schema: &'static Json, kind: &str) -> String {
         ("boolean", ..) => "true or false".to_owned(),
         ("object", ..) => "a table".to_owned(),
         ("array", ..) => match bound("minItems") {
-            Some(count) => format!("an array of {count} numbers"),
+            Some(count) => {
+                let kind = schema.get("items").and_then(|items| items.get("type")).and_then(Json::as_str);
+                let is_flag = kind == Some("boolean");
+                format!("an array of {count}{}", if is_flag { ", each true or false" } else { " numbers" })
+            }
             None => "an array".to_owned(),
         },
         _ => "something else".to_owned(),

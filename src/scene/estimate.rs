@@ -30,7 +30,8 @@ impl Scene {
         let particles = self.fluid.as_ref().map_or(0.0, |fluid| {
             let particle = f64::from(fluid.spacing).powi(3);
             let free = fluid.blocks.iter().map(|block| {
-                let count: f64 = block.counts(fluid.spacing).iter().map(|&n| f64::from(n)).product();
+                let (counts, _) = block.lattice(self, fluid.spacing);
+                let count: f64 = counts.iter().map(|&n| f64::from(n)).product();
                 let displaced: f64 = self.sponges.iter().map(|sponge| overlap(block, sponge)).sum();
                 (count - displaced / particle).max(0.0)
             });

@@ -2,7 +2,16 @@
 
 use glam::Vec3;
 
-use super::Scene;
+use super::error::Problem;
+use super::number::number_text;
+use super::{Domain, Scene};
+
+/// Support radius of the energy of the surface over that of the fluid: with as few neighbours as the pressure has, particles at the
+/// surface find places where they lack nothing, in rows, and the tension is a tenth of what it should be.
+const COHESION_SUPPORT: f32 = 2.0;
+
+/// Part of the length of a box that repeats by which a row of particles may be longer or shorter than it.
+const SEAM: f32 = 1e-3;
 
 /// The water: one liquid, seeded as blocks and inside saturated sponges.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,6 +114,14 @@ impl Fluid {
     pub fn support_radius(&self) -> f32 {
         self.support * self.spacing
     }
+
+    /// How far apart particles may be that feel each other: the support radius, or that of the energy of the surface, if
+    /// there is one \[m\].
+    #[must_use]
+    pub fn neighbor_radius(&self) -> f32 {
+        let is_tense = self.surface_tension > 0.0 && self.solver == FluidSolver::Dfsph;
+        if is_tense { COHESION_SUPPORT * self.support_radius() } else { self.support_radius() }
+    }
 }
 
 /// How pressure is found.
@@ -178,7 +195,8 @@ pub enum EquationOfState {
 
 /// Axis-aligned block of water at time zero.
 ///
-/// Particles sit at `minimum + (i + 1/2) * spacing`. Those that would start inside a sponge or a body are left out: how
+/// Particles sit at `minimum + (i + 1/2) * spacing`. A block that fills an axis along which the container repeats must be a
+/// whole number of spacings long there, within a thousandth. Those that would start inside a sponge or a body are left out: how
 /// much water a sponge holds is its own `saturation`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
@@ -214,6 +232,52 @@ impl FluidBlock {
         let count = |size: f32| (size / spacing + 0.01).floor().max(0.0) as u32;
         (self.maximum - self.minimum).to_array().map(count)
     }
+
+    /// Whether the block reaches from one side of the container to the other along an axis on which that repeats.
+    fn fills(&self, scene: &Scene, axis: usize, spacing: f32) -> bool {
+        let Domain::Box { minimum, maximum, periodic } = scene.domain else { return false };
+        let gap = (maximum - minimum)[axis] - (self.maximum - self.minimum)[axis];
+        periodic[axis] && gap < 0.5 * spacing
+    }
+
+    /// Number of particles along each axis, and their distance there \[m\]. A row that fills an axis on which the container repeats
+    /// has the same distance across its sides as everywhere else.
+    pub(crate) fn lattice(&self, scene: &Scene, spacing: f32) -> ([u32; 3], [f32; 3]) {
+        let (mut counts, mut pitch) = (self.counts(spacing), [spacing; 3]);
+        for axis in (0..3).filter(|axis| self.fills(scene, *axis, spacing)) {
+            let (minimum, maximum) = scene.bounds();
+            let period = (maximum - minimum)[axis];
+            counts[axis] = whole_rows(period, spacing);
+            pitch[axis] = period / counts[axis] as f32;
+        }
+        (counts, pitch)
+    }
+
+    /// Adds what is wrong with the block in a container that repeats.
+    pub(super) fn seam_rules(&self, key: &str, spacing: f32, scene: &Scene, problems: &mut Vec<Problem>) {
+        for axis in (0..3).filter(|axis| self.fills(scene, *axis, spacing)) {
+            let (minimum, maximum) = scene.bounds();
+            let period = (maximum - minimum)[axis];
+            let rows = whole_rows(period, spacing);
+            if (rows as f32 * spacing / period - 1.0).abs() > SEAM {
+                let (name, spacing) = (["x", "y", "z"][axis], number_text(spacing));
+                let (wanted, exact) = (rows as f32, number_text(period / rows as f32));
+                let value = format!("({} m along {name})", number_text(period));
+                let rule = format!(
+                    "fills an axis along which the container repeats, which must be a whole number of \
+                     `fluid.spacing` = {spacing} long; {wanted} of {exact} fit"
+                );
+                problems.push(Problem::rule(key, value, rule));
+            }
+        }
+    }
+}
+
+/// The whole number of particles, at least one, that is nearest to a length over the spacing.
+#[expect(clippy::cast_possible_truncation, reason = "the cast saturates, and validation bounds the count")]
+#[expect(clippy::cast_sign_loss, reason = "at least 1")]
+fn whole_rows(length: f32, spacing: f32) -> u32 {
+    (length / spacing).round().max(1.0) as u32
 }
 
 impl Scene {

@@ -73,7 +73,25 @@ impl Scene {
     /// Puts the scene into a box with elastic walls, from corner to corner \[m\].
     #[must_use]
     pub fn in_box(self, minimum: Vec3, maximum: Vec3) -> Self {
-        Self { domain: Domain::Box { minimum, maximum }, ..self }
+        Self { domain: Domain::Box { minimum, maximum, periodic: [false; 3] }, ..self }
+    }
+
+    /// Lets the box repeat along the axes x, y and z that are marked, see [`Domain::Box`]; an open scene stays open.
+    #[must_use]
+    pub fn repeating(mut self, axes: [bool; 3]) -> Self {
+        if let Domain::Box { periodic, .. } = &mut self.domain {
+            *periodic = axes;
+        }
+        self
+    }
+
+    /// Axes along which the container repeats; none in an open scene.
+    #[must_use]
+    pub fn periodic(&self) -> [bool; 3] {
+        match self.domain {
+            Domain::Box { periodic, .. } => periodic,
+            Domain::Open => [false; 3],
+        }
     }
 
     /// Sets the water.
@@ -149,6 +167,12 @@ impl Default for Time {
     }
 }
 
+/// Whether there are walls on all sides.
+#[cfg(feature = "serde")]
+fn is_closed(periodic: &[bool; 3]) -> bool {
+    !periodic.contains(&true)
+}
+
 /// The container.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
@@ -164,6 +188,12 @@ pub enum Domain {
         /// Highest corner, above `minimum` on every axis. Range -1000 to 1000 m.
         #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
         maximum: Vec3,
+        /// Along which of the axes x, y and z the box repeats; default [false, false, false].
+        ///
+        /// Such an axis has no walls: water that leaves on one side enters on the other, and feels what is there. Sponges
+        /// and bodies do not repeat: a scene with sponges must have walls on all sides, and a body is where it is.
+        #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_closed"))]
+        periodic: [bool; 3],
     },
     /// Unbounded; a body of shape `plane` may be the floor, otherwise everything falls for ever.
     #[default]

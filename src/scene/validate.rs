@@ -92,9 +92,10 @@ fn rules(scene: &Scene, problems: &mut Vec<Problem>) {
         let rule = format!("must not be above `time.maximum_step` = {}", number_text(time.maximum_step));
         problems.push(Problem::rule("time.minimum_step", number_text(time.minimum_step), rule));
     }
-    if let Domain::Box { minimum, maximum } = scene.domain {
+    if let Domain::Box { minimum, maximum, .. } = scene.domain {
         ordered("domain", minimum, maximum, problems);
     }
+    repeating(scene, problems);
     if let Some(fluid) = &scene.fluid {
         water(fluid, scene, problems);
     }
@@ -140,6 +141,32 @@ fn ordered(table: &str, minimum: Vec3, maximum: Vec3, problems: &mut Vec<Problem
     }
 }
 
+/// Periods over twice the distance at which particles feel each other: no particle may see another one twice. A thousandth is
+/// more than rounding.
+const SHORTEST_PERIOD: f32 = 1.001;
+
+/// The axes along which the container repeats.
+fn repeating(scene: &Scene, problems: &mut Vec<Problem>) {
+    let Domain::Box { minimum, maximum, periodic } = scene.domain else { return };
+    if periodic.contains(&true) && !scene.sponges.is_empty() {
+        let rule = "sponges do not repeat: a scene with sponges must have walls on all sides";
+        problems.push(Problem::rule("domain.periodic", format!("{periodic:?}"), rule));
+    }
+    let Some(fluid) = &scene.fluid else { return };
+    let shortest = 2.0 * fluid.neighbor_radius();
+    for axis in (0..3).filter(|axis| periodic[*axis]) {
+        let period = (maximum - minimum)[axis];
+        if period < SHORTEST_PERIOD * shortest && period > 0.0 {
+            let rule = format!(
+                "needs a box that is longer than {} m there, twice as far as particles feel each other; this one is {} m",
+                number_text(shortest),
+                number_text(period)
+            );
+            problems.push(Problem::rule(format!("domain.periodic[{axis}]"), "true", rule));
+        }
+    }
+}
+
 /// Something from corner to corner must be inside the container.
 pub(super) fn inside(
     key: &str,
@@ -149,7 +176,7 @@ pub(super) fn inside(
     scene: &Scene,
     problems: &mut Vec<Problem>,
 ) {
-    let Domain::Box { minimum, maximum } = scene.domain else {
+    let Domain::Box { minimum, maximum, .. } = scene.domain else {
         return;
     };
     let slack = Vec3::splat(slack);
@@ -171,6 +198,7 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         let key = format!("fluid.blocks[{index}]");
         ordered(&key, block.minimum, block.maximum, problems);
         inside(&key, block.minimum, block.maximum, slack, scene, problems);
+        block.seam_rules(&key, fluid.spacing, scene, problems);
         for (other_index, other) in fluid.blocks.iter().enumerate().take(index) {
             if overlap((block.minimum, block.maximum), (other.minimum, other.maximum), slack) {
                 let rule =

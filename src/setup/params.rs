@@ -1,11 +1,13 @@
 //! Parameters of the kernels from the keys of a scene.
 
+use glam::Vec3;
 use sorb_kernels::{
     grid::cells::Domain,
     params::{
-        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, Params, Solver,
+        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
         SpongeParams, WettingParams,
     },
+    periodic::Periodic,
     smoothing::Wendland,
     sph::{boundary::boundary_profile, deficit::cohesion_stiffness, factors::lattice_diagonal},
 };
@@ -13,11 +15,14 @@ use sorb_kernels::{
 use crate::scene::{self, Scene};
 
 pub(super) fn params(scene: &Scene) -> Params {
-    let (domain, walls) = match scene.domain {
-        scene::Domain::Box { minimum, maximum } => {
-            (Domain::Bounded { minimum, maximum }, Some((minimum, maximum)))
+    let (domain, walls, periodic) = match scene.domain {
+        scene::Domain::Box { minimum, maximum, periodic } => {
+            let corner = |own: Vec3, far: f32| Vec3::select(periodic.into(), Vec3::splat(far), own);
+            let walls = (corner(minimum, -NO_WALL), corner(maximum, NO_WALL));
+            let walls = periodic.contains(&false).then_some(walls);
+            (Domain::Bounded { minimum, maximum }, walls, Periodic::new(minimum, maximum, periodic))
         }
-        scene::Domain::Open => (Domain::Unbounded, None),
+        scene::Domain::Open => (Domain::Unbounded, None, None),
     };
     let reach = |sponge: &scene::Sponge| sponge.suction_radius * swollen_edge(sponge);
     let radius = scene.sponges.iter().map(reach).fold(0.0, f32::max);
@@ -26,6 +31,7 @@ pub(super) fn params(scene: &Scene) -> Params {
         gravity: scene.gravity,
         domain,
         walls,
+        periodic,
         no_slip: scene.fluid.as_ref().is_some_and(|fluid| fluid.no_slip),
         fluid: fluid_params(scene),
         sponges: scene.sponges.iter().map(|sponge| sponge_params(scene, sponge)).collect(),
@@ -48,10 +54,6 @@ fn solid(scene: &Scene) -> Option<Wendland> {
     let is_porous = edge > 0.0 && scene.coupling() == scene::Coupling::Porous;
     is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }
-
-/// Support radius of the energy of the surface over that of the fluid: with as few neighbours as the pressure has, particles at the
-/// surface find places where they lack nothing, in rows, and the tension is a tenth of what it should be.
-const COHESION_SUPPORT: f32 = 2.0;
 
 /// Compression that is allowed for the roughness of the pressure, over the square of the time that sound takes for a
 /// spacing: enough that particles in rows do not have pressures that are higher and lower by turns.
@@ -151,7 +153,7 @@ fn lattice_central_viscosity(fluid: &scene::Fluid) -> f32 {
 
 /// Surface tension from an energy of the surface, if there is any.
 fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
-    let (spacing, smoothing) = (fluid.spacing, Wendland::new(COHESION_SUPPORT * fluid.support_radius()));
+    let (spacing, smoothing) = (fluid.spacing, Wendland::new(fluid.neighbor_radius()));
     let sum = Wendland::lattice_sum(f64::from(smoothing.support_radius), f64::from(spacing));
     let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
     (fluid.surface_tension > 0.0).then(|| Cohesion {

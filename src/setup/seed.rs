@@ -19,10 +19,10 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
     let spacing = fluid.spacing;
     let mut seeds = Seeds { columns, clearance: CLEARANCE * spacing, jitter: JITTER * spacing };
     for block in &fluid.blocks {
-        let counts = block.counts(spacing);
+        let (counts, pitch) = block.lattice(scene, spacing);
         // What a sponge holds at time zero is its saturation, whatever block of water it stands in.
         let dry = |point: Vec3| !scene.sponges.iter().any(|sponge| holds(sponge, point));
-        seeds.fill(block.minimum, [spacing; 3], counts, block.velocity, dry);
+        seeds.fill(block.minimum, pitch, counts, block.velocity, dry);
     }
     let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
     for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| sponge.saturation > 0.0) {

@@ -134,7 +134,7 @@ fn survives(world: &mut World, seconds: f64) -> Result<(), String> {
 
 /// Number of particles and nodes outside of the box, by a millimetre for nodes.
 fn outside(world: &World) -> usize {
-    let crate::scene::Domain::Box { minimum, maximum } = world.scene().domain else { return 0 };
+    let crate::scene::Domain::Box { minimum, maximum, .. } = world.scene().domain else { return 0 };
     let count = |rows: &[[f32; 4]], slack: f32| {
         let out = |row: &&[f32; 4]| {
             let point = Vec3::new(row[0], row[1], row[2]);

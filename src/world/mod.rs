@@ -177,6 +177,7 @@ impl World {
             #[cfg(feature = "gpu")]
             device,
         };
+        let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
         let mut world = Self {
             runner: Runner::new(&plan),
             steps,
@@ -188,7 +189,7 @@ impl World {
             engine,
             plan,
             clock: Clock::default(),
-            sleep: sleep::Sleep::new(scene),
+            sleep: sleep::Sleep::new(scene, periods),
             failed: None,
             #[cfg(feature = "gpu")]
             options: options.clone(),
@@ -199,7 +200,9 @@ impl World {
         world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
         world.clock.body_speed = fastest_body(&bodies.states.0);
         if world.params.fluid.incompressible.is_some() {
-            world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], scene.gravity);
+            // Nothing bears the weight along an axis without walls.
+            let held = Vec3::select(scene.periodic().into(), Vec3::ZERO, scene.gravity);
+            world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], held);
         }
         world.look();
         Ok(world)

@@ -21,6 +21,8 @@ const LARGEST: f64 = 100.0;
 pub(crate) struct Sleep {
     after: f64,
     speed: f64,
+    /// Lengths of the box along axes on which it repeats, else zero.
+    periods: Vec3,
     /// Times at which scripts move bodies, from and to.
     motions: Vec<(f64, f64)>,
     is_asleep: bool,
@@ -38,13 +40,14 @@ struct Places {
 }
 
 impl Sleep {
-    pub(super) fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene, periods: Vec3) -> Self {
         let Time { sleep_after, sleep_speed, .. } = scene.time;
         let interval = |(from, to): (f32, f32)| (f64::from(from), f64::from(to));
         let motions = scene.bodies.iter().flat_map(|body| &body.motions);
         Self {
             after: f64::from(sleep_after),
             speed: f64::from(sleep_speed),
+            periods,
             motions: motions.map(|motion| interval(motion.interval())).collect(),
             is_asleep: false,
             before: None,
@@ -63,13 +66,20 @@ impl Sleep {
         (self.is_asleep && rest > 0.0).then_some(rest)
     }
 
+    /// Distance between two places, across the seam of a box that repeats.
+    fn way(&self, before: Vec3, now: Vec3) -> f32 {
+        let apart = now - before;
+        let turns = Vec3::select(self.periods.cmpgt(Vec3::ZERO), (apart / self.periods).round(), Vec3::ZERO);
+        (apart - turns * self.periods).length()
+    }
+
     /// Whether all places are where they were.
     fn is_still(&self, before: &Places, now: &Places) -> bool {
         let way = self.speed * (now.time - before.time);
         let set = |before: &[Vec3], now: &[Vec3]| {
             let (mut sum, mut largest) = (0.0_f64, 0.0_f32);
             for (before, now) in before.iter().zip(now) {
-                let way = before.distance(*now);
+                let way = self.way(*before, *now);
                 sum += f64::from(way);
                 largest = if way < largest { largest } else { way };
             }

@@ -118,7 +118,7 @@ pub(crate) fn unhealthy_in(world: &World, domain: Domain, particles: usize) -> O
     if let Some(bad) = points().chain(speeds()).find(|row| !row.iter().all(|value| value.is_finite())) {
         return Some(format!("not finite: {bad:?}"));
     }
-    if let Domain::Box { minimum, maximum } = domain {
+    if let Domain::Box { minimum, maximum, .. } = domain {
         // Walls hold particles to the bit, nodes to the softness of one contact pass.
         let slack = Vec3::splat(1e-3);
         let inside = |row: &[f32; 4], slack: Vec3| {

@@ -133,6 +133,9 @@ const SOFT: &[&str] = &[
 /// A tank that the water fills: a puddle of a few particles in a wide one drifts to and fro for ever.
 const NARROW: &[&str] = &["fluid.sound_speed=4", "fluid.viscosity=2.0", "domain.maximum=[-0.1, 0.2, 0.06]"];
 
+/// Water that runs out of one end of its tank and into the other.
+const STREAM: &[&str] = &["domain.periodic=[true, false, true]", "gravity=[5.0, -9.81, 1.0]"];
+
 /// The ball touches the sponge and stays there: bodies that never move do not stop a batch of steps.
 const FIXED: &[&str] = &[
     "bodies.0.kind=\"fixed\"",
@@ -159,6 +162,8 @@ cases! {
     water_of_the_paper: "water_paper", 0.5, &[], 1, 1e-4;
     dry_of_the_paper: "dry_paper", 0.5, &[], 1, 1e-4;
     honey: "water", 0.5, HONEY, 1, 1e-4;
+    stream: "water", 0.5, STREAM, 1, 1e-4;
+    stream_of_the_paper: "water_paper", 0.5, STREAM, 1, 1e-4;
     honey_in_a_sponge: "ball_drop", 0.5, HONEY, 1, 1e-4;
     solved_dam_break: "dam_break_paper", 0.5, DFSPH, 1, 1e-4;
     a_second_of_solved_water: "water", 0.4, &[], 60, 1e-1;

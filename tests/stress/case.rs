@@ -290,7 +290,11 @@ mod controls {
         let (particles, domain) = (world.particle_ids().len(), world.scene().domain);
         assert_eq!(common::unhealthy_in(&world, domain, particles), None);
         assert!(common::unhealthy_in(&world, domain, particles + 1).is_some());
-        let half = Domain::Box { minimum: Vec3::new(-1.0, 0.0, -1.0), maximum: Vec3::new(0.0, 1.0, 1.0) };
+        let half = Domain::Box {
+            minimum: Vec3::new(-1.0, 0.0, -1.0),
+            maximum: Vec3::new(0.0, 1.0, 1.0),
+            periodic: [false; 3],
+        };
         assert!(common::unhealthy_in(&world, half, particles).is_some());
     }
 }

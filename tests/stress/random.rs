@@ -184,7 +184,8 @@ fn drawn(numbers: &[f32]) -> Scene {
     if wet {
         scene = scene.with_fluid(fluid(draw, spacing));
     }
-    for name in ["left", "right"].into_iter().take(draw.choice(3) as usize) {
+    let sponges = draw.choice(3) as usize;
+    for name in ["left", "right"].into_iter().take(sponges) {
         scene = scene.with_sponge(sponge(draw, name, spacing, wet));
     }
     for name in ["one", "two", "three"].into_iter().take(draw.choice(4) as usize) {
@@ -192,7 +193,21 @@ fn drawn(numbers: &[f32]) -> Scene {
         body.grip &= !scene.sponges.is_empty();
         scene = scene.with_body(body);
     }
+    if sponges == 0 {
+        repeat(&mut scene, draw);
+    }
     scene
+}
+
+/// Lets a scene repeat along some axes, where it is long enough: its water then fills a whole number of spacings.
+fn repeat(scene: &mut Scene, draw: &mut Draw<'_>) {
+    let mut axes = [0; 3].map(|_| draw.choice(3) == 0);
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.spacing = 2.0 * BOX / (2.0 * BOX / fluid.spacing).round();
+        let is_short = 2.0 * fluid.neighbor_radius() >= 1.9 * BOX;
+        axes = axes.map(|axis| axis && !is_short);
+    }
+    *scene = std::mem::take(scene).repeating(axes);
 }
 
 /// Runs a scene and gives its digest; refusing a step that would be too small is no fault.
@@ -250,13 +265,15 @@ fn the_draws_are_of_all_kinds() {
     let mut seen = std::collections::BTreeSet::new();
     let result = runner(200).run(&vec(0.0_f32..1.0, 120), |_| Ok(()));
     assert!(result.is_ok());
-    let mut runner = runner(0);
+    let (mut runner, mut repeating) = (runner(0), 0);
     for _ in 0..200 {
         let tree = proptest::strategy::Strategy::new_tree(&vec(0.0_f32..1.0, 120), &mut runner);
         let tree = tree.unwrap_or_else(|reason| panic!("{reason}"));
         let scene = drawn(&proptest::strategy::ValueTree::current(&tree));
         seen.insert((scene.fluid.is_some(), scene.sponges.len(), scene.bodies.len()));
+        repeating += u32::from(scene.fluid.is_some() && scene.periodic().contains(&true));
         assert_eq!(scene.problems(), [], "not valid");
     }
     assert_eq!(seen.len(), 2 * 3 * 4, "{seen:?}");
+    assert!(repeating > 10, "{repeating} scenes with water that repeats");
 }

@@ -75,7 +75,7 @@ fn unhealthy(world: &World, particles: usize) -> Option<String> {
     if ids.len() != particles || ids.iter().enumerate().any(|(index, id)| *id as usize != index) {
         return Some("particles are lost".to_owned());
     }
-    let Domain::Box { minimum, maximum } = world.scene().domain else { return None };
+    let Domain::Box { minimum, maximum, .. } = world.scene().domain else { return None };
     let slack = Vec3::splat(1e-3);
     let bad = |row: &&[f32; 4], slack: Vec3| {
         let point = Vec3::new(row[0], row[1], row[2]);

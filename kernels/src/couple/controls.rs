@@ -38,6 +38,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         }
     }
     let (particles, controls_rows) = ((&fluid.position[..], particles), (&controls.position[..], count));
-    fluid.controls.build(cpu, particles, controls_rows, &controls.cells, radius);
-    controls.fluid.build(cpu, controls_rows, particles, &fluid.cells, radius);
+    fluid.controls.build(cpu, particles, controls_rows, &controls.cells, (radius, None));
+    controls.fluid.build(cpu, controls_rows, particles, &fluid.cells, (radius, None));
 }

@@ -93,7 +93,7 @@ pub fn node_interior(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<f32> 
         row[3] = nodes.volume[*node as usize];
     }
     let mut lists = Neighbors::default();
-    lists.build(cpu, (&sorted, count), (&sorted, count), &cells, params.coupling.support_radius);
+    lists.build(cpu, (&sorted, count), (&sorted, count), &cells, (params.coupling.support_radius, None));
     let radius = f64::from(params.coupling.support_radius);
     let mut interior = vec![0.0; nodes.position.len()];
     for (row, node) in cells.order.iter().enumerate() {

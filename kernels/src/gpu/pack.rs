@@ -122,6 +122,15 @@ pub(super) fn params(
             .words(&[implicit.rounds]),
         None => bytes.words(&[0; 4]),
     };
+    bytes.vector(params.origin(), 0.0);
+    match &params.periodic {
+        Some(periodic) => {
+            let (low, high) = periodic.corners();
+            bytes.vector(low, 0.0).vector(high, 0.0);
+            bytes.vector(periodic.periods(), 1.0).vector(periodic.halves(), 0.0)
+        }
+        None => bytes.words(&[0; 16]),
+    };
     bytes.0
 }
 

@@ -159,7 +159,7 @@ impl Resident {
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 352, uniform),
+            ("params", 432, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),

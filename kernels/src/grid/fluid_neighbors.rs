@@ -1,4 +1,4 @@
-//! For every particle, the particles within the support radius.
+//! For every particle, the particles within the support radius, or whose images are.
 
 use crate::{
     columns::{Column::*, Columns, Fluid},
@@ -20,5 +20,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let points = columns.rows.fluid;
     let Fluid { position, cells, neighbors, .. } = &mut columns.fluid;
     let particles = (&position[..], points);
-    neighbors.build(cpu, particles, particles, cells, params.fluid.list_radius());
+    let reach = (params.fluid.list_radius(), params.periodic.as_ref());
+    neighbors.build(cpu, particles, particles, cells, reach);
 }

@@ -11,6 +11,7 @@ use crate::{
     columns::{ColumnData, FAR},
     cpu::{CHUNK, Cpu, PerChunk},
     lanes::{LANES, with_lanes},
+    periodic::Periodic,
 };
 
 /// Groups of a chunk.
@@ -93,20 +94,20 @@ impl Neighbors {
     }
 
     /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded
-    /// rows in the order of `cells`).
+    /// rows in the order of `cells`), over their images as well where space repeats.
     pub(crate) fn build(
         &mut self,
         cpu: &Cpu,
         (queries, count): (&[[f32; 4]], usize),
         (targets, target_count): (&[[f32; 4]], usize),
         cells: &Cells,
-        radius: f32,
+        (radius, periodic): (f32, Option<&Periodic>),
     ) {
         let Self { chunks, planes } = self;
         chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
         fill_planes(cpu, targets, planes);
         let [x, y, z] = planes;
-        let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius };
+        let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius, periodic };
         cpu.for_chunks_with(PerChunk(chunks), |memory, first, lists| {
             let end = queries.len().min(first + CHUNK);
             let used = count.saturating_sub(first).min(end - first);
@@ -196,22 +197,40 @@ mod tests {
     };
     use glam::Vec3;
 
-    fn build(points: &[[f32; 4]], radius: f32, domain: Domain, cpu: &Cpu) -> (Vec<[f32; 4]>, Neighbors) {
+    fn build(
+        points: &[[f32; 4]],
+        (radius, periodic): (f32, Option<&Periodic>),
+        domain: Domain,
+        cpu: &Cpu,
+    ) -> (Vec<[f32; 4]>, Neighbors) {
         let mut cells = Cells::default();
         cells.build(cpu, points, radius, domain);
         let mut sorted: Vec<[f32; 4]> = cells.order.iter().map(|row| points[*row as usize]).collect();
         sorted.resize(padded(points.len()), FAR_ROW);
         let mut lists = Neighbors::default();
-        cpu.enter(|| lists.build(cpu, (&sorted, points.len()), (&sorted, points.len()), &cells, radius));
+        cpu.enter(|| {
+            lists.build(cpu, (&sorted, points.len()), (&sorted, points.len()), &cells, (radius, periodic))
+        });
         (sorted, lists)
     }
 
-    fn brute_force(sorted: &[[f32; 4]], count: usize, query: usize, radius: f32) -> Vec<u32> {
-        let near = |row: &u32| {
-            let d: [f32; 3] = std::array::from_fn(|axis| sorted[*row as usize][axis] - sorted[query][axis]);
-            d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < radius * radius
+    fn brute_force(
+        sorted: &[[f32; 4]],
+        count: usize,
+        query: usize,
+        (radius, periodic): (f32, Option<&Periodic>),
+    ) -> Vec<u32> {
+        let periods = periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
+        let near = |row: &u32, shift: Vec3| {
+            let [x, y, z, _] = sorted[*row as usize];
+            let [from_x, from_y, from_z, _] = sorted[query];
+            let apart = Vec3::new(x, y, z) + shift - Vec3::new(from_x, from_y, from_z);
+            apart.length_squared() < radius * radius
         };
-        (0..count as u32).filter(near).collect()
+        let place = |image: i32| [image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1].map(|at| at as f32);
+        // The same shift is there more than once along axes without a period.
+        let any = |row: &u32| (0..27).any(|image| near(row, Vec3::from_array(place(image)) * periods));
+        (0..count as u32).filter(any).collect()
     }
 
     #[test]
@@ -220,26 +239,62 @@ mod tests {
         for count in [0, 1, 7, 8, 9, 1500] {
             let points = random_points(count, 1.0, 11);
             for domain in [bounded, Domain::Unbounded] {
-                for level in SimdLevel::supported() {
-                    let cpu = Cpu::with_threads(level, 2).expect("supported");
-                    let (sorted, lists) = build(&points, 0.21, domain, &cpu);
-                    for query in 0..count {
-                        let mut found: Vec<u32> = lists.of(query, count).collect();
-                        found.sort_unstable();
-                        assert_eq!(found, brute_force(&sorted, count, query, 0.21), "{level} {query}");
-                    }
+                assert_brute_force(&points, (0.21, None), domain);
+            }
+        }
+    }
+
+    fn assert_brute_force(points: &[[f32; 4]], reach: (f32, Option<&Periodic>), domain: Domain) {
+        let count = points.len();
+        for level in SimdLevel::supported() {
+            let cpu = Cpu::with_threads(level, 2).expect("supported");
+            let (sorted, lists) = build(points, reach, domain, &cpu);
+            for query in 0..count {
+                let mut found: Vec<u32> = lists.of(query, count).collect();
+                found.sort_unstable();
+                // A particle that was in a list twice would be there twice.
+                assert_eq!(found, brute_force(&sorted, count, query, reach), "{level} {query} {reach:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn lists_across_the_sides_of_a_box_that_repeats_equal_brute_force() {
+        let (low, high) = (Vec3::splat(-1.0), Vec3::splat(1.0));
+        let bounded = Domain::Bounded { minimum: low, maximum: high };
+        let mut points = random_points(700, 1.0, 11);
+        // At the very edge.
+        points.extend([[-1.0, -1.0, -1.0, 0.0], [1.0, 1.0, 1.0, 0.0], [-1.0, 0.3, 1.0, 0.0]]);
+        for axes in [[true, false, false], [false, true, true], [true, false, true], [true; 3]] {
+            let periodic = Periodic::new(low, high, axes);
+            for domain in [bounded, Domain::Unbounded] {
+                // Far less than the box, and nearly half of it.
+                for radius in [0.21, 0.99] {
+                    assert_brute_force(&points, (radius, periodic.as_ref()), domain);
                 }
             }
         }
     }
 
     #[test]
+    fn a_side_that_nobody_looks_across_is_noticed() {
+        let points = random_points(700, 1.0, 11);
+        let (low, high) = (Vec3::splat(-1.0), Vec3::splat(1.0));
+        let [all, two] = [[true; 3], [true, true, false]].map(|axes| Periodic::new(low, high, axes));
+        let cpu = Cpu::serial(SimdLevel::best()).expect("supported");
+        let (sorted, lists) = build(&points, (0.21, two.as_ref()), Domain::Unbounded, &cpu);
+        let expected = |query| brute_force(&sorted, 700, query, (0.21, all.as_ref())).len();
+        assert!((0..700).any(|query| lists.of(query, 700).count() != expected(query)));
+    }
+
+    #[test]
     fn a_radius_that_is_a_little_too_small_is_noticed() {
         let points = random_points(1500, 1.0, 11);
         let cpu = Cpu::serial(SimdLevel::best()).expect("supported");
-        let (sorted, lists) = build(&points, 0.20, Domain::Unbounded, &cpu);
-        let differ = (0..1500)
-            .any(|query| lists.of(query, 1500).count() != brute_force(&sorted, 1500, query, 0.21).len());
+        let (sorted, lists) = build(&points, (0.20, None), Domain::Unbounded, &cpu);
+        let differ = (0..1500).any(|query| {
+            lists.of(query, 1500).count() != brute_force(&sorted, 1500, query, (0.21, None)).len()
+        });
         assert!(differ);
     }
 }

@@ -6,6 +6,7 @@ use super::{cells::Cells, neighbors::GROUPS};
 use crate::{
     columns::FAR,
     lanes::{self, LANES, Simd, prelude::*, u32x8},
+    periodic::Periodic,
     vector::{self, dot, minus},
 };
 
@@ -17,6 +18,7 @@ pub(super) struct Search<'a> {
     pub(super) padding: u32,
     pub(super) cells: &'a Cells,
     pub(super) radius: f32,
+    pub(super) periodic: Option<&'a Periodic>,
 }
 
 /// Working memory of a search.
@@ -37,12 +39,13 @@ struct Candidates {
     row: Vec<u32>,
     count: usize,
     spans: Vec<[u32; 2]>,
+    shifts: Vec<[f32; 3]>,
 }
 
 impl Candidates {
     /// Makes room for all rows of the spans, and for eight more that a store may touch.
     fn reserve(&mut self) {
-        let mut room = LANES;
+        let mut room = self.count + LANES;
         for [begin, end] in &self.spans {
             room += (end - begin) as usize;
         }
@@ -143,24 +146,57 @@ impl Search<'_> {
                 (low, high) = (grown_low, grown_high);
                 end += 1;
             }
-            self.collect(simd, low, high, candidates);
+            candidates.count = 0;
+            self.collect::<S, false>(simd, low, high, [0.0; 3], candidates);
+            if let Some(periodic) = self.periodic {
+                self.collect_images(simd, periodic, low, high, candidates);
+            }
             self.test(simd, queries, first..end, candidates, lists);
             first = end;
         }
     }
 
-    /// Collects the targets whose distance from the box is less than the radius.
+    /// Adds the images of targets whose distance from the box is less than the radius, at the places of those images: a
+    /// query is within the radius of one of them at most.
     #[inline(always)]
-    fn collect<S: Simd>(&self, simd: S, low: [f32; 3], high: [f32; 3], candidates: &mut Candidates) {
+    fn collect_images<S: Simd>(
+        &self,
+        simd: S,
+        periodic: &Periodic,
+        low: [f32; 3],
+        high: [f32; 3],
+        candidates: &mut Candidates,
+    ) {
+        let mut shifts = std::mem::take(&mut candidates.shifts);
+        periodic.shifts(low, high, self.radius, &mut shifts);
+        for shift in &shifts {
+            self.collect::<S, true>(simd, low, high, *shift, candidates);
+        }
+        candidates.shifts = shifts;
+    }
+
+    /// Adds the targets whose distance from the box is less than the radius, shifted if they are.
+    #[inline(always)]
+    fn collect<S: Simd, const SHIFTED: bool>(
+        &self,
+        simd: S,
+        low: [f32; 3],
+        high: [f32; 3],
+        shift: [f32; 3],
+        candidates: &mut Candidates,
+    ) {
         let radius = self.radius;
-        self.cells.spans(low.map(|x| x - radius), high.map(|x| x + radius), &mut candidates.spans);
+        let near = |axis: usize| (low[axis] - radius - shift[axis], high[axis] + radius - shift[axis]);
+        let [x, y, z] = [near(0), near(1), near(2)];
+        self.cells.spans([x.0, y.0, z.0], [x.1, y.1, z.1], &mut candidates.spans);
         candidates.reserve();
+        let shifts = vector::splat(simd, shift);
         let (lows, highs) = (vector::splat(simd, low), vector::splat(simd, high));
         let (zero, square) = (lanes::splat(simd, 0.0), lanes::splat(simd, radius * radius));
         let lane_index = u32x8::from_fn(simd, |lane| lane as u32);
         let [all_x, all_y, all_z] = self.planes;
         let Candidates { x, y, z, row, spans, .. } = candidates;
-        let mut count = 0;
+        let mut count = candidates.count;
         for &[begin, end] in &*spans {
             let ends = u32x8::splat(simd, end);
             for first in (begin..end).step_by(LANES) {
@@ -170,6 +206,8 @@ impl Search<'_> {
                     lanes::load(simd, all_y, at),
                     lanes::load(simd, all_z, at),
                 );
+                let (xs, ys, zs) =
+                    if SHIFTED { (xs + shifts[0], ys + shifts[1], zs + shifts[2]) } else { (xs, ys, zs) };
                 let rows = lane_index + first;
                 let dx = (lows[0] - xs).max(xs - highs[0]).max(zero);
                 let dy = (lows[1] - ys).max(ys - highs[1]).max(zero);

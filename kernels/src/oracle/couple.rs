@@ -92,8 +92,8 @@ pub(super) fn controls(params: &Params, columns: &mut Columns) {
     }
     let pairs = Pairs::new(params, columns);
     let (fluid, nodes) = (columns.fluid.position.len(), columns.nodes.position.len());
-    columns.fluid.controls = grid::lists(&pairs.particles, &pairs.controls, fluid, pairs.radius);
-    columns.controls.fluid = grid::lists(&pairs.controls, &pairs.particles, nodes, pairs.radius);
+    columns.fluid.controls = grid::lists(params, &pairs.particles, &pairs.controls, fluid, pairs.radius);
+    columns.controls.fluid = grid::lists(params, &pairs.controls, &pairs.particles, nodes, pairs.radius);
 }
 
 pub(super) fn saturation(params: &Params, columns: &mut Columns) {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::vectors;
+use super::{apart, vectors};
 use crate::{
     columns::{Columns, FAR_ROW},
     grid::neighbors::Neighbors,
@@ -21,14 +21,20 @@ pub(super) fn sort_fluid(_params: &Params, columns: &mut Columns) {
 pub(super) fn fluid_neighbors(params: &Params, columns: &mut Columns) {
     let points = vectors(&columns.fluid.position, columns.rows.fluid);
     let radius = params.fluid.list_radius();
-    columns.fluid.neighbors = lists(&points, &points, columns.fluid.position.len(), radius);
+    columns.fluid.neighbors = lists(params, &points, &points, columns.fluid.position.len(), radius);
 }
 
 /// For every query the targets that are nearer than the radius; `rows` lists in all.
-pub(super) fn lists(queries: &[DVec3], targets: &[DVec3], rows: usize, radius: f32) -> Neighbors {
+pub(super) fn lists(
+    params: &Params,
+    queries: &[DVec3],
+    targets: &[DVec3],
+    rows: usize,
+    radius: f32,
+) -> Neighbors {
     let square = f64::from(radius) * f64::from(radius);
     let near = |query: &DVec3| {
-        let target = |row: &usize| targets[*row].distance_squared(*query) < square;
+        let target = |row: &usize| apart(params, targets[*row], *query).length_squared() < square;
         (0..targets.len()).filter(target).map(|row| row as u32).collect()
     };
     let mut lists: Vec<Vec<u32>> = queries.iter().map(near).collect();

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{closeness, row, shapes, smoothing, vector, vectors};
+use super::{apart, closeness, row, shapes, smoothing, vector, vectors};
 use crate::{
     body::{Body, Wrench},
     columns::{Columns, Fluid},
@@ -15,11 +15,11 @@ fn pairs(params: &Params, fluid: &Fluid, count: usize) -> Vec<Vec<(usize, f64)>>
     let volume = f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density);
     let (x, end) = (vectors(&fluid.position, count), vectors(&fluid.predicted, count));
     let factor = |i: usize, j: usize| {
-        let u = closeness(radius, end[i].distance(end[j]));
+        let u = closeness(radius, apart(params, end[i], end[j]).length());
         (j, volume * 210.0 / super::pi_power(radius, 5) * u.powi(3))
     };
     let reach = f64::from(params.fluid.list_radius());
-    let near = |i: usize, j: usize| x[i].distance(x[j]) < reach;
+    let near = |i: usize, j: usize| apart(params, x[i], x[j]).length() < reach;
     (0..count).map(|i| (0..count).filter(|j| near(i, *j)).map(|j| factor(i, j)).collect()).collect()
 }
 
@@ -166,7 +166,7 @@ pub(super) fn factors(params: &Params, columns: &mut Columns) {
         let (mut others, mut share) = (0.0, f64::from(fluid.boundary[i][3]));
         let mut rough = 0.0;
         for (j, c) in &near[i] {
-            let offset = end[i] - end[*j];
+            let offset = apart(params, end[i], end[*j]);
             own += *c * offset;
             others += (*c * offset).length_squared();
             rough += if *j == i { 0.0 } else { *c * prompt_roughness(params) };
@@ -220,7 +220,7 @@ pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     for i in 0..count {
         let mut sum = f64::from(fluid.predicted[i][3]) * vector(fluid.factors[i]);
         for (j, c) in &near[i] {
-            sum += *c * f64::from(fluid.predicted[*j][3]) * (end[i] - end[*j]);
+            sum += *c * f64::from(fluid.predicted[*j][3]) * apart(params, end[i], end[*j]);
         }
         let allowed = f64::from(fluid.predicted[i][3]) * roughness;
         fluid.correction[i] = row(sum, sum.dot(end[i] - origin) - allowed);
@@ -238,7 +238,7 @@ pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
         let mut change = -a[i].dot(vector(fluid.factors[i]));
         let mut smoother = 0.0;
         for (j, c) in &near[i] {
-            change += *c * a[*j].dot(end[i] - end[*j]);
+            change += *c * a[*j].dot(apart(params, end[i], end[*j]));
             smoother += *c * (f64::from(fluid.predicted[*j][3]) - f64::from(fluid.predicted[i][3]));
         }
         let allowed = prompt_roughness(params) * smoother;

@@ -101,6 +101,13 @@ fn vectors(rows: &[[f32; 4]], count: usize) -> Vec<DVec3> {
     rows[..count].iter().map(|row| vector(*row)).collect()
 }
 
+/// `a - b`, with the image of b that is nearest to a where space repeats.
+pub(crate) fn apart(params: &Params, a: DVec3, b: DVec3) -> DVec3 {
+    let raw = a - b;
+    let periods = params.periodic.map_or(DVec3::ZERO, |periodic| periodic.periods().as_dvec3());
+    DVec3::select(periods.cmpgt(DVec3::ZERO), raw - periods * (raw / periods).round(), raw)
+}
+
 /// A row of a vector and a scalar.
 fn row(vector: DVec3, w: f64) -> [f32; 4] {
     [vector.x as f32, vector.y as f32, vector.z as f32, w as f32]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{closeness, gradient, pi_power, row, shapes, smoothing, vector, vectors};
+use super::{apart, closeness, gradient, pi_power, row, shapes, smoothing, vector, vectors};
 use crate::{
     body::Wrench,
     columns::Columns,
@@ -17,7 +17,7 @@ pub(super) fn density(params: &Params, columns: &mut Columns) {
     let mass = f64::from(params.fluid.particle_mass);
     fluid.density.resize(fluid.position.len(), 0.0);
     for (x_i, density) in x.iter().zip(&mut fluid.density) {
-        let sum: f64 = x.iter().map(|x_j| smoothing(radius, x_i.distance(*x_j))).sum();
+        let sum: f64 = x.iter().map(|x_j| smoothing(radius, apart(params, *x_i, *x_j).length())).sum();
         *density = (mass * sum) as f32;
     }
 }
@@ -48,7 +48,7 @@ pub(super) fn forces(params: &Params, columns: &mut Columns) {
         let (mut pressure, mut viscosity, mut central) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         let mut roughness = 0.0;
         for j in 0..count {
-            let offset = x[i] - x[j];
+            let offset = apart(params, x[i], x[j]);
             let both = f64::from(fluid.position[i][3]) + f64::from(fluid.position[j][3]);
             pressure -= mass * both * gradient(radius, offset);
             let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
@@ -81,8 +81,9 @@ pub(super) fn surface_tension(params: &Params, columns: &mut Columns) {
         let (mut normal, mut laplacian) = (DVec3::ZERO, 0.0);
         for j in 0..count {
             let volume = f64::from(fluid.velocity[j][3]);
-            normal += volume * gradient(radius, x[i] - x[j]);
-            let u = closeness(radius, x[i].distance(x[j]));
+            let offset = apart(params, x[i], x[j]);
+            normal += volume * gradient(radius, offset);
+            let u = closeness(radius, offset.length());
             laplacian -= volume * 630.0 / pi_power(radius, 5) * u * u * (2.0 * u - 1.0);
         }
         if normal.length() * f64::from(radius) > 1.0 {
@@ -155,6 +156,12 @@ pub(super) fn advect(params: &Params, columns: &mut Columns) {
                 }
             }
             x = inside;
+        }
+        if let Some(periodic) = &params.periodic {
+            let (periods, start) = (periodic.periods().as_dvec3(), periodic.corners().0.as_dvec3());
+            for axis in (0..3).filter(|axis| periods[*axis] > 0.0) {
+                x[axis] = start[axis] + (x[axis] - start[axis]).rem_euclid(periods[axis]);
+            }
         }
         largest = largest.max(v.length_squared());
         if !(v.is_finite() && x.is_finite()) && extreme.not_finite == 0 {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{gradient, incompressible, row, smoothing, vector, vectors};
+use super::{apart, gradient, incompressible, row, smoothing, vector, vectors};
 use crate::{columns::Columns, params::Params, sph::deficit};
 
 pub(super) fn deficit(params: &Params, columns: &mut Columns) {
@@ -13,7 +13,8 @@ pub(super) fn deficit(params: &Params, columns: &mut Columns) {
     let profile = [cohesion.boundary_range, cohesion.boundary_share].map(f64::from);
     fluid.deficit.resize(fluid.position.len(), 0.0);
     for i in 0..count {
-        let there: f64 = x.iter().map(|other| volume * smoothing(radius, x[i].distance(*other))).sum();
+        let volume_at = |other: &DVec3| volume * smoothing(radius, apart(params, x[i], *other).length());
+        let there: f64 = x.iter().map(volume_at).sum();
         let share = incompressible::share(params, &columns.bodies.states.0, profile, x[i]);
         fluid.deficit[i] = (f64::from(deficit::FULL) - there - share).max(0.0) as f32;
     }
@@ -27,8 +28,8 @@ pub(super) fn cohesion(params: &Params, columns: &mut Columns) {
     let (volume, mass) = (f64::from(cohesion.volume), f64::from(params.fluid.particle_mass));
     let factor = f64::from(cohesion.stiffness) * volume * volume / mass;
     for i in 0..count {
-        let pull =
-            |j: usize| (lacks(i) + lacks(j)) * gradient(cohesion.smoothing.support_radius, x[i] - x[j]);
+        let radius = cohesion.smoothing.support_radius;
+        let pull = |j: usize| (lacks(i) + lacks(j)) * gradient(radius, apart(params, x[i], x[j]));
         let sum: DVec3 = (0..count).map(pull).sum();
         let allowed = f64::from(fluid.acceleration[i][3]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) + factor * sum, allowed);

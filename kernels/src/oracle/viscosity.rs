@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{
-    closeness, gradient,
+    apart, closeness, gradient,
     obstacles::{given, half_space},
     pi_power, row, shapes, vector, vectors,
 };
@@ -20,7 +20,7 @@ fn pairs(params: &Params, implicit: &ImplicitViscosity, fluid: &Fluid, field: &[
     let one = |i: usize| {
         let mut sum = DVec3::ZERO;
         for j in 0..field.len() {
-            let (offset, relative) = (x[i] - x[j], field[i] - field[j]);
+            let (offset, relative) = (apart(params, x[i], x[j]), field[i] - field[j]);
             let volumes = (mass / f64::from(params.fluid.rest_density)).powi(2);
             let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
             sum += f64::from(implicit.viscosity) * volumes / mass * laplacian * relative;

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The repulsion is elastic and can be overrun; the clamp cannot, at any speed. A particle that is clamped
-//! loses its speed into the wall.
+//! loses its speed into the wall. Along axes on which space repeats there is none, and what leaves the box enters it on the
+//! other side.
 
 use crate::{
     columns::{Column::*, Columns, Fluid},
@@ -39,6 +40,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             if let Some((low, high)) = box_inside {
                 clamp(x, v, low, high);
             }
+            if let Some(periodic) = &params.periodic {
+                periodic.wrap(x);
+            }
             let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
             largest = if square > largest { square } else { largest };
             let finite = square.is_finite() && (x[0] + x[1] + x[2]).is_finite();
@@ -50,7 +54,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// Corners of the box that particles are kept in.
+/// Corners of the box that particles are kept in, out of reach along axes without walls.
 pub(super) fn inside(params: &Params) -> Option<([f32; 3], [f32; 3])> {
     let margin = params.fluid.spacing * STOP;
     params.walls.map(|(low, high)| ((low + margin).to_array(), (high - margin).to_array()))

@@ -14,8 +14,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd},
     params::{Cohesion, Params},
+    periodic::{Space, with_space},
     vector::{dot, plus, times},
 };
 
@@ -34,14 +35,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let mass = params.fluid.particle_mass;
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd =>
-            chunk(simd, (cohesion, mass), first, (position, deficit), lists, acceleration));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), (cohesion, mass), first, (position, deficit), lists, acceleration));
     });
 }
 
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     (cohesion, mass): (&Cohesion, f32),
     first: usize,
     (position, deficit): (&[[f32; 4]], &[f32]),
@@ -56,7 +57,7 @@ fn chunk<S: Simd>(
         let mut sum = [lanes::splat(simd, 0.0); 3];
         for entry in lists.group(row) {
             let [xj, yj, zj, _] = lanes::gather_rows(simd, position, entry);
-            let apart = [x - xj, y - yj, z - zj];
+            let apart = space.apart([x, y, z], [xj, yj, zj]);
             let u = kernel.closeness(dot(apart, apart));
             let both = lacks + lanes::gather(simd, deficit, entry);
             sum = plus(sum, times(apart, u * u * u * both));

@@ -13,9 +13,11 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd},
     params::{Cohesion, Params},
+    periodic::{Space, with_space},
     smoothing::Wendland,
+    vector::dot,
 };
 
 use super::boundary::{Profile, near};
@@ -44,7 +46,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let task = Task { params, cohesion, position, bodies: &columns.bodies.states.0 };
     cpu.for_chunks(&mut deficit[..], |first, deficit| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd => task.chunk(simd, first, lists, deficit));
+        with_space!(cpu, params, simd, space => task.chunk((simd, space), first, lists, deficit));
         // Padding rows are no surface.
         let used = count.saturating_sub(first).min(deficit.len());
         deficit[used..].fill(0.0);
@@ -60,7 +62,13 @@ struct Task<'a> {
 
 impl Task<'_> {
     #[inline(always)]
-    fn chunk<S: Simd>(&self, simd: S, first: usize, lists: &ChunkLists, deficit: &mut [f32]) {
+    fn chunk<S: Simd>(
+        &self,
+        (simd, space): (S, impl Space<S>),
+        first: usize,
+        lists: &ChunkLists,
+        deficit: &mut [f32],
+    ) {
         let cohesion = self.cohesion;
         let kernel = cohesion.smoothing.lanes(simd);
         let value = kernel.value_scale() * cohesion.volume;
@@ -71,8 +79,8 @@ impl Task<'_> {
             let mut sum = lanes::splat(simd, 0.0);
             for entry in lists.group(row) {
                 let [xj, yj, zj, _] = lanes::gather_rows(simd, self.position, entry);
-                let (dx, dy, dz) = (x - xj, y - yj, z - zj);
-                sum += kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+                let apart = space.apart([x, y, z], [xj, yj, zj]);
+                sum += kernel.shape(kernel.closeness(dot(apart, apart)));
             }
             let [_, _, _, mut share] = profile.walls(simd, self.params, [x, y, z]);
             for body in &near {

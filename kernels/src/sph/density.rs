@@ -9,8 +9,10 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd},
     params::Params,
+    periodic::{Space, with_space},
+    vector::dot,
 };
 
 /// `sph::density`.
@@ -27,13 +29,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     density.resize(position.len(), 0.0);
     cpu.for_chunks(&mut density[..], |first, density| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd => chunk(simd, params, first, position, lists, density));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), params, first, position, lists, density));
     });
 }
 
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
     position: &[[f32; 4]],
@@ -47,8 +50,8 @@ fn chunk<S: Simd>(
         let mut sum = lanes::splat(simd, 0.0);
         for entry in lists.group(row) {
             let [xj, yj, zj, _] = lanes::gather_rows(simd, position, entry);
-            let (dx, dy, dz) = (x - xj, y - yj, z - zj);
-            sum += kernel.shape(kernel.closeness(dx * dx + dy * dy + dz * dz));
+            let apart = space.apart([x, y, z], [xj, yj, zj]);
+            sum += kernel.shape(kernel.closeness(dot(apart, apart)));
         }
         lanes::store(density, row, sum * scale);
     }

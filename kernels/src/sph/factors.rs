@@ -26,8 +26,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, prelude::*, with_lanes},
+    lanes::{self, LANES, Simd, prelude::*},
     params::{Incompressible, Params},
+    periodic::{Space, with_space},
     smoothing::Wendland,
     vector::dot,
 };
@@ -66,7 +67,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let task = Task { params, solve, position, predicted, boundary, acceleration };
     cpu.for_chunks(rows, |first, (factors, pressure, pairs, displacement)| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd => task.chunk(simd, first, lists, &mut pairs.0[0], factors, pressure));
+        with_space!(cpu, params, simd, space =>
+            task.chunk((simd, space), first, lists, &mut pairs.0[0], factors, pressure));
         // Padding rows must not move and must not push.
         let used = count.saturating_sub(first).min(factors.len());
         factors[used..].fill([0.0; 4]);
@@ -99,7 +101,7 @@ impl Task<'_> {
     #[inline(always)]
     fn chunk<S: Simd>(
         &self,
-        simd: S,
+        (simd, space): (S, impl Space<S>),
         first: usize,
         lists: &ChunkLists,
         pairs: &mut [[f32; LANES]],
@@ -120,7 +122,7 @@ impl Task<'_> {
             let (mut others, mut shape_sum, mut pair_sum) = (zero, zero, zero);
             for (entry, stored) in lists.group(row).iter().zip(&mut pairs[lists.range(row)]) {
                 let [xj, yj, zj, _] = lanes::gather_rows(simd, self.predicted, entry);
-                let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+                let [dx, dy, dz] = space.apart([x, y, z], [xj, yj, zj]);
                 let square = dx * dx + dy * dy + dz * dz;
                 let u = kernel.closeness(square);
                 let c = gradient * (u * u * u);

@@ -21,8 +21,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, prelude::*, with_lanes},
+    lanes::{self, LANES, Simd, prelude::*},
     params::Params,
+    periodic::{Space, with_space},
     vector::{self, plus, times},
 };
 
@@ -40,13 +41,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     acceleration.resize(position.len(), [0.0; 4]);
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd => chunk(simd, params, first, (position, velocity), lists, acceleration));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), params, first, (position, velocity), lists, acceleration));
     });
 }
 
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
     (position, velocity): (&[[f32; 4]], &[[f32; 4]]),
@@ -78,7 +80,7 @@ fn chunk<S: Simd>(
         for entry in lists.group(row) {
             let [xj, yj, zj, pj] = lanes::gather_rows(simd, position, entry);
             let [vxj, vyj, vzj, volume_j] = lanes::gather_rows(simd, velocity, entry);
-            let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+            let [dx, dy, dz] = space.apart([x, y, z], [xj, yj, zj]);
             let square = dx * dx + dy * dy + dz * dz;
             let u = kernel.closeness(square);
             let cube = u * u * u;

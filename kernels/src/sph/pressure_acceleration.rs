@@ -11,8 +11,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd},
     params::Params,
+    periodic::{Space, with_space},
     vector::{self, dot, minus},
 };
 
@@ -33,13 +34,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     correction.resize(predicted.len(), [0.0; 4]);
     cpu.for_chunks(&mut correction[..], |first, correction| {
         let (lists, pairs) = (neighbors.chunk(first), pairs.chunk(first));
-        with_lanes!(cpu, simd => chunk(simd, params, first, (predicted, factors), lists, pairs, correction));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), params, first, (predicted, factors), lists, pairs, correction));
     });
 }
 
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
     (predicted, factors): (&[[f32; 4]], &[[f32; 4]]),
@@ -56,7 +58,8 @@ fn chunk<S: Simd>(
         for (entry, c) in lists.group(row).iter().zip(&pairs[lists.range(row)]) {
             let [xj, yj, zj, change_j] = lanes::gather_rows(simd, predicted, entry);
             let push = lanes::load_array(simd, c) * change_j;
-            sum = [sum[0] + push * (x - xj), sum[1] + push * (y - yj), sum[2] + push * (z - zj)];
+            let [dx, dy, dz] = space.apart([x, y, z], [xj, yj, zj]);
+            sum = [sum[0] + push * dx, sum[1] + push * dy, sum[2] + push * dz];
         }
         let product = dot(sum, minus([x, y, z], origin));
         lanes::store_rows(correction, row, [sum[0], sum[1], sum[2], product - change * roughness]);

@@ -12,8 +12,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd},
     params::Params,
+    periodic::{Space, with_space},
     vector::{self, dot, minus},
 };
 
@@ -45,8 +46,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(rows, |first, (rows, sums)| {
         let (lists, pairs) = (neighbors.chunk(first), pairs.chunk(first));
         let mut left = [0.0; crate::cpu::CHUNK];
-        with_lanes!(cpu, simd =>
-            chunk(simd, params, first, [predicted, correction, factors], lists, pairs, &mut left[..rows.len()]));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), params, first, [predicted, correction, factors], lists, pairs, &mut left[..rows.len()]));
         let used = count.saturating_sub(first).min(rows.len());
         sums.0[0] = Sums::of(&mut rows[..used], &left);
     });
@@ -56,7 +57,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 /// The compression that is left.
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
     [predicted, correction, factors]: [&[[f32; 4]]; 3],
@@ -77,6 +78,7 @@ fn chunk<S: Simd>(
             let [axj, ayj, azj, product] = lanes::gather_rows(simd, correction, entry);
             // a_j . x_ij + e / h^2 dP_j, with one row of the neighbour instead of two.
             let c = lanes::load_array(simd, c);
+            let point = space.seen_from(simd, ([x, y, z], point), predicted, entry);
             sum += c * (dot([axj, ayj, azj], point) - product);
             pair_sum += c;
         }

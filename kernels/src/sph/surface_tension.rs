@@ -11,8 +11,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, prelude::*, select, with_lanes},
+    lanes::{self, LANES, Simd, prelude::*, select},
     params::Params,
+    periodic::{Space, with_space},
     vector::{dot, times},
 };
 
@@ -32,13 +33,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, velocity, neighbors, acceleration, .. } = &mut columns.fluid;
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd => chunk(simd, params, first, (position, velocity), lists, acceleration));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), params, first, (position, velocity), lists, acceleration));
     });
 }
 
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
     (position, velocity): (&[[f32; 4]], &[[f32; 4]]),
@@ -57,7 +59,7 @@ fn chunk<S: Simd>(
         for entry in lists.group(row) {
             let [xj, yj, zj, _] = lanes::gather_rows(simd, position, entry);
             let [_, _, _, volume_j] = lanes::gather_rows(simd, velocity, entry);
-            let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+            let [dx, dy, dz] = space.apart([x, y, z], [xj, yj, zj]);
             let u = kernel.closeness(dx * dx + dy * dy + dz * dz);
             let weight = volume_j * u * u;
             let slope = weight * u;

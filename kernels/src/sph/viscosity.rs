@@ -11,13 +11,15 @@
 use crate::{
     lanes::{self, LANES, Simd, f32x8},
     params::Params,
+    periodic::Space,
     smoothing::WendlandLanes,
     vector::{Vec3x8, plus, times},
 };
 
 /// `D` with its factors at hand.
-pub(super) struct Pairs<'a, S: Simd> {
+pub(super) struct Pairs<'a, S: Simd, P: Space<S>> {
     simd: S,
+    space: P,
     kernel: WendlandLanes<S>,
     scale: f32x8<S>,
     central_scale: f32x8<S>,
@@ -25,10 +27,10 @@ pub(super) struct Pairs<'a, S: Simd> {
     position: &'a [[f32; 4]],
 }
 
-impl<'a, S: Simd> Pairs<'a, S> {
+impl<'a, S: Simd, P: Space<S>> Pairs<'a, S, P> {
     /// Over particles at `position`; does nothing where viscosity is explicit.
     #[inline(always)]
-    pub(super) fn new(simd: S, params: &Params, position: &'a [[f32; 4]]) -> Self {
+    pub(super) fn new((simd, space): (S, P), params: &Params, position: &'a [[f32; 4]]) -> Self {
         let fluid = &params.fluid;
         let (viscosity, central) = fluid
             .implicit_viscosity
@@ -36,6 +38,7 @@ impl<'a, S: Simd> Pairs<'a, S> {
         let (kernel, volume) = (fluid.smoothing.lanes(simd), fluid.rest_volume());
         Self {
             simd,
+            space,
             kernel,
             scale: kernel.viscosity_scale() * (viscosity * volume / fluid.rest_density),
             central_scale: kernel.gradient_scale() * (10.0 * central * volume / fluid.rest_density),
@@ -54,7 +57,7 @@ impl<'a, S: Simd> Pairs<'a, S> {
         for entry in list {
             let [xj, yj, zj, _] = lanes::gather_rows(self.simd, self.position, entry);
             let [vxj, vyj, vzj, _] = lanes::gather_rows(self.simd, vectors, entry);
-            let (dx, dy, dz) = (x - xj, y - yj, z - zj);
+            let [dx, dy, dz] = self.space.apart([x, y, z], [xj, yj, zj]);
             let square = dx * dx + dy * dy + dz * dz;
             let u = self.kernel.closeness(square);
             let (wx, wy, wz) = (vx - vxj, vy - vyj, vz - vzj);

@@ -16,8 +16,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, f32x8, with_lanes},
+    lanes::{self, LANES, Simd, f32x8},
     params::Params,
+    periodic::{Space, with_space},
     vector::{Vec3x8, minus, plus, times},
 };
 
@@ -65,7 +66,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let rows = (&mut friction[..], &mut friction_between[..], &mut residual[..], &mut direction[..]);
     cpu.for_chunks(rows, |first, (friction, between, residual, direction)| {
         let lists = neighbors.chunk(first);
-        with_lanes!(cpu, simd => task.chunk(simd, first, lists, friction, between, residual, direction));
+        with_space!(cpu, params, simd, space =>
+            task.chunk((simd, space), first, lists, friction, between, residual, direction));
     });
     // Lists are filled up with padding rows: those must stay zero.
     residual[count..].fill([0.0; 4]);
@@ -95,7 +97,7 @@ impl Task<'_> {
     #[expect(clippy::too_many_arguments, reason = "four columns are written at once")]
     fn chunk<S: Simd>(
         &self,
-        simd: S,
+        (simd, space): (S, impl Space<S>),
         first: usize,
         lists: &ChunkLists,
         friction: &mut [[f32; 4]],
@@ -103,7 +105,7 @@ impl Task<'_> {
         residual: &mut [[f32; 4]],
         direction: &mut [[f32; 4]],
     ) {
-        let pairs = Pairs::new(simd, self.params, self.position);
+        let pairs = Pairs::new((simd, space), self.params, self.position);
         let radius = self.params.fluid.smoothing.support_radius;
         let near = near(self.bodies, &self.position[first..first + residual.len()], radius);
         let zero = lanes::splat(simd, 0.0);

@@ -11,8 +11,9 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, Simd},
     params::Params,
+    periodic::{Space, with_space},
     vector::{plus, times},
 };
 
@@ -53,8 +54,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(rows, |first, (product, sums)| {
         let lists = neighbors.chunk(first);
         let friction = [&friction[first..], &friction_between[first..]];
-        with_lanes!(cpu, simd =>
-            chunk(simd, params, first, (position, direction), friction, lists, product));
+        with_space!(cpu, params, simd, space =>
+            chunk((simd, space), params, first, (position, direction), friction, lists, product));
         let used = count.saturating_sub(first).min(product.len());
         sums.0[0] = add_up(&product[..used], &direction[first..], &residual[first..]);
     });
@@ -63,7 +64,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 
 #[inline(always)]
 fn chunk<S: Simd>(
-    simd: S,
+    (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
     (position, direction): (&[[f32; 4]], &[[f32; 4]]),
@@ -71,7 +72,7 @@ fn chunk<S: Simd>(
     lists: &ChunkLists,
     product: &mut [[f32; 4]],
 ) {
-    let pairs = Pairs::new(simd, params, position);
+    let pairs = Pairs::new((simd, space), params, position);
     let step = lanes::splat(simd, params.step);
     let zero = lanes::splat(simd, 0.0);
     for row in (0..product.len()).step_by(LANES) {

@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{
     levels::words,
-    scene::{FULL, Options, Scene, best},
+    scene::{CHANNEL, FULL, Options, Scene, best},
 };
 use crate::{
     columns::{Column, Columns},
@@ -55,6 +55,7 @@ fn scenes() -> Vec<Options> {
         WETTED,
         FULL,
         Options { fluid: 200, bounded: false, ..FULL },
+        CHANNEL,
         Options { fluid: 9, walls: false, ..FULL },
     ]
 }
@@ -69,6 +70,10 @@ fn kernels_read_and_write_what_they_declare() {
     for options in scenes() {
         for kernel in KERNELS {
             let before = Scene::new(options.suiting(kernel)).before(kernel.name, &best());
+            // Without sponges there are no columns that a kernel of theirs could be seen to read.
+            if !options.sponges && !before.has_work(kernel) {
+                continue;
+            }
             if let Err(error) = audit(kernel.cpu, kernel.reads, kernel.writes, &before) {
                 failures.push(format!("{} {error} in {options:?}", kernel.name));
             }

@@ -1,6 +1,6 @@
 //! The same bits on every SIMD level and on any number of threads.
 
-use super::scene::{FULL, Options, Scene, best};
+use super::scene::{CHANNEL, FULL, Options, Scene, TORUS, best};
 use crate::{
     columns::{Column, Columns},
     cpu::Cpu,
@@ -56,6 +56,12 @@ fn every_kernel_gives_the_same_bits_on_every_level_and_number_of_threads() {
 #[test]
 fn unbounded_domains_and_full_last_groups_give_the_same_bits_too() {
     assert_same_bits(Options { fluid: 1000, bounded: false, walls: false, ..FULL });
+}
+
+#[test]
+fn what_repeats_gives_the_same_bits_too() {
+    assert_same_bits(CHANNEL);
+    assert_same_bits(TORUS);
 }
 
 #[test]

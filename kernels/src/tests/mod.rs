@@ -10,6 +10,7 @@ mod lattice;
 mod levels;
 mod momentum;
 mod oracles;
+mod periodic;
 pub(crate) mod scene;
 mod strain;
 mod viscosity;

@@ -86,7 +86,7 @@ pub(super) fn bound(kernel: &Kernel) -> f64 {
 }
 
 /// The columns after the oracle.
-fn expected(kernel: &Kernel, before: &Scene) -> Columns {
+pub(super) fn expected(kernel: &Kernel, before: &Scene) -> Columns {
     let mut columns = before.columns.clone();
     let oracle = oracle(kernel.name).unwrap_or_else(|| panic!("{} has no oracle", kernel.name));
     oracle(&before.params, &mut columns);

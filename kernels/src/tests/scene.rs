@@ -11,10 +11,11 @@ use crate::{
     kernel::{KERNELS, Kernel, Need, kernel},
     lanes::SimdLevel,
     params::{
-        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, Params, Solver,
+        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
         SpongeParams, WettingParams,
     },
     pbd::stars::Stars,
+    periodic::Periodic,
     smoothing::Wendland,
     sph::{boundary::boundary_profile, factors::lattice_diagonal},
     testing::Random,
@@ -107,6 +108,8 @@ pub(crate) struct Options {
     /// Whether properties depend on how wet sponges are, where a kernel asks.
     pub(crate) wetting: bool,
     pub(crate) implicit_viscosity: bool,
+    /// Axes on which space repeats, by the length of the block; for scenes without sponges.
+    pub(crate) periodic: [bool; 3],
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -122,6 +125,19 @@ pub(crate) const FULL: Options = Options {
     cohesion: false,
     wetting: false,
     implicit_viscosity: false,
+    periodic: [false; 3],
+};
+
+/// What repeats along two axes, as a channel does, and along all of them.
+pub(crate) const CHANNEL: Options = Options { sponges: false, periodic: [true, false, true], ..FULL };
+pub(crate) const TORUS: Options = Options {
+    fluid: 1000,
+    bodies: false,
+    walls: false,
+    bounded: false,
+    sponges: false,
+    periodic: [true; 3],
+    ..FULL
 };
 
 impl Options {
@@ -174,6 +190,9 @@ pub(super) fn all_options() -> Vec<Options> {
         Options { walls: false, bodies: false, ..FULL },
         Options { sponges: false, ..FULL },
         Options { wetting: true, ..FULL },
+        CHANNEL,
+        Options { bounded: false, walls: false, equation_of_state: EquationOfState::Linear, ..CHANNEL },
+        TORUS,
     ];
     let few = [0, 1, 7, 8, 9].map(|fluid| Options { fluid, ..FULL });
     all.extend(few);
@@ -348,11 +367,13 @@ fn params(options: Options) -> Params {
     let sum = Wendland::lattice_sum(f64::from(radius), f64::from(spacing)) as f32;
     let (low, high) = (Vec3::new(-0.002, 0.0024, -0.001), Vec3::new(0.0775, 0.06, 0.05));
     let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
+    let without = |corner: Vec3, far: f32| Vec3::select(options.periodic.into(), Vec3::splat(far), corner);
     Params {
         step: 0.001,
         gravity: Vec3::new(0.5, -9.81, 0.25),
         domain: if options.bounded { domain } else { Domain::Unbounded },
-        walls: options.walls.then_some((low, high)),
+        walls: options.walls.then_some((without(low, -NO_WALL), without(high, NO_WALL))),
+        periodic: Periodic::new(Vec3::ZERO, Vec3::new(13.0, 9.0, 9.0) * SPACING, options.periodic),
         no_slip: true,
         fluid: FluidParams {
             spacing,

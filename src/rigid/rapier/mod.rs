@@ -99,9 +99,9 @@ impl RapierEngine {
     }
 
     fn add_walls(&mut self, (low, high): (Vec3, Vec3)) {
-        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
-            for (bound, normal) in [(low.dot(axis), axis), (high.dot(axis), -axis)] {
-                // An open side: the product of an infinite bound with a zero component is NaN.
+        for (index, axis) in Vec3::AXES.into_iter().enumerate() {
+            for (bound, normal) in [(low[index], axis), (high[index], -axis)] {
+                // An open side.
                 if !bound.is_finite() {
                     continue;
                 }

@@ -33,6 +33,20 @@ fn an_open_side_lets_bodies_out() {
 }
 
 #[test]
+fn the_floor_of_a_container_that_is_open_at_its_sides_holds() {
+    let (low, high) = container();
+    let far = Vec3::new(f32::INFINITY, 0.0, f32::INFINITY);
+    let mut rolling = ball(Vec3::new(0.1, 0.02, 0.0));
+    rolling.state.linear_velocity = Vec3::X;
+    let mut engine =
+        RapierEngine::new(GRAVITY, Some((low - far, high + far)), &[rolling]).expect("open sides");
+    step(&mut engine, DT, 240);
+    let place = engine.state(0).position;
+    // It rolls at 1 m/s, and sinks in by half a millimetre.
+    assert!((place.y - 0.02).abs() < 1e-3 && place.x > 0.3, "{place}");
+}
+
+#[test]
 fn fast_bodies_stay_inside() {
     let half_extents = Vec3::new(0.01, 0.02, 0.03);
     for (direction, shape) in [

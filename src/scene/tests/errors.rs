@@ -79,6 +79,13 @@ fn missing_keys_are_named() {
     assert!(text.ends_with("missing key `bodies[0].shape.radius`"), "{text}");
     let text = message("version = 1\n[domain]\nminimum = [0, 0, 0]\n");
     assert!(text.ends_with("missing key `domain.kind`"), "{text}");
+    let text = message("version = 1\n[domain]\nkind = \"open\"\nperiodic = [true, true, true]\n");
+    assert!(text.contains("unknown key `domain.periodic`"), "{text}");
+    let corners = "version = 1\n[domain]\nkind = \"box\"\nminimum = [0, 0, 0]\nmaximum = [1, 1, 1]\n";
+    let text = message(&format!("{corners}periodic = [\"x\"]\n"));
+    assert!(text.ends_with("is an array; expected an array of 3, each true or false"), "{text}");
+    let text = message(&format!("{corners}periodic = [true, 1, true]\n"));
+    assert!(text.ends_with("`domain.periodic[1]` = 1 is a whole number; expected true or false"), "{text}");
 }
 
 #[test]

@@ -239,3 +239,55 @@ fn the_default_speed_of_sound_follows_the_fastest_water() {
     scene.fluid = None;
     assert_eq!(scene.default_sound_speed(), 0.0);
 }
+
+/// Water that fills a box of 6 x 4 x 5 cm, which repeats along some axes.
+fn repeating(axes: [bool; 3]) -> Scene {
+    let high = Vec3::new(0.06, 0.04, 0.05);
+    let fluid = Fluid { blocks: vec![FluidBlock::new(Vec3::ZERO, high)], ..Fluid::default() };
+    Scene::new("repeating").in_box(Vec3::ZERO, high).with_fluid(fluid).repeating(axes)
+}
+
+#[test]
+fn what_repeats_is_longer_than_pairs_reach() {
+    let mut scene = repeating([true, false, true]);
+    assert_eq!(scene.problems(), []);
+    fluid(&mut scene).surface_tension = 0.07;
+    assert_eq!(scene.problems(), [], "5 cm are more than four times 1 cm");
+    fluid(&mut scene).support = 2.75;
+    let text = "`domain.periodic[2]` = true: needs a box that is longer than 0.055 m there, \
+                twice as far as particles feel each other; this one is 0.05 m";
+    assert_eq!(only(&scene).to_string(), text);
+    // Where there are walls, and with the equation of state, the radius is another one.
+    assert_eq!(scene.clone().repeating([true, true, false]).problems().len(), 1);
+    assert_eq!(scene.clone().repeating([true, false, false]).problems(), []);
+    fluid(&mut scene).solver = FluidSolver::Wcsph;
+    assert_eq!(scene.problems(), []);
+}
+
+#[test]
+fn what_repeats_holds_whole_spacings_of_water() {
+    let mut scene = repeating([true, false, true]);
+    assert_eq!(scene.estimate().particles, 12 * 8 * 10);
+    fluid(&mut scene).spacing = 0.0053;
+    let problems: Vec<String> = scene.problems().iter().map(ToString::to_string).collect();
+    assert_eq!(problems.len(), 2, "{problems:?}");
+    assert!(problems[0].starts_with("`fluid.blocks[0]` = (0.06 m along x)"), "{}", problems[0]);
+    assert!(
+        problems[0].contains("whole number of `fluid.spacing` = 0.0053 long; 11 of 0.00545"),
+        "{problems:?}"
+    );
+    // A block that leaves room may have any length.
+    let block = &mut fluid(&mut scene).blocks[0];
+    (block.maximum.x, block.maximum.z) = (0.05, 0.04);
+    assert_eq!(scene.problems(), []);
+    assert_eq!(scene.estimate().particles, 9 * 7 * 7);
+}
+
+#[test]
+fn sponges_do_not_repeat() {
+    let message = only(&full().repeating([false, false, true])).to_string();
+    assert!(message.contains("sponges do not repeat"), "{message}");
+    assert_eq!(full().repeating([false; 3]).problems(), []);
+    let open = Scene::default().repeating([true; 3]);
+    assert_eq!(open.periodic(), [false; 3], "an open scene has no length that could repeat");
+}

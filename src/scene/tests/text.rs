@@ -24,8 +24,9 @@ fn scenes() -> Vec<Scene> {
         .with_body(Body::kinematic("hull", ShapeKind::Hull { vertices: hull }, Vec3::ZERO, motions))
         .with_body(Body { rotation: Rotation::new(Vec3::ONE, 12.5), ..Body::fixed("pin", capsule, Vec3::X) })
         .with_body(Body::fixed("floor", ShapeKind::Plane, Vec3::ZERO));
+    let channel = Scene::new("channel").in_box(Vec3::ZERO, Vec3::ONE).repeating([true, false, true]);
     let mut all: Vec<Scene> = presets().iter().filter_map(|known| preset(known.name).ok()).collect();
-    all.extend([rich, full(), Scene::default()]);
+    all.extend([rich, full(), channel, Scene::default()]);
     all
 }
 
@@ -43,7 +44,7 @@ fn a_written_scene_reads_back_equal() {
             scene
         );
     }
-    assert_eq!(scenes().len(), 12);
+    assert_eq!(scenes().len(), 13);
 }
 
 #[test]

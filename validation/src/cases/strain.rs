@@ -114,7 +114,7 @@ fn scene(bar: &Bar, setting: &Setting, kind: Kind) -> Result<Scene, Failure> {
     let mut scene = bar.scene("bar", setting)?.with_body(bar.grip("right", size.x, vec![motion]));
     if kind == Kind::Confined {
         let ends = Vec3::X * size.x as f32;
-        scene.domain = Domain::Box { minimum: -ends, maximum: size.as_vec3() + ends };
+        scene.domain = Domain::Box { minimum: -ends, maximum: size.as_vec3() + ends, periodic: [false; 3] };
         scene.sponges[0].friction = 0.0;
     }
     Ok(scene)

@@ -29,11 +29,11 @@ const SPEED: f64 = 0.1;
 const REYNOLDS: f64 = 100.0;
 /// Particles along the side.
 const PARTICLES: u32 = 50;
-/// Layers of particles: pairs reach two spacings, so that the middle of the slab does not feel both of its walls.
-const LAYERS: u32 = 4;
+/// Layers of particles along the axis in which nothing happens, and which repeats.
+const LAYERS: u32 = 8;
 /// Room beside the layers, over what they take: particles that flow lie less densely than in a lattice. In a box that is full no
 /// pressure is high enough, and the particles jam.
-const ROOM: f64 = 1.0 / 16.0;
+const ROOM: f64 = 0.07;
 /// Times of the fit, in units of the side over the speed. Before, the lattice that it begins with breaks.
 const FIT: [f64; 2] = [0.5, 2.5];
 
@@ -110,6 +110,7 @@ fn scene(
         ..Scene::new("taylor_green")
     }
     .in_box(Vec3::ZERO, room)
+    .repeating([false, false, true])
     .with_fluid(fluid)
 }
 

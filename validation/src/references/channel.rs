@@ -1,4 +1,4 @@
-//! Slow flow between two plates that move, in a channel with closed ends.
+//! Slow flow between two plates that move, in a channel through which nothing flows on the whole.
 
 /// Velocity over that of the plates, at a place between them, 0 to 1, where both move the same way: what they drag along comes back
 /// in the middle, a parabola without net flow \[Poiseuille\].

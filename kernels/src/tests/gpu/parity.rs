@@ -1,10 +1,13 @@
 //! Every kernel on the GPU against its body for the CPU.
 
+use glam::Vec3;
+
 use super::{
     super::{
         compare::errors_of,
         oracles,
-        scene::{FULL, Options, Scene, best},
+        periodic::ACROSS,
+        scene::{CHANNEL, FULL, Options, Scene, TORUS, best},
     },
     after_on, after_on_all, gpu,
 };
@@ -13,6 +16,7 @@ use crate::{
     gpu::is_internal,
     grid::neighbors::Neighbors,
     kernel::{KERNELS, Kernel, kernel},
+    oracle::apart,
     params::EquationOfState,
 };
 
@@ -77,7 +81,8 @@ fn list_error(column: Column, before: &Scene, found: &Columns, expected: &Column
         for query in 0..queries {
             for target in lists.of(query, targets) {
                 let (a, b) = (place(query, of_fluid), place(target as usize, to_fluid));
-                let square: f64 = (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum();
+                let [a, b] = [a, b].map(|[x, y, z, _]| Vec3::new(x, y, z).as_dvec3());
+                let square = apart(&before.params, a, b).length_squared();
                 let ratio = square / f64::from(radius).powi(2);
                 if (ratio - 1.0).abs() > 1e-6 {
                     all.push((identity(query, of_fluid), identity(target as usize, to_fluid)));
@@ -109,6 +114,7 @@ fn scenes() -> Vec<Options> {
     all.push(Options { sponges: false, ..FULL });
     all.push(Options { wetting: true, ..FULL });
     all.push(Options { wetting: true, fluid: 65, walls: false, ..FULL });
+    all.extend([CHANNEL, TORUS, Options { fluid: 65_537, ..TORUS }]);
     all
 }
 
@@ -194,6 +200,23 @@ fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
             assert!(is_noticed, "{} does not notice {}: {errors:?}", kernel.name, column.name());
         }
         assert!(planted > 0, "{} reads no numbers", kernel.name);
+    }
+}
+
+/// The control of what repeats: a twin that does not know differs from the CPU.
+#[test]
+fn a_twin_that_does_not_look_across_is_noticed() {
+    for kernel in KERNELS.iter().filter(|kernel| ACROSS.contains(&kernel.name)) {
+        let mut before = Scene::new(CHANNEL.suiting(kernel)).before(kernel.name, &best());
+        // Some particles leave the box in the step.
+        before.columns.fluid.velocity.iter_mut().for_each(|row| row[0] *= 10.0);
+        let expected = on_cpu(kernel, &before);
+        let mut altered = before.clone();
+        altered.params.periodic = None;
+        let found = after_on(gpu(), kernel, &altered);
+        let errors = gpu_errors(kernel, &before, &found, &expected);
+        let is_noticed = errors.iter().any(|(_, error)| *error > bound(kernel));
+        assert!(is_noticed, "{} does not notice: {errors:?}", kernel.name);
     }
 }
 
