@@ -78,6 +78,11 @@ struct Params {
     implicit_central_viscosity: f32,
     viscosity_tolerance: f32,
     viscosity_rounds: u32,
+    // How far apart nodes that touch can be; 0 where nothing can.
+    pair_radius: f32,
+    unused_0: u32,
+    unused_1: u32,
+    unused_2: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.
@@ -127,7 +132,8 @@ struct Clock {
     fluid_pressure: f32,
     // Largest speed of a body's surface.
     body_speed: f32,
-    unused_0: u32,
+    // Longest list of nodes that a node may touch.
+    longest_3: u32,
     unused_1: u32,
 }
 

@@ -1,5 +1,5 @@
-// The rigid motion that makes up for the momentum that a sponge lacks, one group per sponge; `momentum.rs` has the
-// formulas. Moments are taken about the first node of the sponge.
+// The rigid motion that makes up for the momentum that a sponge lacks, with those that it touches, one group per sponge;
+// `momentum.rs` has the formulas. Moments are taken about the first node of the first of them.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
@@ -24,6 +24,34 @@ struct Sums {
 }
 
 var<workgroup> sums: array<Sums, 128>;
+// A bit for every sponge that lacks its momentum together with this one.
+var<workgroup> joined: array<u32, 8>;
+
+fn is_joined(sponge: u32) -> bool {
+    return ((joined[sponge / 32u] >> (sponge % 32u)) & 1u) != 0u;
+}
+
+// Collects what a sponge touches, directly or through others.
+fn join_all(sponge: u32) {
+    joined[sponge / 32u] |= 1u << (sponge % 32u);
+    var grows = true;
+    while (grows) {
+        grows = false;
+        for (var other = 0u; other < 256u; other += 1u) {
+            if (!is_joined(other)) {
+                continue;
+            }
+            for (var word = 0u; word < 8u; word += 1u) {
+                let pair = ranges[other * 8u + 4u + word / 2u];
+                let added = select(pair.x, pair.y, word % 2u == 1u);
+                if ((joined[word] | added) != joined[word]) {
+                    joined[word] |= added;
+                    grows = true;
+                }
+            }
+        }
+    }
+}
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
     let x = position[row].xyz - origin;
@@ -64,12 +92,25 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let none = vec3<f32>(0.0);
-    let origin = position[ranges[group.x * 4u].x].xyz;
+    if (lane == 0u) {
+        join_all(group.x);
+    }
+    workgroupBarrier();
+    var first = 0u;
+    while (!is_joined(first)) {
+        first += 1u;
+    }
+    let origin = position[ranges[first * 8u].x].xyz;
     var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
-    for (var color = 0u; color < 4u; color += 1u) {
-        let range = ranges[group.x * 4u + color];
-        for (var row = range.x + lane; row < range.y; row += 128u) {
-            own = join(own, term(row, origin));
+    for (var sponge = first; sponge < 256u; sponge += 1u) {
+        if (!is_joined(sponge)) {
+            continue;
+        }
+        for (var color = 0u; color < 4u; color += 1u) {
+            let range = ranges[sponge * 8u + color];
+            for (var row = range.x + lane; row < range.y; row += 128u) {
+                own = join(own, term(row, origin));
+            }
         }
     }
     sums[lane] = own;
@@ -87,10 +128,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var velocity = none;
     var turn = none;
     if (all.squares.w > 0.0) {
-        let first = all.first.xyz;
-        centre = first / all.first.w;
-        let squares = all.squares.xyz - first * centre;
-        let products = all.products - vec3<f32>(first.x * centre.y, first.x * centre.z, first.y * centre.z);
+        let moment = all.first.xyz;
+        centre = moment / all.first.w;
+        let squares = all.squares.xyz - moment * centre;
+        let products = all.products - vec3<f32>(moment.x * centre.y, moment.x * centre.z, moment.y * centre.z);
         let trace = squares.x + squares.y + squares.z;
         let inertia = mat3x3<f32>(
             vec3<f32>(trace - squares.x, -products.x, -products.y),

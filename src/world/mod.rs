@@ -151,6 +151,7 @@ impl World {
                 && (params.no_slip || columns.bodies.states.0.iter().any(|body| body.no_slip)),
             porous: params.solid.is_some(),
             wetting: params.has_wetting(),
+            touch: params.has_touch(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
             viscosity_rounds: params.fluid.implicit_viscosity.map_or(0, |implicit| implicit.rounds),
             iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
