@@ -153,6 +153,7 @@ static SATURATION: Kernel = Kernel {
 };
 
 const WET: Content = Content {
+    touch: false,
     fluid: true,
     sponge: false,
     solvers: [None; 3],
@@ -222,6 +223,7 @@ fn the_step_itself_is_consistent_for_every_content() {
             iterations,
             porous,
             wetting: bodies,
+            touch: walls,
             rounds,
             viscosity_rounds,
         };

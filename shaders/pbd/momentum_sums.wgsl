@@ -24,33 +24,12 @@ struct Sums {
 }
 
 var<workgroup> sums: array<Sums, 128>;
-// A bit for every sponge that lacks its momentum together with this one.
-var<workgroup> joined: array<u32, 8>;
 
-fn is_joined(sponge: u32) -> bool {
-    return ((joined[sponge / 32u] >> (sponge % 32u)) & 1u) != 0u;
-}
-
-// Collects what a sponge touches, directly or through others.
-fn join_all(sponge: u32) {
-    joined[sponge / 32u] |= 1u << (sponge % 32u);
-    var grows = true;
-    while (grows) {
-        grows = false;
-        for (var other = 0u; other < 256u; other += 1u) {
-            if (!is_joined(other)) {
-                continue;
-            }
-            for (var word = 0u; word < 8u; word += 1u) {
-                let pair = ranges[other * 8u + 4u + word / 2u];
-                let added = select(pair.x, pair.y, word % 2u == 1u);
-                if ((joined[word] | added) != joined[word]) {
-                    joined[word] |= added;
-                    grows = true;
-                }
-            }
-        }
-    }
+// Whether a sponge lacks its momentum together with another.
+fn is_joined(own: u32, other: u32) -> bool {
+    let pair = ranges[own * 8u + 4u + other / 64u];
+    let word = select(pair.x, pair.y, (other / 32u) % 2u == 1u);
+    return ((word >> (other % 32u)) & 1u) != 0u;
 }
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
@@ -92,22 +71,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let none = vec3<f32>(0.0);
-    if (lane == 0u) {
-        join_all(group.x);
-    }
-    workgroupBarrier();
     var first = 0u;
-    while (!is_joined(first)) {
+    while (first < group.x && !is_joined(group.x, first)) {
         first += 1u;
     }
     let origin = position[ranges[first * 8u].x].xyz;
     var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
-    for (var sponge = first; sponge < 256u; sponge += 1u) {
-        if (!is_joined(sponge)) {
-            continue;
-        }
-        for (var color = 0u; color < 4u; color += 1u) {
-            let range = ranges[sponge * 8u + color];
+    for (var index = first * 4u; index < 1024u; index += 1u) {
+        let sponge = index / 4u;
+        if (sponge == group.x || is_joined(group.x, sponge)) {
+            let range = ranges[sponge * 8u + index % 4u];
             for (var row = range.x + lane; row < range.y; row += 128u) {
                 own = join(own, term(row, origin));
             }

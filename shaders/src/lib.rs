@@ -67,6 +67,7 @@ pub static SHADERS: &[Shader] = shaders! {
     pbd::contact: body surface sweep sponges wrench;
     pbd::gravity: ;
     pbd::guess: sponges;
+    pbd::joining: ;
     pbd::momentum: sponges;
     pbd::momentum_sums: sponges;
     pbd::normals: sponges star meeting;

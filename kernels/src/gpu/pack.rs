@@ -9,6 +9,7 @@ use crate::{
     params::{Cohesion, EquationOfState, Params, Solver, SpongeParams},
     pbd::{
         lattice::{COLORS, Topology},
+        momentum::joined,
         pairs::pair_radius,
         stars::NEIGHBORS,
     },
@@ -267,7 +268,8 @@ pub(super) fn stars(nodes: &Nodes, rows: usize) -> Vec<u32> {
 /// Pairs of words of a sponge: ranges of nodes, and a bit for every sponge.
 pub(super) const RANGES: usize = 8;
 
-/// First node and end of the nodes of every sponge in each vertex colour; then which others it touches, a bit each.
+/// First node and end of the nodes of every sponge in each vertex colour; then which others it touches, directly or through others,
+/// a bit each.
 pub(super) fn sponge_ranges(nodes: &Nodes, sponges: usize) -> Vec<[u32; 2]> {
     let mut ranges = vec![[0, 0]; sponges * RANGES];
     let stars = &nodes.stars;
@@ -279,10 +281,10 @@ pub(super) fn sponge_ranges(nodes: &Nodes, sponges: usize) -> Vec<[u32; 2]> {
         }
         range[1] = piece.rows.end;
     }
-    for column in [&nodes.touch, &nodes.touch_stiffness] {
-        for (own, row) in nodes.sponge.iter().zip(column) {
-            let other = row[3] as usize;
-            ranges[*own as usize * RANGES + 4 + other / 64][other / 32 % 2] |= 1 << (other % 32);
+    let first = joined(&nodes.sponge, [&nodes.touch, &nodes.touch_stiffness], sponges);
+    for (own, group) in first.iter().enumerate() {
+        for other in (0..sponges).filter(|other| first[*other] == *group) {
+            ranges[own * RANGES + 4 + other / 64][other / 32 % 2] |= 1 << (other % 32);
         }
     }
     ranges

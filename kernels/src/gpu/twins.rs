@@ -296,7 +296,14 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
             CHECK,
         ],
     ),
-    ("pbd::touch", &[pass("pbd::touch", Rows::Nodes, NODES), pass("pbd::touching", Rows::Sponges, NODES)]),
+    (
+        "pbd::touch",
+        &[
+            pass("pbd::touch", Rows::Nodes, NODES),
+            pass("pbd::touching", Rows::Sponges, NODES),
+            pass("pbd::joining", Rows::One, NODES),
+        ],
+    ),
     ("pbd::gravity", &[pass("pbd::gravity", Rows::Nodes, NODES)]),
     ("pbd::predict", &[pass("pbd::predict", Rows::Nodes, NODES)]),
     ("pbd::guess", &[pass("pbd::guess", Rows::Nodes, NODES)]),

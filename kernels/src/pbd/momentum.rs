@@ -104,7 +104,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 }
 
 /// For every sponge, the first of those that it touches, directly or through others, or itself.
-fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) -> Vec<usize> {
+pub(crate) fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) -> Vec<usize> {
     let mut first: Vec<usize> = (0..sponges).collect();
     for column in touches {
         for (own, row) in sponge.iter().zip(column) {
