@@ -43,7 +43,7 @@ fn a_written_scene_reads_back_equal() {
             scene
         );
     }
-    assert_eq!(scenes().len(), 12);
+    assert_eq!(scenes().len(), 13);
 }
 
 #[test]
