@@ -218,6 +218,21 @@ fn a_folded_bar_does_not_pass_through_itself() {
 }
 
 #[test]
+fn a_wrung_bar_keeps_its_twist() {
+    let scene = common::with(&common::preset("wring", 0.5), &["sponges[0].self_contact=true"]);
+    let mut world = common::world(&scene);
+    let mut energy_at = |time: f64| {
+        while world.measures().time < time {
+            common::frame(&mut world);
+        }
+        world.measures().elastic_energy
+    };
+    // Twisted and at rest; then spun and held.
+    let (twisted, spun, held) = (energy_at(1.9), energy_at(2.8), energy_at(3.5));
+    assert!(twisted > 0.2 && spun > 0.98 * twisted && held > 0.98 * twisted, "{twisted} {spun} {held} J");
+}
+
+#[test]
 fn sponges_inside_each_other_are_refused() {
     let mut scene = pair(-0.02);
     scene.sponges.iter_mut().for_each(|sponge| sponge.shape = SpongeShape::Ellipsoid);
