@@ -1,5 +1,6 @@
 //! From a scene to columns: seeds the water, fills the lattices, places the bodies.
 
+mod overlap;
 mod params;
 mod seed;
 
@@ -11,6 +12,7 @@ use sorb_kernels::{
     cpu::Cpu,
     params::Params,
     pbd::{
+        flatness::flatness,
         lattice::{TetChunk, Topology},
         stars::Stars,
     },
@@ -42,6 +44,7 @@ impl Setup {
         let engine = engine(scene, &setups)?;
         place_bodies(scene, &setups, &*engine, &mut columns);
         let lattice = lattice(scene, &columns.bodies.states.0)?;
+        overlap::check(scene, &lattice)?;
         fill_nodes(scene, &params, &lattice, &mut columns);
         if scene.fluid.is_some() && !scene.sponges.is_empty() {
             columns.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &columns));
@@ -160,6 +163,12 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     let rows = padded(count);
     let nodes = &mut columns.nodes;
     nodes.position.clone_from(&lattice.position);
+    if params.has_touch() {
+        nodes.rest.clone_from(&lattice.position);
+        let flat = flatness(&lattice.tets, &lattice.position);
+        nodes.rest.iter_mut().zip(flat).for_each(|(row, flat)| row[3] = flat);
+        nodes.rest.resize(rows, FAR_ROW);
+    }
     nodes.volume.clone_from(&lattice.node_volume);
     nodes.sponge.clone_from(&lattice.node_sponge);
     nodes.suction = suction(scene, params, lattice);

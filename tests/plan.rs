@@ -9,6 +9,7 @@ use sorb::{
     cpu::Cpu,
     kernel::{Kernel, Need},
     params::{Params, Solver},
+    scene::Scene,
     schedule::{Content, POROUS_STEP, Phase, Plan, Runner, STEP, Verdict},
 };
 
@@ -37,7 +38,7 @@ macro_rules! plans {
         })+
     };
 }
-plans! { standing ball_drop squish dam_break wring life water dry empty }
+plans! { standing ball_drop squish dam_break wring life stack water dry empty }
 
 #[test]
 fn a_scene_without_sponge_runs_no_phase_of_it() {
@@ -83,6 +84,22 @@ fn every_phase_of_the_step_has_a_line_with_a_reason_if_it_is_skipped() {
     assert_eq!(verdict(&plan("water"), "pbd::strain"), Verdict::Skipped("no sponge"));
     assert_eq!(verdict(&plan("water"), "rigid::step"), Verdict::Skipped("no bodies"));
     assert_eq!(verdict(&plan("dry"), "sph::density"), Verdict::Skipped("no fluid"));
+}
+
+#[test]
+fn contact_of_sponges_is_looked_for_only_where_there_can_be_any() {
+    const NAMES: [&str; 2] = ["pbd::pairs", "pbd::touch"];
+    let missing = Verdict::Skipped("no sponge can touch another or itself");
+    let of = |scene: &Scene| common::world(scene).plan().clone();
+    for (scene, expected) in [("ball_drop", missing), ("dry", missing), ("stack", Verdict::Runs)] {
+        let plan = of(&common::preset(scene, 0.5));
+        NAMES.iter().for_each(|name| assert_eq!(verdict(&plan, name), expected, "{scene}"));
+    }
+    let folds = common::with(&common::preset("dry", 0.5), &["sponges[0].self_contact=true"]);
+    NAMES.iter().for_each(|name| assert_eq!(verdict(&of(&folds), name), Verdict::Runs));
+    // Other solvers have none.
+    let paper = common::with(&common::preset("stack", 0.5), &["sponges[1].solver=sbd"]);
+    NAMES.iter().for_each(|name| assert_eq!(verdict(&of(&paper), name), missing));
 }
 
 #[test]
@@ -136,6 +153,7 @@ static SATURATION: Kernel = Kernel {
 };
 
 const WET: Content = Content {
+    touch: false,
     fluid: true,
     sponge: false,
     solvers: [None; 3],
@@ -206,6 +224,7 @@ fn the_step_itself_is_consistent_for_every_content() {
             iterations,
             porous,
             wetting: bodies,
+            touch: walls,
             rounds,
             projections: rounds * viscosity_rounds,
             viscosity_rounds,

@@ -309,6 +309,24 @@ fn wring() {
 }
 
 #[test]
+fn stack() {
+    let scene = common::preset("stack", RESOLUTION);
+    let run = Run::of(&scene, 3.0);
+    let mut claims = run.claims();
+    let (full, small, again) = (volume(run.at(0.25)), volume(run.at(1.2)), volume(run.at(3.0)));
+    claims.claim(small < 0.75 * full, format!("volume: {full:.3e} m^3, pressed {small:.3e} m^3"));
+    claims.claim(again > 0.95 * full, format!("volume: {full:.3e} m^3, {again:.3e} m^3 in the end"));
+    let centre = |time: f64| run.at(time).measures.sponge_centre;
+    let (start, end) = (centre(0.25), centre(3.0));
+    claims.claim(end.y > 0.95 * start.y, format!("the upper one lies on the lower one: {start:?}, {end:?}"));
+    let aside = (end - start).length();
+    claims.claim(aside < 0.005, format!("{start:?}, {end:?} in the end"));
+    let (held, left) = (absorbed(run.at(0.25)), absorbed(run.at(1.2)));
+    claims.claim(left < 0.95 * held, format!("absorbed: {held:.4} kg, {left:.4} kg pressed"));
+    run.finish(claims);
+}
+
+#[test]
 fn life() {
     // At half of it the sponge would be two cells high.
     let scene = common::preset("life", 0.75);

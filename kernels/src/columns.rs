@@ -240,6 +240,20 @@ columns! {
         NodeTopology = topology: Topology, "1", Constant;
         /// Neighbours and tets of every node.
         NodeStars = stars: Stars, "1", Constant;
+        /// Place of the node in the lattice at rest; w: how flat the surface is there, 1 on a face, 0 inside, see `pbd::pairs`.
+        NodeRest = rest: Vec<[f32; 4]>, "m", Constant;
+        /// Outward normal of the surface of the sponge; w: area that the node stands for \[m^2\], 0 inside and where no sponge
+        /// can touch it.
+        NodeNormal = normal: Vec<[f32; 4]>, "1", Scratch;
+        /// For every surface node, those of other sponges or of its own that it may touch in this step.
+        NodePairs = pairs: Neighbors, "1", Scratch;
+        /// Force by what the node touches of sponges; w: lowest index of another sponge that it touches, or of its own.
+        NodeTouch = touch: Vec<[f32; 4]>, "N", Scratch;
+        /// Derivative of that force by the place of the node, with the opposite sign, along the axes: xx, yy, zz; w: highest index
+        /// of another sponge that it touches, or of its own.
+        NodeTouchStiffness = touch_stiffness: Vec<[f32; 4]>, "N/m", Scratch;
+        /// The same between the axes: xy, xz, yz; w: unused.
+        NodeTouchBetween = touch_between: Vec<[f32; 4]>, "N/m", Scratch;
         /// Where the node would go without elastic forces and drag; w: its mass \[kg\], 0 for a held node.
         NodeFree = free: Vec<[f32; 4]>, "m", Scratch;
         /// Where inertia and the drag of the fluid draw the node; w: the mass with which they do \[kg\].

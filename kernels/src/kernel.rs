@@ -42,6 +42,8 @@ pub enum Need {
     Porous,
     /// A sponge with properties that depend on how wet it is.
     Wetting,
+    /// A sponge that can touch another or itself.
+    Touch,
 }
 
 impl Need {
@@ -66,6 +68,7 @@ impl Need {
             Self::Incompressible => "pressure by an equation of state",
             Self::Porous => "coupling of the paper",
             Self::Wetting => "no sponge depends on how wet it is",
+            Self::Touch => "no sponge can touch another or itself",
         }
     }
 }
@@ -116,9 +119,11 @@ pub static KERNELS: &[&Kernel] = &[
     &sph::boundary_reaction::KERNEL,
     &sph::sweep::KERNEL,
     &sph::advect::KERNEL,
+    &pbd::pairs::KERNEL,
     &pbd::gravity::KERNEL,
     &pbd::predict::KERNEL,
     &pbd::guess::KERNEL,
+    &pbd::touch::KERNEL,
     &pbd::strain::KERNEL,
     &pbd::xpbd_neo_hookean::KERNEL,
     &pbd::vbd::KERNEL,

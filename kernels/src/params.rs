@@ -39,6 +39,40 @@ impl Params {
         self.sponges.iter().any(|sponge| sponge.wetting.is_any())
     }
 
+    /// Whether any sponge can touch another or itself: those that `vbd` solves.
+    #[must_use]
+    pub fn has_touch(&self) -> bool {
+        (0..self.sponges.len() as u32).any(|sponge| self.meets_any(sponge))
+    }
+
+    /// Whether a sponge can touch another or itself.
+    pub(crate) fn meets_any(&self, sponge: u32) -> bool {
+        (0..self.sponges.len() as u32).any(|other| self.may_meet(sponge, other))
+    }
+
+    /// Whether two sponges, or one and itself, can touch.
+    pub(crate) fn may_meet(&self, a: u32, b: u32) -> bool {
+        let [own, other] = [a, b].map(|index| &self.sponges[index as usize]);
+        own.solver == Solver::Vbd && other.solver == Solver::Vbd && (a != b || own.self_contact)
+    }
+
+    /// Edge that contact of two sponges is measured in \[m\].
+    pub(crate) fn pair_edge(&self, a: u32, b: u32) -> f32 {
+        let [a, b] = [a, b].map(|index| self.sponges[index as usize].contact_edge());
+        a.max(b)
+    }
+
+    /// Harmonic mean of the moduli of two sponges \[Pa\].
+    pub(crate) fn pair_modulus(&self, a: u32, b: u32) -> f32 {
+        let [a, b] = [a, b].map(|index| &self.sponges[index as usize]).map(|own| own.lambda + own.mu);
+        2.0 * a * b / (a + b)
+    }
+
+    /// Coulomb friction between two sponges \[1\].
+    pub(crate) fn pair_friction(&self, a: u32, b: u32) -> f32 {
+        0.5 * (self.sponges[a as usize].friction + self.sponges[b as usize].friction)
+    }
+
     /// How a sponge is solved; none for what is no sponge, as in padding rows.
     #[must_use]
     pub(crate) fn solver(&self, sponge: u32) -> Option<Solver> {
@@ -199,8 +233,10 @@ pub struct SpongeParams {
     pub damping_time: f32,
     /// Solver iterations of a step.
     pub iterations: u32,
-    /// Coulomb friction of nodes against the walls \[1\].
+    /// Coulomb friction of nodes against the walls, and their part in that against other sponges \[1\].
     pub friction: f32,
+    /// Whether the sponge may touch itself (`pbd::pairs`).
+    pub self_contact: bool,
     /// Pore volume over volume \[1\].
     pub porosity: f32,
     /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
@@ -267,6 +303,11 @@ impl WettingParams {
 }
 
 impl SpongeParams {
+    /// Longest edge that the lattice has at rest, however wet it is \[m\].
+    pub(crate) fn contact_edge(&self) -> f32 {
+        self.edge * self.wetting.size(1.0)
+    }
+
     /// Constants of the Neo-Hookean energies, `mu` and `lambda` \[Pa\], of Young's modulus \[Pa\] and Poisson's ratio.
     ///
     /// Near rest the energies are that of a linear material with `mu` and a first Lame constant of `lambda - mu`.

@@ -3,7 +3,7 @@
 //
 // `extremes`: squared speed and acceleration of particles, squared speed of nodes (bits of f32); rows that are not
 // finite, of particles and nodes (0xffffffff - row, 0 if there is none); longest lists that did not fit, as in
-// `Clock`; root of the mean square of the pressure (bits of f32).
+// `Clock`; root of the mean square of the pressure (bits of f32); the longest of the fourth kind.
 
 const NOT_FINITE_PARTICLE: u32 = 1u;
 const NOT_FINITE_NODE: u32 = 2u;
@@ -99,7 +99,8 @@ fn check() {
     clock.longest_0 = extremes[5];
     clock.longest_1 = extremes[6];
     clock.longest_2 = extremes[7];
-    if ((clock.longest_0 | clock.longest_1 | clock.longest_2) != 0u) {
+    clock.longest_3 = extremes[9];
+    if ((clock.longest_0 | clock.longest_1 | clock.longest_2 | clock.longest_3) != 0u) {
         clock.status = LIST_FULL;
         clock.running = 0u;
     }

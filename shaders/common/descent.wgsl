@@ -1,5 +1,5 @@
 // The energy of one node while all others stand still, and obstacles in its way; `descent.rs` and `obstacles.rs` have the
-// formulas. Uses the bindings `stars`, `position`, `predicted`, and `bodies`.
+// formulas. Uses the bindings `params`, `stars`, `position`, `predicted`, and `bodies`.
 
 const LEAST_COMPLIANCE: f32 = 0.1;
 const SOLID: f32 = 0.2;
@@ -73,7 +73,19 @@ fn wetness_of(row: u32) -> f32 {
     return bitcast<f32>(stars[row * STAR + WETNESS]);
 }
 
-// Elastic and damping force on a node at `x`, and its stiffness.
+// Force by what a node touches of sponges, its stiffness along the axes and between them, from behind the stars.
+fn touch_of(row: u32) -> array<vec3<f32>, 3> {
+    let base = params.node_rows * STAR + row * TOUCH;
+    var all = array<vec3<f32>, 3>();
+    for (var k = 0u; k < 3u; k += 1u) {
+        let first = base + 3u * k;
+        let words = vec3<u32>(stars[first], stars[first + 1u], stars[first + 2u]);
+        all[k] = bitcast<vec3<f32>>(words);
+    }
+    return all;
+}
+
+// Force on a node at `x` by its material and by what it touches of sponges, and its stiffness.
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
     let base = row * STAR;
     let tets = stars[base + TETS];
@@ -135,8 +147,20 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             }
         }
     }
-    let force = pull + pressure + damping.force;
-    return Local(force, stiffness + diagonal(count) + damping.stiffness, strain);
+    var force = pull + pressure + damping.force;
+    stiffness += diagonal(count) + damping.stiffness;
+    if (params.pair_radius > 0.0) {
+        let touch = touch_of(row);
+        force += touch[0];
+        stiffness += mat3x3<f32>(
+            vec3<f32>(touch[1].x, touch[2].x, touch[2].y),
+            vec3<f32>(touch[2].x, touch[1].y, touch[2].z),
+            vec3<f32>(touch[2].y, touch[2].z, touch[1].z),
+        );
+        // What touches something goes to its least energy, and not further.
+        strain += select(0.0, 1.0, touch[1].x + touch[1].y + touch[1].z > 0.0);
+    }
+    return Local(force, stiffness, strain);
 }
 
 // Where the energy is least without obstacles.

@@ -87,6 +87,11 @@ struct Params {
     periods: vec4<f32>,
     // Half of the periods; along the other axes farther than any two points are apart.
     half_periods: vec4<f32>,
+    // How far apart nodes that touch can be; 0 where nothing can.
+    pair_radius: f32,
+    unused_0: u32,
+    unused_1: u32,
+    unused_2: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.
@@ -136,7 +141,8 @@ struct Clock {
     fluid_pressure: f32,
     // Largest speed of a body's surface.
     body_speed: f32,
-    unused_0: u32,
+    // Longest list of nodes that a node may touch.
+    longest_3: u32,
     unused_1: u32,
 }
 

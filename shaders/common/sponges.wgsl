@@ -25,7 +25,8 @@ struct Sponge {
     swelling: f32,
     wetting_time: f32,
     receding: f32,
-    unused: u32,
+    // 1 for sponges that may touch themselves.
+    self_contact: u32,
 }
 
 // Solvers.

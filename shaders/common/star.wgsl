@@ -6,6 +6,8 @@ const DIRECTION: u32 = 8u;
 const TETS: u32 = 14u;
 const SPONGE: u32 = 15u;
 const WETNESS: u32 = 16u;
+// Words of what touches a node, behind the stars of all nodes.
+const TOUCH: u32 = 9u;
 
 const RINGS = array<vec4<u32>, 6>(
     vec4<u32>(6u, 4u, 0u, 2u),

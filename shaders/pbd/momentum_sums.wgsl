@@ -1,5 +1,5 @@
-// The rigid motion that makes up for the momentum that a sponge lacks, one group per sponge; `momentum.rs` has the
-// formulas. Moments are taken about the first node of the sponge.
+// The rigid motion that makes up for the momentum that a sponge lacks, with those that it touches, one group per sponge;
+// `momentum.rs` has the formulas. Moments are taken about the first node of the first of them.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
@@ -24,6 +24,13 @@ struct Sums {
 }
 
 var<workgroup> sums: array<Sums, 128>;
+
+// Whether a sponge lacks its momentum together with another.
+fn is_joined(own: u32, other: u32) -> bool {
+    let pair = ranges[own * 8u + 4u + other / 64u];
+    let word = select(pair.x, pair.y, (other / 32u) % 2u == 1u);
+    return ((word >> (other % 32u)) & 1u) != 0u;
+}
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
     let x = position[row].xyz - origin;
@@ -64,12 +71,19 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let none = vec3<f32>(0.0);
-    let origin = position[ranges[group.x * 4u].x].xyz;
+    var first = 0u;
+    while (first < group.x && !is_joined(group.x, first)) {
+        first += 1u;
+    }
+    let origin = position[ranges[first * 8u].x].xyz;
     var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
-    for (var color = 0u; color < 4u; color += 1u) {
-        let range = ranges[group.x * 4u + color];
-        for (var row = range.x + lane; row < range.y; row += 128u) {
-            own = join(own, term(row, origin));
+    for (var index = first * 4u; index < 1024u; index += 1u) {
+        let sponge = index / 4u;
+        if (sponge == group.x || is_joined(group.x, sponge)) {
+            let range = ranges[sponge * 8u + index % 4u];
+            for (var row = range.x + lane; row < range.y; row += 128u) {
+                own = join(own, term(row, origin));
+            }
         }
     }
     sums[lane] = own;
@@ -87,10 +101,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var velocity = none;
     var turn = none;
     if (all.squares.w > 0.0) {
-        let first = all.first.xyz;
-        centre = first / all.first.w;
-        let squares = all.squares.xyz - first * centre;
-        let products = all.products - vec3<f32>(first.x * centre.y, first.x * centre.z, first.y * centre.z);
+        let moment = all.first.xyz;
+        centre = moment / all.first.w;
+        let squares = all.squares.xyz - moment * centre;
+        let products = all.products - vec3<f32>(moment.x * centre.y, moment.x * centre.z, moment.y * centre.z);
         let trace = squares.x + squares.y + squares.z;
         let inertia = mat3x3<f32>(
             vec3<f32>(trace - squares.x, -products.x, -products.y),

@@ -31,6 +31,7 @@ const PRESETS: &[Preset] = presets! {
     "dam_break": "A breaking dam drags a sponge along";
     "wring": "Two grips wring a saturated sponge bar";
     "life": "Dropped dry into water, squeezed by a ball, let go";
+    "stack": "A plate presses a dry sponge onto a wet one";
     "water": "Control: the breaking dam without the sponge";
     "dry": "Control: the ball and the sponge without water";
     "empty": "Control: nothing at all";

@@ -147,8 +147,11 @@ pub struct Sponge {
     /// more sweeps are stiffer under load, and 1 is the number of the paper. `xpbd_neo_hookean` takes one, whatever this
     /// says. Cost grows in proportion.
     pub iterations: u32,
-    /// Coulomb friction against bodies and walls. Range 0 to 10; default 0.5.
+    /// Coulomb friction against walls, and against other sponges, where it is the mean of both. Range 0 to 10; default 0.5.
     pub friction: f32,
+    /// Whether the sponge can touch itself where it is folded or wrung; default false. With `solver = "vbd"`. Nodes that are less than four
+    /// edges apart at rest never touch. Different sponges of this solver always touch each other.
+    pub self_contact: bool,
     /// Share of the pores filled with water at time zero. Range 0 to 1; default 0.
     pub saturation: f32,
     /// Share of its stiffness that wet material lacks: Young's modulus is `young_modulus * (1 - softening * wetness)`. Range 0 to
@@ -202,6 +205,7 @@ impl Default for Sponge {
             damping_time: 0.0005,
             iterations: 4,
             friction: 0.5,
+            self_contact: false,
             saturation: 0.0,
             softening: 0.0,
             swelling: 0.0,

@@ -234,6 +234,10 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
             None => {}
         }
         wetting(sponge, &table, scene, problems);
+        if sponge.self_contact && sponge.solver != Solver::Vbd {
+            let rule = "needs `solver` = \"vbd\"";
+            problems.push(Problem::rule(format!("{table}.self_contact"), "true", rule));
+        }
         for (other_index, other) in scene.sponges.iter().enumerate().take(index) {
             let whole = sponge.shape == SpongeShape::Block && other.shape == SpongeShape::Block;
             let (a, b) = ((sponge.position, sponge.maximum()), (other.position, other.maximum()));

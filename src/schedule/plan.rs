@@ -38,6 +38,8 @@ pub struct Content {
     pub porous: bool,
     /// Sponges with properties that depend on how wet they are.
     pub wetting: bool,
+    /// Sponges that can touch each other or themselves.
+    pub touch: bool,
     /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
     pub rounds: u32,
     /// Rounds in which positions are moved; 0 where the pressure is solved for.

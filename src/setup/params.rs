@@ -205,6 +205,7 @@ fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
             _ => sponge.iterations,
         },
         friction: sponge.friction,
+        self_contact: sponge.self_contact,
         porosity: sponge.porosity,
         drag_rate: viscosity * sponge.porosity / (density * sponge.permeability),
         inertial_drag: sponge.forchheimer * sponge.porosity * sponge.porosity / sponge.permeability.sqrt(),

@@ -29,6 +29,14 @@ pub enum WorldError {
         /// Name of the body.
         body: String,
     },
+    /// Sponges lie inside each other, where contact would have to take them apart.
+    #[error("sponges `{first}` and `{second}` overlap by more than half an edge: move one of them")]
+    Overlap {
+        /// Name of a sponge.
+        first: String,
+        /// Name of another.
+        second: String,
+    },
     /// A body has bad values.
     #[error(transparent)]
     Rigid(#[from] RigidError),

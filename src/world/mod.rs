@@ -153,6 +153,7 @@ impl World {
                 && (params.no_slip || columns.bodies.states.0.iter().any(|body| body.no_slip)),
             porous: params.solid.is_some(),
             wetting: params.has_wetting(),
+            touch: params.has_touch(),
             rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
             projections: params
                 .fluid

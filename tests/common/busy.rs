@@ -10,8 +10,8 @@ use sorb::{
 };
 
 /// All presets, in the order of the documentation.
-pub(crate) const SCENES: [&str; 9] =
-    ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "water", "dry", "empty"];
+pub(crate) const SCENES: [&str; 10] =
+    ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "stack", "water", "dry", "empty"];
 
 /// The models of the paper, with moduli that are about as stiff.
 pub(crate) fn as_in_the_paper(scene: &mut Scene) {
@@ -60,6 +60,13 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
         "life" => {
             scene.sponges[0].position.y = 0.012;
             scene.bodies[0].position.y = scene.sponges[0].maximum().y + 0.031;
+            let velocity = Vec3::new(0.0, -0.5, 0.0);
+            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
+        }
+        "stack" => {
+            // The upper sponge falls and slides, and the plate pushes it.
+            scene.sponges[1].velocity = Vec3::new(0.1, -0.5, 0.05);
+            scene.bodies[0].position.y = scene.sponges[1].maximum().y + 0.0051;
             let velocity = Vec3::new(0.0, -0.5, 0.0);
             scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
         }

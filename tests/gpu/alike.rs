@@ -150,6 +150,7 @@ cases! {
     dam_break: "dam_break", 0.5, &[], 1, 1e-4;
     wring: "wring", 0.5, &[], 1, 1e-4;
     life: "life", 0.5, &[], 1, 1e-4;
+    stack: "stack", 0.5, &[], 1, 1e-4;
     water: "water", 0.5, &[], 1, 1e-4;
     dry: "dry", 0.5, &[], 1, 1e-4;
     empty: "empty", 0.5, &[], 1, 1e-4;

@@ -114,7 +114,7 @@ impl Answer {
             rounds: clock[35],
             most_rounds: std::array::from_fn(|index| clock[36 + index]),
             unfinished: (status == UNFINISHED).then(|| (clock[34] as usize, clock[32])),
-            longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15]]),
+            longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15], clock[42]]),
         }
     }
 }

@@ -9,7 +9,9 @@ use crate::{
     params::{Cohesion, EquationOfState, Params, Solver, SpongeParams},
     pbd::{
         lattice::{COLORS, Topology},
-        stars::{NEIGHBORS, Stars},
+        momentum::joined,
+        pairs::pair_radius,
+        stars::NEIGHBORS,
     },
     smoothing::Wendland,
 };
@@ -62,8 +64,8 @@ impl Bytes {
     }
 }
 
-/// Longest lists that fit: fluid to fluid, fluid to controls, controls to fluid.
-pub(super) type Capacities = [u32; 3];
+/// Longest lists that fit: fluid to fluid, fluid to controls, controls to fluid, nodes to nodes that they may touch.
+pub(super) type Capacities = [u32; 4];
 
 pub(super) fn params(
     params: &Params,
@@ -91,7 +93,7 @@ pub(super) fn params(
         // Finite: shaders may assume that nothing is infinite.
         .floats(&[limits.courant, limits.edge.min(f32::MAX), limits.minimum, limits.constant])
         .words(&[limits.constant_bound])
-        .words(&capacities)
+        .words(&capacities[..3])
         .floats(&[fluid.central_viscosity, fluid.roughness]);
     let solid = params.solid.unwrap_or(params.coupling);
     for smoothing in [&fluid.smoothing, &params.coupling, &solid] {
@@ -131,6 +133,7 @@ pub(super) fn params(
         }
         None => bytes.words(&[0; 16]),
     };
+    bytes.floats(&[pair_radius(params)]).words(&[0; 3]);
     bytes.0
 }
 
@@ -167,7 +170,7 @@ pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
             .words(&[u32::from(sponge.pores_close), sponge.wetting.exponent])
             .floats(&[sponge.wetting.softening, sponge.wetting.swelling])
             .floats(&[sponge.wetting.time, sponge.wetting.receding])
-            .words(&[0]);
+            .words(&[u32::from(sponge.self_contact)]);
     }
     bytes.0.resize(SPONGES * SPONGE_BYTES, 0);
     bytes.0
@@ -248,9 +251,19 @@ pub(super) fn batch_bytes(batches: &[[u32; 2]; BATCHES]) -> Vec<u8> {
 /// left.
 pub(super) const STAR_WORDS: usize = NEIGHBORS + 3;
 
-/// The stars of all nodes, a row each.
+/// Words of what touches a node, behind the stars of all nodes for the same reason: force and stiffness.
+pub(super) const TOUCH_WORDS: usize = 9;
+
+/// The stars of all nodes, a row each, and what touches the nodes, if anything does.
 pub(super) fn stars(nodes: &Nodes, rows: usize) -> Vec<u32> {
     let mut words = vec![0; rows * STAR_WORDS];
+    for ((force, along), between) in
+        nodes.touch.iter().zip(&nodes.touch_stiffness).zip(&nodes.touch_between).take(rows)
+    {
+        words.extend(
+            [force, along, between].iter().flat_map(|row| row[..3].iter().map(|value| value.to_bits())),
+        );
+    }
     for (node, neighbors, tets) in nodes.stars.each() {
         let first = node as usize * STAR_WORDS;
         words[first..first + NEIGHBORS].copy_from_slice(&neighbors);
@@ -261,16 +274,27 @@ pub(super) fn stars(nodes: &Nodes, rows: usize) -> Vec<u32> {
     words
 }
 
-/// First node and end of the nodes of every sponge in each vertex colour.
-pub(super) fn sponge_ranges(stars: &Stars, sponges: usize) -> Vec<[u32; 2]> {
-    let mut ranges = vec![[0, 0]; sponges * 4];
+/// Pairs of words of a sponge: ranges of nodes, and a bit for every sponge.
+pub(super) const RANGES: usize = 8;
+
+/// First node and end of the nodes of every sponge in each vertex colour; then which others it touches, directly or through others,
+/// a bit each.
+pub(super) fn sponge_ranges(nodes: &Nodes, sponges: usize) -> Vec<[u32; 2]> {
+    let mut ranges = vec![[0, 0]; sponges * RANGES];
+    let stars = &nodes.stars;
     for piece in &stars.pieces {
         let color = (0..4).find(|color| piece.rows.start < stars.color_start[color + 1]).unwrap_or(0);
-        let range = &mut ranges[piece.sponge as usize * 4 + color];
+        let range = &mut ranges[piece.sponge as usize * RANGES + color];
         if range[1] == 0 {
             range[0] = piece.rows.start;
         }
         range[1] = piece.rows.end;
+    }
+    let first = joined(&nodes.sponge, [&nodes.touch, &nodes.touch_stiffness], sponges);
+    for (own, group) in first.iter().enumerate() {
+        for other in (0..sponges).filter(|other| first[*other] == *group) {
+            ranges[own * RANGES + 4 + other / 64][other / 32 % 2] |= 1 << (other % 32);
+        }
     }
     ranges
 }

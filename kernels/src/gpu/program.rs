@@ -321,6 +321,8 @@ impl Resident {
             Rows::Controls => groups(nodes.div_ceil(8) as u64),
             Rows::FluidScan => groups(u64::from(self.grids[0].pages() > FEW_PAGES)),
             Rows::ControlScan => groups(u64::from(self.grids[1].pages() > FEW_PAGES)),
+            Rows::PairScan => groups(u64::from(self.grids[2].pages() > FEW_PAGES)),
+            Rows::PairPages => groups(self.grids[2].pages()),
             Rows::FluidPages => groups(self.grids[0].pages()),
             Rows::ControlPages => groups(self.grids[1].pages()),
             Rows::Bodies => groups(bodies as u64),

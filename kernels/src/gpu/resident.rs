@@ -9,8 +9,8 @@ use super::{
     device::Gpu,
     error::GpuError,
     pack::{
-        self, BATCH_STRIDE, BATCHES, BODY_BYTES, Capacities, Grid, SPONGE_BYTES, SPONGES, STAR_WORDS,
-        StepLimits,
+        self, BATCH_STRIDE, BATCHES, BODY_BYTES, Capacities, Grid, RANGES, SPONGE_BYTES, SPONGES, STAR_WORDS,
+        StepLimits, TOUCH_WORDS,
     },
     program::{FEW_ROWS, GROUP, SMALL_GROUP},
     sums::{SUM_BYTES, sum_groups},
@@ -19,6 +19,7 @@ use crate::{
     body::Body,
     columns::{Columns, RowCounts},
     params::Params,
+    pbd::pairs::pair_radius,
 };
 
 /// Bytes of what a solve keeps from round to round.
@@ -43,7 +44,7 @@ pub struct Resident {
     pub(super) capacities: Capacities,
     pub(super) limits: StepLimits,
     pub(super) params: Params,
-    pub(super) grids: [Grid; 2],
+    pub(super) grids: [Grid; 3],
     /// First row and rows of every batch.
     pub(super) batches: [[u32; 2]; BATCHES],
     /// Whether particles are where `sph::advect` leaves them (false) or where `grid::sort_fluid` does (true).
@@ -80,6 +81,13 @@ impl Resident {
         let grids = [
             Grid::new(params.domain, fluid, rows.fluid, most),
             Grid::new(params.domain, params.coupling.support_radius, rows.nodes, most),
+            // Where nothing can touch, its buffers are empty and no pass takes it.
+            Grid::new(
+                params.domain,
+                if params.has_touch() { pair_radius(params) } else { 1.0 },
+                rows.nodes,
+                most,
+            ),
         ];
         let (batches, tet_sponge) = pack::batches(&columns.nodes.topology);
         let answer = gpu.guarded(None, || {
@@ -153,17 +161,21 @@ impl Resident {
         let thick = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
         let tense = if self.params.fluid.cohesion.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
+        let touching = if self.params.has_touch() { nodes } else { 0 };
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
+        let pair_cells = cells(&self.grids[2], touching);
+        let sponges = self.params.sponges.len() as u64;
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
         let groups = |rows: u64| rows.div_ceil(256) * bodies * 32;
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         vec![
-            ("params", 432, uniform),
+            ("params", 448, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
             ("fluid_grid", 48, uniform),
             ("control_grid", 48, uniform),
+            ("pair_grid", 48, uniform),
             ("batch", BATCH_STRIDE * BATCHES as u64, uniform | plain),
             ("extremes", 48, plain),
             ("convergence", 16, plain),
@@ -213,9 +225,22 @@ impl Resident {
             ("node_reaction", nodes * 16, plain),
             ("node_pores", nodes * 16, plain),
             ("node_wetting", wetted * 16, plain),
-            ("node_stars", nodes * STAR_WORDS as u64 * 4, plain),
-            ("sponge_ranges", self.params.sponges.len() as u64 * 32, plain),
-            ("sponge_motions", self.params.sponges.len() as u64 * 48, plain),
+            ("node_stars", (nodes * STAR_WORDS as u64 + touching * TOUCH_WORDS as u64) * 4, plain),
+            ("node_rest", touching * 16, plain),
+            ("node_normal", touching * 16, plain),
+            ("node_pairs", list(touching, self.capacities[3]), plain),
+            ("node_touch", touching * 16, plain),
+            ("node_touch_stiffness", touching * 16, plain),
+            ("node_touch_between", touching * 16, plain),
+            ("pair_cells", touching * 4, plain),
+            ("pair_slots", touching * 4, plain),
+            ("pair_grouped", touching * 4, plain),
+            ("pair_counts", pair_cells * 4, plain),
+            ("pair_starts", pair_cells * 4, plain),
+            ("pair_page_sums", pair_cells / 1024, plain),
+            ("sponge_ranges", sponges * RANGES as u64 * 8, plain),
+            ("sponge_boxes", sponges * 32, plain),
+            ("sponge_motions", sponges * 48, plain),
             ("node_volume", nodes * 4, plain),
             ("node_sponge", nodes * 4, plain),
             ("node_traits", nodes * 16, plain),
@@ -273,6 +298,10 @@ impl Resident {
         self.write("sponges", &pack::sponges(&self.params.sponges));
         self.write("fluid_grid", &self.grids[0].bytes(self.rows.fluid));
         self.write("control_grid", &self.grids[1].bytes(self.rows.nodes));
+        self.write("pair_grid", &self.grids[2].bytes(self.rows.nodes));
+        if self.params.has_touch() {
+            self.write("node_rest", bytemuck::cast_slice(&nodes.rest[..self.rows.nodes]));
+        }
         self.write("batch", &pack::batch_bytes(&self.batches));
         self.write("tets", bytemuck::cast_slice(&nodes.topology.tets));
         self.write("tet_sponge", bytemuck::cast_slice(tet_sponge));
@@ -285,9 +314,14 @@ impl Resident {
             .collect();
         self.write("node_traits", bytemuck::cast_slice(&traits));
         self.write("node_stars", bytemuck::cast_slice(&pack::stars(nodes, self.rows.nodes)));
-        let ranges = pack::sponge_ranges(&nodes.stars, self.params.sponges.len());
-        self.write("sponge_ranges", bytemuck::cast_slice(&ranges));
+        self.fill_ranges(columns);
         self.fill_params();
+    }
+
+    /// Where the nodes of every sponge are, and which others it touches.
+    pub(super) fn fill_ranges(&self, columns: &Columns) {
+        let ranges = pack::sponge_ranges(&columns.nodes, self.params.sponges.len());
+        self.write("sponge_ranges", bytemuck::cast_slice(&ranges));
     }
 
     /// Parameters, which hold the length of lists.
@@ -319,8 +353,8 @@ impl Resident {
 
     /// Makes lists longer, with a quarter to spare; `longest` is 0 for those that fit.
     pub(super) fn lengthen(&mut self, longest: Capacities) -> Result<(), GpuError> {
-        let names = ["fluid_neighbors", "fluid_controls", "control_fluid"];
-        let rows = [self.rows.fluid, self.rows.fluid, self.rows.nodes];
+        let names = ["fluid_neighbors", "fluid_controls", "control_fluid", "node_pairs"];
+        let rows = [self.rows.fluid, self.rows.fluid, self.rows.nodes, self.rows.nodes];
         for (which, needed) in longest.into_iter().enumerate().filter(|(_, needed)| *needed > 0) {
             let capacity = (needed + needed / 4).next_multiple_of(8).max(self.capacities[which]);
             self.capacities[which] = capacity;
@@ -334,6 +368,9 @@ impl Resident {
         Ok(())
     }
 }
+
+/// Nodes that a node may touch: those of a flat surface within reach, and half as many again.
+const PAIRS: u32 = 32;
 
 /// Entries that lists of a fluid and a lattice at rest need, and half as many again.
 pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
@@ -351,5 +388,6 @@ pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
         if rows.fluid > 0 { entries(params.fluid.list_radius(), spacing, rows.fluid) } else { 0 },
         if rows.fluid > 0 { entries(radius, pitch, rows.nodes) } else { 0 },
         if rows.fluid > 0 { entries(radius, spacing, rows.fluid) } else { 0 },
+        if params.has_touch() { PAIRS } else { 0 },
     ]
 }

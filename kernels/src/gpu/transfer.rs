@@ -74,6 +74,10 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::NodeWetting => ("node_wetting", Rows(&mut nodes.wetting, zero)),
         Column::NodeDrag => ("node_drag", Rows(&mut nodes.drag, zero)),
         Column::NodeDragMoment => ("node_drag_moment", Rows(&mut nodes.drag_moment, zero)),
+        Column::NodeNormal => ("node_normal", Rows(&mut nodes.normal, zero)),
+        Column::NodeTouch => ("node_touch", Rows(&mut nodes.touch, zero)),
+        Column::NodeTouchStiffness => ("node_touch_stiffness", Rows(&mut nodes.touch_stiffness, zero)),
+        Column::NodeTouchBetween => ("node_touch_between", Rows(&mut nodes.touch_between, zero)),
         Column::NodeReaction => ("node_reaction", Rows(&mut nodes.reaction, zero)),
         Column::NodeAcceleration => ("node_acceleration", Rows(&mut nodes.acceleration, zero)),
         Column::NodeSaturation => ("node_saturation", Values(&mut nodes.saturation)),
@@ -123,12 +127,13 @@ impl Plain<'_> {
     }
 }
 
-/// The lists of a column: which of the three they are.
+/// The lists of a column: which of the four they are.
 fn list_of(column: Column) -> Option<(&'static str, usize)> {
     match column {
         Column::FluidNeighbors => Some(("fluid_neighbors", 0)),
         Column::FluidControls => Some(("fluid_controls", 1)),
         Column::ControlFluid => Some(("control_fluid", 2)),
+        Column::NodePairs => Some(("node_pairs", 3)),
         _ => None,
     }
 }
@@ -138,7 +143,8 @@ fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usize, usize) 
     match which {
         0 => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
         1 => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
-        _ => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
+        2 => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
+        _ => (&mut columns.nodes.pairs, rows.nodes, rows.nodes),
     }
 }
 
@@ -152,11 +158,29 @@ pub fn is_internal(column: Column) -> bool {
             | Column::FluidPairs
             | Column::FluidControlWeights
             | Column::ControlFluidWeights
+            | Column::NodeRest
             | Column::NodeTopology
             | Column::NodeStars
             | Column::NodeSuction
             | Column::NodeInterior
     )
+}
+
+/// Columns that the passes of vertex block descent find beside the stars, for want of bindings.
+fn is_beside_stars(column: Column) -> bool {
+    let touch = [Column::NodeTouch, Column::NodeTouchStiffness, Column::NodeTouchBetween];
+    column == Column::NodeWetting || touch.contains(&column)
+}
+
+/// Columns that some scenes do without.
+fn is_optional(column: Column) -> bool {
+    is_beside_stars(column) || matches!(column, Column::NodeNormal | Column::NodePairs)
+}
+
+/// Columns that this scene does without.
+fn is_absent(params: &Params, column: Column) -> bool {
+    let has = if column == Column::NodeWetting { params.has_wetting() } else { params.has_touch() };
+    is_optional(column) && !has
 }
 
 /// What weights of the coupling are functions of.
@@ -178,9 +202,10 @@ impl Resident {
             if let Some((name, data)) = plain(columns, *column, sorted) {
                 let rows = columns_rows(self, *column);
                 self.write(name, data.bytes(rows));
-                if *column == Column::NodeWetting && !columns.nodes.wetting.is_empty() {
+                if is_beside_stars(*column) && rows > 0 {
                     let stars = pack::stars(&columns.nodes, self.rows.nodes);
                     self.write("node_stars", bytemuck::cast_slice(&stars));
+                    self.fill_ranges(columns);
                 }
             } else if let Some((name, list)) = list_of(*column) {
                 self.upload_lists(columns, name, list)?;
@@ -201,7 +226,7 @@ impl Resident {
         let lists: Vec<Vec<u32>> = (0..rows).map(|query| lists.of(query, targets).collect()).collect();
         let longest = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
         if longest > self.capacities[which] {
-            let mut needed = [0; 3];
+            let mut needed = [0; 4];
             needed[which] = longest;
             self.lengthen(needed)?;
         }
@@ -355,7 +380,7 @@ impl Resident {
 /// Makes room for a column that is a plain array, so that a kernel of the CPU finds it where those before it ran
 /// elsewhere.
 pub fn make_room(columns: &mut Columns, column: Column) {
-    if column == Column::NodeWetting {
+    if is_beside_stars(column) {
         // There from the beginning, or not at all.
         return;
     }
@@ -374,7 +399,7 @@ pub fn make_room(columns: &mut Columns, column: Column) {
 pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) -> bool {
     let rows = columns.rows.of(column.store());
     let Some((_, data)) = plain(columns, column, false) else { return false };
-    if column == Column::NodeWetting && words.is_empty() {
+    if is_optional(column) && words.is_empty() {
         // The scene does without.
         return true;
     }
@@ -418,7 +443,7 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
 pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     let count = rows.of(column.store()) as u64;
     let groups = |rows: usize| rows.div_ceil(256) as u64 * count * 32;
-    if column == Column::NodeWetting && !params.has_wetting() {
+    if is_absent(params, column) {
         return 0;
     }
     if let Some((_, data)) = plain(&mut Columns::default(), column, false) {
@@ -439,7 +464,7 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
 
 /// Rows of a column that the device holds.
 fn columns_rows(resident: &Resident, column: Column) -> usize {
-    if column == Column::NodeWetting && !resident.params.has_wetting() {
+    if is_absent(&resident.params, column) {
         return 0;
     }
     resident.rows.of(column.store())

@@ -21,6 +21,10 @@ pub(super) enum Rows {
     FluidScan,
     /// One group if the cells over the controls have many pages.
     ControlScan,
+    /// A group per page of the cells over the nodes that may touch.
+    PairPages,
+    /// One group if those cells have many pages.
+    PairScan,
     /// A thread per tet.
     Tets,
     /// A group per body.
@@ -104,6 +108,18 @@ const CONTROLS: Names = &[
     ("grouped", "control_grouped"),
 ];
 
+/// Nodes in the cells over those that may touch.
+const PAIRS: Names = &[
+    ("points", "node_position"),
+    ("grid", "pair_grid"),
+    ("cells", "pair_cells"),
+    ("slots", "pair_slots"),
+    ("counts", "pair_counts"),
+    ("starts", "pair_starts"),
+    ("page_sums", "pair_page_sums"),
+    ("grouped", "pair_grouped"),
+];
+
 /// Controls around every particle.
 const NEAR_FLUID: Names = &[
     ("queries", "fluid_position_sorted"),
@@ -162,6 +178,16 @@ const NODES: Names = &[
     ("pores", "node_pores"),
     ("stars", "node_stars"),
     ("ranges", "sponge_ranges"),
+    ("boxes", "sponge_boxes"),
+    ("rest", "node_rest"),
+    ("normal", "node_normal"),
+    ("touch", "node_touch"),
+    ("stiffness", "node_touch_stiffness"),
+    ("between", "node_touch_between"),
+    ("list", "node_pairs"),
+    ("grid", "pair_grid"),
+    ("starts", "pair_starts"),
+    ("grouped", "pair_grouped"),
     ("motions", "sponge_motions"),
     ("wrenches", "node_wrenches"),
 ];
@@ -258,6 +284,27 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
     ("sph::boundary_reaction", &[pass("sph::boundary_reaction", Rows::Fluid, FLUID)]),
     ("sph::sweep", &[pass("sph::sweep", Rows::Fluid, FLUID)]),
     ("sph::advect", &[pass("sph::advect", Rows::Fluid, SORT)]),
+    (
+        "pbd::pairs",
+        &[
+            pass("pbd::boxes", Rows::Sponges, NODES),
+            pass("pbd::normals", Rows::Nodes, NODES),
+            pass("grid::count", Rows::Nodes, PAIRS),
+            pass("grid::scan_sums", Rows::PairScan, PAIRS),
+            pass("grid::scan_pages", Rows::PairPages, PAIRS),
+            pass("grid::scatter", Rows::Nodes, PAIRS),
+            pass("pbd::pairs", Rows::Nodes, NODES),
+            CHECK,
+        ],
+    ),
+    (
+        "pbd::touch",
+        &[
+            pass("pbd::touch", Rows::Nodes, NODES),
+            pass("pbd::touching", Rows::Sponges, NODES),
+            pass("pbd::joining", Rows::One, NODES),
+        ],
+    ),
     ("pbd::gravity", &[pass("pbd::gravity", Rows::Nodes, NODES)]),
     ("pbd::predict", &[pass("pbd::predict", Rows::Nodes, NODES)]),
     ("pbd::guess", &[pass("pbd::guess", Rows::Nodes, NODES)]),

@@ -93,6 +93,38 @@ impl Neighbors {
         Self { chunks, ..Self::default() }
     }
 
+    /// Makes the list of every query with a function, which may keep working memory from one to the next; `padding` fills up
+    /// a group.
+    pub(crate) fn fill<M: Default>(
+        &mut self,
+        cpu: &Cpu,
+        queries: usize,
+        padding: u32,
+        list: impl Fn(&mut M, usize, &mut Vec<u32>) + Sync,
+    ) {
+        self.chunks.resize_with(queries.div_ceil(CHUNK), ChunkLists::default);
+        cpu.for_chunks_with(
+            PerChunk(&mut self.chunks),
+            |memory: &mut (M, [Vec<u32>; LANES]), first, lists| {
+                let ChunkLists { start, entries } = &mut lists.0[0];
+                let (memory, lists) = memory;
+                entries.clear();
+                for (group, start) in start.iter_mut().enumerate() {
+                    *start = entries.len() as u32;
+                    let rows = first + group * LANES..queries.min(first + CHUNK);
+                    if group == GROUPS || rows.is_empty() {
+                        continue;
+                    }
+                    lists.iter_mut().for_each(Vec::clear);
+                    rows.zip(lists.iter_mut()).for_each(|(query, own)| list(memory, query, own));
+                    let length = lists.iter().map(Vec::len).max().unwrap_or(0);
+                    let entry = |k: usize, lane: usize| lists[lane].get(k).copied().unwrap_or(padding);
+                    entries.extend((0..length).map(|k| std::array::from_fn(|lane| entry(k, lane))));
+                }
+            },
+        );
+    }
+
     /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded
     /// rows in the order of `cells`), over their images as well where space repeats.
     pub(crate) fn build(

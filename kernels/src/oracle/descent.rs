@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{obstacles, pbd::SHAPE, row, shapes, vector, wetting};
+use super::{obstacles, pbd::SHAPE, row, shapes, touch, vector, wetting};
 use crate::{
     body::Wrench,
     columns::{Columns, Nodes},
@@ -19,6 +19,7 @@ pub(super) fn guess(params: &Params, columns: &mut Columns) {
     nodes.free = nodes.target.clone();
     let none = vec![[0.0; 4]; nodes.predicted.len()];
     (nodes.drag, nodes.drag_moment) = (none.clone(), none);
+    (nodes.touch, nodes.touch_stiffness, nodes.touch_between) = (Vec::new(), Vec::new(), Vec::new());
     for node in 0..columns.rows.nodes {
         let y = nodes.predicted[node];
         let share = f64::from(nodes.velocity[node][3]);
@@ -53,7 +54,7 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
-/// Elastic and damping force on a node, and minus its derivative.
+/// Elastic and damping force on a node, that by what it touches of sponges, and minus their derivative.
 fn local(
     params: &Params,
     (nodes, node): (&Nodes, usize),
@@ -94,6 +95,7 @@ fn local(
         let all = g.iter().map(|g| outer(*g, *g)).fold(DMat3::ZERO, |sum, g| sum + g);
         stiffness += volume * rate * (mu * square * all + lambda * outer(sum(&g), sum(&g)));
     }
+    touch::add(nodes, node, (&mut force, &mut stiffness));
     (force, stiffness)
 }
 
@@ -196,7 +198,9 @@ fn relaxation(
     way: DVec3,
 ) -> f64 {
     let sponge = &params.sponges[nodes.sponge[node] as usize];
-    if sponge.iterations < 2 {
+    let (mut force, mut stiffness) = (DVec3::ZERO, DMat3::ZERO);
+    let touches = touch::add(nodes, node, (&mut force, &mut stiffness));
+    if sponge.iterations < 2 || touches {
         return 1.0;
     }
     let volume = |(tet, _): &([usize; 4], usize)| {
@@ -297,12 +301,14 @@ pub(super) fn reaction(params: &Params, columns: &mut Columns) {
 
 pub(super) fn momentum(params: &Params, columns: &mut Columns) {
     let (nodes, h) = (&mut columns.nodes, f64::from(params.step));
+    let joined = touch::joined(nodes, params.sponges.len());
     for (index, sponge) in params.sponges.iter().enumerate() {
-        if sponge.solver != Solver::Vbd {
+        if sponge.solver != Solver::Vbd || joined[index][0] != index {
             continue;
         }
-        let own: Vec<usize> =
-            (0..columns.rows.nodes).filter(|node| nodes.sponge[*node] as usize == index).collect();
+        // What several lack that touch each other, they lack together.
+        let is_own = |node: &usize| joined[index].contains(&(nodes.sponge[*node] as usize));
+        let own: Vec<usize> = (0..columns.rows.nodes).filter(is_own).collect();
         let weight = |node: usize| match f64::from(nodes.reaction[node][3]) {
             weight if weight > 0.0 => weight + f64::from(nodes.drag[node][3]),
             weight => -weight,

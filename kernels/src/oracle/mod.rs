@@ -19,6 +19,7 @@ mod porous;
 mod shapes;
 mod sph;
 mod surface;
+mod touch;
 mod viscosity;
 mod wetting;
 
@@ -60,6 +61,8 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "pbd::gravity" => pbd::gravity,
         "pbd::predict" => pbd::predict,
         "pbd::guess" => descent::guess,
+        "pbd::pairs" => touch::pairs,
+        "pbd::touch" => touch::touch,
         "pbd::strain" => pbd::strain,
         "pbd::xpbd_neo_hookean" => pbd::xpbd_neo_hookean,
         "pbd::vbd" => descent::vbd,

@@ -8,7 +8,7 @@
 //! acceleration a that the node did not follow in the last step, because something held it: `s = 1` in free fall,
 //! `s = 0` at rest. What is at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
 //!
-//! Fluid may draw the nodes as well: then `couple::drag_target` moves the target, by its mass.
+//! Fluid may draw the nodes as well: then `couple::drag_target` moves the target, by its mass. Sponges may touch: `pbd::touch`.
 
 use crate::{
     columns::{Column::*, Columns, Nodes},
@@ -22,13 +22,36 @@ pub static KERNEL: Kernel = Kernel {
     name: "pbd::guess",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
     reads: &[NodeVelocity, NodeAcceleration, NodeSponge, NodePredicted],
-    writes: &[NodePredicted, NodeFree, NodeTarget, NodeDrag, NodeDragMoment],
+    writes: &[
+        NodePredicted,
+        NodeFree,
+        NodeTarget,
+        NodeDrag,
+        NodeDragMoment,
+        NodeTouch,
+        NodeTouchStiffness,
+        NodeTouchBetween,
+    ],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { velocity, acceleration, sponge, predicted, free, target, drag, drag_moment, .. } =
-        &mut columns.nodes;
+    let Nodes {
+        velocity,
+        acceleration,
+        sponge,
+        predicted,
+        free,
+        target,
+        drag,
+        drag_moment,
+        touch,
+        touch_stiffness,
+        touch_between,
+        ..
+    } = &mut columns.nodes;
+    // Stay empty where nothing touches a sponge but bodies and walls.
+    [touch, touch_stiffness, touch_between].into_iter().for_each(Vec::clear);
     target.resize(predicted.len(), [0.0; 4]);
     for of_fluid in [drag, drag_moment] {
         of_fluid.clear();

@@ -3,16 +3,19 @@
 
 pub mod contact;
 mod descent;
+pub mod flatness;
 pub mod gravity;
 pub mod guess;
 pub mod lattice;
 pub mod momentum;
 mod obstacles;
+pub mod pairs;
 pub mod predict;
 pub mod reaction;
 pub mod stars;
 pub mod strain;
 mod tets;
+pub mod touch;
 pub mod vbd;
 pub mod velocity;
 pub mod wetted;

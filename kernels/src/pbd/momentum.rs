@@ -15,6 +15,9 @@
 //! so that a sponge that stands on something is not shaken. Free nodes move with the mass of the fluid that their drag
 //! takes along. A free sponge keeps both momenta to rounding. No node is moved through a wall of the container.
 //!
+//! Sponges that touch each other (`touch.rs`) lack momentum together: what they give to each other need not be told, as that between the
+//! nodes of one sponge, and both momenta of all of them are kept.
+//!
 //! The share of the external acceleration that a node followed is kept for the next `pbd::guess`.
 
 use glam::{DMat3, DVec3};
@@ -42,6 +45,8 @@ pub static KERNEL: Kernel = Kernel {
         NodeAcceleration,
         NodeDrag,
         NodeDragMoment,
+        NodeTouch,
+        NodeTouchStiffness,
     ],
     writes: &[NodeVelocity, NodePredicted],
     cpu,
@@ -59,6 +64,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         predicted,
         drag,
         drag_moment,
+        touch,
+        touch_stiffness,
         ..
     } = &mut columns.nodes;
     let rate = 1.0 / f64::from(params.step);
@@ -75,7 +82,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     for (sum, piece) in sums.iter().zip(&stars.pieces) {
         totals[piece.sponge as usize].join(sum);
     }
-    let motions: Vec<Motion> = totals.iter().map(Sums::motion).collect();
+    let motions = motions(&totals, &joined(sponge, [touch, touch_stiffness], totals.len()));
     let step = params.step;
     cpu.for_chunks((&mut predicted[..], &mut velocity[..]), |first, (predicted, velocity)| {
         for (row, (y, v)) in predicted.iter_mut().zip(velocity).enumerate() {
@@ -94,6 +101,41 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             v[3] = followed(x, *y, *v, acceleration[node], step);
         }
     });
+}
+
+/// For every sponge, the first of those that it touches, directly or through others, or itself.
+pub(crate) fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) -> Vec<usize> {
+    let mut first: Vec<usize> = (0..sponges).collect();
+    for column in touches {
+        for (own, row) in sponge.iter().zip(column) {
+            let [mut a, mut b] = [*own as usize, row[3] as usize];
+            if a == b {
+                continue;
+            }
+            // As long as the chain is: there are few sponges.
+            while first[a] != a {
+                a = first[a];
+            }
+            while first[b] != b {
+                b = first[b];
+            }
+            first[a.max(b)] = a.min(b);
+        }
+    }
+    // The first of a chain comes before all others of it.
+    for index in 0..sponges {
+        first[index] = first[first[index]];
+    }
+    first
+}
+
+/// The motion of every sponge: what several lack that touch each other, they lack together.
+fn motions(totals: &[Sums], first: &[usize]) -> Vec<Motion> {
+    let mut joined = totals.to_vec();
+    for (index, total) in totals.iter().enumerate().filter(|(index, _)| first[*index] != *index) {
+        joined[first[index]].join(total);
+    }
+    first.iter().map(|first| joined[*first].motion()).collect()
 }
 
 /// A coordinate between two walls; what is not a number stays so.

@@ -15,6 +15,7 @@ use crate::{
         descent::{Material, constants_of, local},
         obstacles::{Obstacles, array, vector},
         stars::{StarGroup, Stars},
+        touch::Touch,
         vbd::least,
         wetted::Wet,
     },
@@ -35,6 +36,9 @@ pub static KERNEL: Kernel = Kernel {
         NodeStars,
         NodeSponge,
         NodeWetting,
+        NodeTouch,
+        NodeTouchStiffness,
+        NodeTouchBetween,
         BodyStates,
         BodyNodeWrenches,
     ],
@@ -43,7 +47,20 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, sponge, stars, wetting, reaction, .. } = &mut columns.nodes;
+    let Nodes {
+        position,
+        predicted,
+        target,
+        sponge,
+        stars,
+        wetting,
+        reaction,
+        touch,
+        touch_stiffness,
+        touch_between,
+        ..
+    } = &mut columns.nodes;
+    let touch = Touch { force: touch, stiffness: touch_stiffness, between: touch_between };
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.node_wrenches.0;
     reaction.clear();
@@ -51,7 +68,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     for color in 0..4 {
         let rows = stars.rows(color);
         let wet = Wet::new(params, sponge, wetting);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet };
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
         // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
@@ -76,6 +93,7 @@ struct Task<'a> {
     sponge: &'a [u32],
     stars: &'a Stars,
     wet: Wet<'a>,
+    touch: Touch<'a>,
 }
 
 impl Task<'_> {
@@ -132,7 +150,8 @@ impl Task<'_> {
         let target = [tx, ty, tz];
         let places = (self.predicted, self.position, self.wet);
         let step = self.params.step;
-        let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        let mut energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        self.touch.add(simd, &group.own, &mut energy);
         let (elastic, stiffness) = (energy.force, energy.stiffness);
         let (point, quadratic) = least(simd, energy, (x, target, drawn), step);
         let mut contact = quadratic.contact((point, old), material, near);

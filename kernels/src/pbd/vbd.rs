@@ -25,6 +25,7 @@ use crate::{
         descent::{Local, Material, constants_of, inverse, local, product},
         obstacles::{Obstacles, Quadratic, array, vector},
         stars::{StarGroup, Stars},
+        touch::Touch,
         wetted::Wet,
     },
     vector::{Vec3x8, choose, dot, minus, plus, times},
@@ -41,13 +42,36 @@ const LONG: f32 = 0.1;
 pub static KERNEL: Kernel = Kernel {
     name: "pbd::vbd",
     needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, NodeWetting, BodyStates],
+    reads: &[
+        NodePosition,
+        NodePredicted,
+        NodeTarget,
+        NodeStars,
+        NodeSponge,
+        NodeWetting,
+        NodeTouch,
+        NodeTouchStiffness,
+        NodeTouchBetween,
+        BodyStates,
+    ],
     writes: &[NodePredicted],
     cpu,
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes { position, predicted, target, sponge, stars, wetting, .. } = &mut columns.nodes;
+    let Nodes {
+        position,
+        predicted,
+        target,
+        sponge,
+        stars,
+        wetting,
+        touch,
+        touch_stiffness,
+        touch_between,
+        ..
+    } = &mut columns.nodes;
+    let touch = Touch { force: touch, stiffness: touch_stiffness, between: touch_between };
     let bodies = &columns.bodies.states.0;
     let mut moved = Vec::new();
     for color in 0..4 {
@@ -55,7 +79,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         moved.clear();
         moved.resize(rows.len(), [0.0; 4]);
         let wet = Wet::new(params, sponge, wetting);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet };
+        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
         cpu.for_chunks(&mut moved[..], |first, moved| {
             with_lanes!(cpu, simd => task.chunk(simd, color, first, moved));
         });
@@ -73,6 +97,7 @@ struct Task<'a> {
     sponge: &'a [u32],
     stars: &'a Stars,
     wet: Wet<'a>,
+    touch: Touch<'a>,
 }
 
 impl Task<'_> {
@@ -105,7 +130,8 @@ impl Task<'_> {
         let zero = lanes::splat(simd, 0.0);
         let moves = w.simd_gt(zero) & material.own.simd_gt(zero);
         let places = (self.predicted, self.position, self.wet);
-        let energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        let mut energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
+        self.touch.add(simd, &group.own, &mut energy);
         let strain = energy.strain;
         let (point, quadratic) = least(simd, energy, (x, target, mass), self.params.step);
         let way = minus(point, x);

@@ -180,6 +180,14 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::NodeWetting => planes(&nodes.wetting, &all_nodes),
         Column::NodeDrag => rows(&nodes.drag, &all_nodes),
         Column::NodeDragMoment => rows(&nodes.drag_moment, &all_nodes),
+        Column::NodeNormal => rows(&nodes.normal, &all_nodes),
+        Column::NodePairs => {
+            let identity: Vec<u32> = (0..columns.rows.nodes as u32).collect();
+            sets(&nodes.pairs, &all_nodes, &identity, columns.rows.nodes)
+        }
+        Column::NodeTouch => rows_or_none(&nodes.touch, &all_nodes),
+        Column::NodeTouchStiffness => rows_or_none(&nodes.touch_stiffness, &all_nodes),
+        Column::NodeTouchBetween => rows_or_none(&nodes.touch_between, &all_nodes),
         Column::NodeReaction => rows(&nodes.reaction, &all_nodes),
         Column::NodeAcceleration => rows(&nodes.acceleration, &all_nodes),
         Column::NodeSaturation => values(&nodes.saturation, &all_nodes),
@@ -199,6 +207,11 @@ fn rows(data: &[[f32; 4]], order: &[usize]) -> Content {
     let vectors = order.iter().flat_map(|row| data[*row][..3].iter().copied().map(f64::from));
     let w = order.iter().map(|row| f64::from(data[*row][3]));
     Content::Numbers(vec![vectors.collect(), w.collect()])
+}
+
+/// Rows that are zero where there are none.
+fn rows_or_none(data: &[[f32; 4]], order: &[usize]) -> Content {
+    if data.is_empty() { rows(&vec![[0.0; 4]; order.len()], order) } else { rows(data, order) }
 }
 
 /// Rows of four numbers that have nothing to do with each other.

@@ -14,7 +14,7 @@ use crate::{
         Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
         SpongeParams, WettingParams,
     },
-    pbd::stars::Stars,
+    pbd::{flatness::flatness, stars::Stars},
     periodic::Periodic,
     smoothing::Wendland,
     sph::{boundary::boundary_profile, factors::lattice_diagonal},
@@ -32,6 +32,7 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::density",
     "sph::pressure",
     "couple::controls",
+    "pbd::pairs",
     "couple::saturation",
     "couple::wetting",
     "couple::pores",
@@ -77,8 +78,10 @@ pub(super) const CHAIN: &[&str] = &[
     "couple::drag_reaction",
     "pbd::strain",
     "pbd::xpbd_neo_hookean",
+    "pbd::touch",
     "pbd::vbd",
     "pbd::contact",
+    "pbd::touch",
     "pbd::reaction",
     "pbd::momentum",
     "couple::drag_kick",
@@ -110,6 +113,8 @@ pub(crate) struct Options {
     pub(crate) implicit_viscosity: bool,
     /// Axes on which space repeats, by the length of the block; for scenes without sponges.
     pub(crate) periodic: [bool; 3],
+    /// Whether sponges touch each other, where a kernel asks.
+    pub(crate) touch: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -126,6 +131,7 @@ pub(crate) const FULL: Options = Options {
     wetting: false,
     implicit_viscosity: false,
     periodic: [false; 3],
+    touch: false,
 };
 
 /// What repeats along two axes, as a channel does, and along all of them.
@@ -156,7 +162,17 @@ impl Options {
         let wetting = self.wetting && (reads || porous) || kernel.needs.contains(&Need::Wetting);
         let porous = porous || wetting;
         let implicit_viscosity = kernel.needs.contains(&Need::ImplicitViscosity);
-        Self { incompressible: porous || solves, porous, cohesion, implicit_viscosity, wetting, ..self }
+        let of_touch = |column: &Column| matches!(column, Column::NodeTouch | Column::NodePairs);
+        let touch = kernel.reads.iter().chain(kernel.writes).any(of_touch);
+        Self {
+            incompressible: porous || solves,
+            porous,
+            cohesion,
+            implicit_viscosity,
+            wetting,
+            touch,
+            ..self
+        }
     }
 
     /// Sites per site of the coarse block, along each axis.
@@ -264,6 +280,7 @@ impl Scene {
             Need::Incompressible => self.options.incompressible,
             Need::Porous => self.options.porous,
             Need::Wetting => self.options.wetting,
+            Need::Touch => self.options.touch && self.params.has_touch(),
         })
     }
 
@@ -291,7 +308,7 @@ impl Scene {
     }
 
     fn add_sponges(&mut self, random: &mut Random) {
-        let blocks = if self.options.sponges { blocks() } else { Vec::new() };
+        let blocks = if self.options.sponges { blocks_of(self.options) } else { Vec::new() };
         let lattice = Lattice::new(&blocks, 8);
         let count = lattice.position.len();
         let nodes = &mut self.columns.nodes;
@@ -335,6 +352,9 @@ impl Scene {
             RowCounts { nodes: count, tets: lattice.topology.tets.len(), ..self.columns.rows };
         let rest: Vec<[f32; 4]> = lattice.position.iter().map(|[x, y, z]| [*x, *y, *z, 0.0]).collect();
         nodes.stars = Stars::new(&lattice.topology, &rest, &nodes.sponge);
+        let flat = flatness(&lattice.topology.tets, &rest);
+        nodes.rest = rest.iter().zip(flat).map(|([x, y, z, _], flat)| [*x, *y, *z, flat]).collect();
+        nodes.rest.resize(rows, FAR_ROW);
         nodes.topology = lattice.topology;
     }
 }
@@ -357,6 +377,16 @@ pub(super) fn blocks() -> Vec<Block> {
         Block { cells: [4, 4, 4], edge: 0.01, origin: [0.01, 0.0, 0.005] },
         Block { cells: [3, 4, 3], edge: 0.008, origin: [0.055, 0.004, 0.01] },
     ]
+}
+
+/// The blocks of a scene: where they touch, the second is pressed into the first, and a thin one is close above it.
+fn blocks_of(options: Options) -> Vec<Block> {
+    let mut blocks = blocks();
+    if options.touch {
+        blocks[1].origin[0] = 0.0497;
+        blocks.push(Block { cells: [3, 1, 3], edge: 0.01, origin: [0.012, 0.0445, 0.008] });
+    }
+    blocks
 }
 
 fn params(options: Options) -> Params {
@@ -395,7 +425,7 @@ fn params(options: Options) -> Params {
             repulsion_stiffness: 1.0e5,
             repulsion_damping: 50.0,
         },
-        sponges: if options.sponges { sponges(options.wetting) } else { Vec::new() },
+        sponges: if options.sponges { sponges(options.wetting, options.touch) } else { Vec::new() },
         coupling: Wendland::new(0.015),
         solid: options.porous.then(|| Wendland::new(0.012)),
     }
@@ -427,7 +457,7 @@ fn cohesion(radius: f32, spacing: f32) -> Cohesion {
     Cohesion { stiffness: 500.0, smoothing, volume: spacing.powi(3) / sum, boundary_range, boundary_share }
 }
 
-fn sponges(has_wetting: bool) -> Vec<SpongeParams> {
+fn sponges(has_wetting: bool, touch: bool) -> Vec<SpongeParams> {
     let mut wetting = [WettingParams::default(), WettingParams::default()];
     if has_wetting {
         wetting[0] =
@@ -447,6 +477,7 @@ fn sponges(has_wetting: bool) -> Vec<SpongeParams> {
         damping_time: 0.002,
         iterations: 4,
         friction: 0.4,
+        self_contact: false,
         porosity: 0.9,
         drag_rate: 2000.0,
         inertial_drag: 300.0,
@@ -468,6 +499,7 @@ fn sponges(has_wetting: bool) -> Vec<SpongeParams> {
         damping_time: 0.0,
         iterations: 2,
         friction: 0.1,
+        self_contact: false,
         porosity: 0.8,
         drag_rate: 500.0,
         inertial_drag: 0.0,
@@ -477,7 +509,11 @@ fn sponges(has_wetting: bool) -> Vec<SpongeParams> {
         reaction: 0.7,
         wetting: of_stiff,
     };
-    vec![soft, stiff]
+    let mut all = vec![soft, stiff];
+    if touch {
+        all.push(SpongeParams { self_contact: true, ..all[0].clone() });
+    }
+    all
 }
 
 /// One body of every shape, each touching fluid and nodes, and one that grips.

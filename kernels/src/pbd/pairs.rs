@@ -1,0 +1,269 @@
+//! Which nodes of the surfaces of sponges may touch in this step.
+//!
+//! A surface node a has an outward normal and an area, by which the volume of its sponge grows as it moves:
+//!
+//! ```text
+//! A n_a = -sum over tets of (q - u) x (r - u) / 6
+//! ```
+//!
+//! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p, which is 1 on a face and next to nothing on a
+//! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least [`APART`] edges from
+//! each other at rest, are a pair where their surfaces face each other:
+//!
+//! ```text
+//! n = (p_b n_b - p_a n_a) / |..|,   g = n . (x_a - x_b),   t^2 = |x_a - x_b|^2 - g^2
+//! c = -n_a . n_b - FACING - ALIKE (1 - max(p_a, p_b)) > 0,   -DEEP e < g < NEAR e,   t < REACH e
+//! ```
+//!
+//! with e the larger of their edges. The normal of a node of a rim is between those of two faces: where it meets a face, that of the face
+//! counts. With the mean of both, blocks that lie on each other would be a twentieth of an edge inside each other there, which is
+//! many times what bears their weight. Two rims must face each other squarely. What `touch.rs` makes of a pair is the same from both
+//! sides to the last bit but for its sign, because n is.
+//!
+//! Everything is of the beginning of the step. No node moves by more than a quarter of an edge in a step (`src/clock.rs`),
+//! and two not by more than half of one towards each other, so that none is missed that would go through.
+
+use glam::Vec3;
+
+use crate::{
+    columns::{Column::*, Columns, Nodes},
+    cpu::Cpu,
+    grid::cells::{Cells, Domain},
+    kernel::{Kernel, Need},
+    lanes::LANES,
+    params::{Params, Solver},
+    pbd::stars::{CORNERS, RINGS, StarGroup, Stars},
+};
+
+/// Scalar product of the normals, of opposite sign, above which two surfaces face each other \[1\].
+const FACING: f32 = 0.1;
+/// What is added to it for two nodes of rims, whose normals are known less well \[1\].
+const ALIKE: f32 = 0.6;
+/// How far the tangent planes of a pair may have passed each other, in edges.
+const DEEP: f32 = 1.0;
+/// How far they may be from each other, in edges.
+const NEAR: f32 = 0.6;
+/// Distance along the surface within which nodes push each other, in edges: nodes on a square of one edge then feel a surface
+/// that is stiff to 6 % everywhere.
+pub(super) const REACH: f32 = 1.5;
+/// Distance at rest of two nodes of one sponge, in edges, from which on they may touch.
+const APART: f32 = 4.0;
+/// Area of a node, over the square of the edge, below which it has no normal.
+const SMALLEST: f32 = 1.0e-3;
+
+/// `pbd::pairs`.
+pub static KERNEL: Kernel = Kernel {
+    name: "pbd::pairs",
+    needs: &[Need::Sponge, Need::Solver(Solver::Vbd), Need::Touch],
+    reads: &[NodePosition, NodeRest, NodeSponge, NodeStars],
+    writes: &[NodeNormal, NodePairs],
+    cpu,
+};
+
+/// A pair as both of its nodes see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    /// From the second to the first.
+    pub(super) normal: Vec3,
+    /// By how much their normals are opposed more than they have to be \[1\].
+    pub(super) facing: f32,
+    /// Distance along the normal, at the beginning of the step \[m\].
+    pub(super) gap: f32,
+    /// Square of that along the surface \[m^2\].
+    pub(super) aside: f32,
+}
+
+impl Pair {
+    /// What two nodes are to each other, with weights as the lengths of their normals; none where their surfaces do not face each
+    /// other.
+    pub(super) fn new([a, b]: [[f32; 4]; 2], [normal_a, normal_b]: [[f32; 4]; 2]) -> Option<Self> {
+        let [x_a, x_b, n_a, n_b] = [a, b, normal_a, normal_b].map(vector);
+        let across = -n_a.dot(n_b);
+        // Most pairs are on the same side of a sponge.
+        if across <= 0.0 {
+            return None;
+        }
+        let (p_a, p_b) = (n_a.dot(n_a).sqrt(), n_b.dot(n_b).sqrt());
+        let facing = across / (p_a * p_b) - (FACING + ALIKE * (1.0 - p_a.max(p_b)));
+        if facing <= 0.0 {
+            return None;
+        }
+        let towards = n_b - n_a;
+        let normal = towards / towards.dot(towards).sqrt();
+        let apart = x_a - x_b;
+        let gap = normal.dot(apart);
+        Some(Self { normal, facing, gap, aside: apart.dot(apart) - gap * gap })
+    }
+
+    /// Whether the two may touch in this step.
+    fn is_near(&self, edge: f32) -> bool {
+        let reach = REACH * edge;
+        self.gap > -DEEP * edge && self.gap < NEAR * edge && self.aside < reach * reach
+    }
+}
+
+pub(super) fn vector(row: [f32; 4]) -> Vec3 {
+    Vec3::new(row[0], row[1], row[2])
+}
+
+/// How far apart the nodes of a pair can be \[m\].
+pub(crate) fn pair_radius(params: &Params) -> f32 {
+    // Of the cylinder that `Pair::is_near` describes.
+    let reach = (REACH * REACH + DEEP * DEEP).sqrt();
+    let edges = (0..).zip(&params.sponges).filter(|(index, _)| params.meets_any(*index));
+    edges.map(|(_, sponge)| sponge.contact_edge()).fold(0.0, f32::max) * reach
+}
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let count = columns.rows.nodes;
+    let Nodes { position, rest, sponge, stars, normal, pairs, .. } = &mut columns.nodes;
+    normal.clear();
+    normal.resize(position.len(), [0.0; 4]);
+    let radius = pair_radius(params);
+    let near = Near::new(params, position, &sponge[..count], radius);
+    for color in 0..4 {
+        let (rows, stars) = (stars.rows(color), &*stars);
+        let (position, rest, sponge, near) = (&*position, &*rest, &*sponge, &near);
+        cpu.for_chunks(&mut normal[rows], |first, normal| {
+            normals(params, (stars, color, first), (position, rest), (sponge, near), normal);
+        });
+    }
+    let members: Vec<u32> = (0..count as u32).filter(|node| normal[*node as usize][3] > 0.0).collect();
+    let surface = Surface { params, radius, position, rest, sponge, normal };
+    let points: Vec<[f32; 4]> = members.iter().map(|node| position[*node as usize]).collect();
+    let mut cells = Cells::default();
+    cells.build(cpu, &points, radius, bounds(&points));
+    let targets: Vec<u32> = cells.order.iter().map(|row| members[*row as usize]).collect();
+    let padding = count as u32;
+    pairs.fill(cpu, position.len(), padding, |spans: &mut Vec<[u32; 2]>, node, list| {
+        if surface.normal[node][3] <= 0.0 {
+            return;
+        }
+        let x = position[node];
+        let [low, high] = [-radius, radius].map(|reach| [0, 1, 2].map(|axis| x[axis] + reach));
+        cells.spans(low, high, spans);
+        for [begin, end] in spans {
+            let others = targets[*begin as usize..*end as usize].iter().copied();
+            list.extend(others.filter(|other| surface.may_touch(node, *other as usize)));
+        }
+        list.sort_unstable();
+    });
+}
+
+/// A box around points.
+fn bounds(points: &[[f32; 4]]) -> Domain {
+    let minimum = points.iter().fold(Vec3::INFINITY, |low, point| low.min(vector(*point)));
+    let maximum = points.iter().fold(Vec3::NEG_INFINITY, |high, point| high.max(vector(*point)));
+    Domain::Bounded { minimum, maximum }
+}
+
+/// Which nodes may be near another sponge.
+struct Near {
+    /// For every sponge, the boxes of those that it may meet, wide enough.
+    boxes: Vec<Vec<(Vec3, Vec3)>>,
+}
+
+impl Near {
+    fn new(params: &Params, position: &[[f32; 4]], sponge: &[u32], radius: f32) -> Self {
+        let mut own = vec![(Vec3::INFINITY, Vec3::NEG_INFINITY); params.sponges.len()];
+        for (sponge, row) in sponge.iter().zip(position) {
+            let (low, high) = &mut own[*sponge as usize];
+            (*low, *high) = (low.min(vector(*row)), high.max(vector(*row)));
+        }
+        let wide = |other: u32| {
+            let (low, high) = own[other as usize];
+            (low - radius, high + radius)
+        };
+        let everywhere = (Vec3::NEG_INFINITY, Vec3::INFINITY);
+        let all = 0..params.sponges.len() as u32;
+        let boxes = |sponge: u32| {
+            let others = all.clone().filter(|other| params.may_meet(sponge, *other));
+            others.map(|other| if other == sponge { everywhere } else { wide(other) }).collect()
+        };
+        Self { boxes: all.clone().map(boxes).collect() }
+    }
+
+    fn has(&self, sponge: u32, point: Vec3) -> bool {
+        let inside = |(low, high): &(Vec3, Vec3)| (point.cmpge(*low) & point.cmple(*high)).all();
+        self.boxes[sponge as usize].iter().any(inside)
+    }
+}
+
+/// Normals and areas of nodes of one vertex colour.
+fn normals(
+    params: &Params,
+    (stars, color, first): (&Stars, usize, usize),
+    (position, rest): (&[[f32; 4]], &[[f32; 4]]),
+    (sponge, near): (&[u32], &Near),
+    normal: &mut [[f32; 4]],
+) {
+    for (group, normal) in stars.groups_from(color, first).iter().zip(normal.chunks_mut(LANES)) {
+        for (lane, normal) in normal.iter_mut().enumerate() {
+            let node = group.own[lane] as usize;
+            let sponge = sponge[node];
+            if near.has(sponge, vector(position[node])) {
+                let edge = params.sponges[sponge as usize].edge;
+                *normal = normal_of(group, lane, position, (edge, rest[node][3]));
+            }
+        }
+    }
+}
+
+/// Normal, as long as its weight, and area of one node; zero inside of a sponge.
+fn normal_of(group: &StarGroup, lane: usize, position: &[[f32; 4]], (edge, weight): (f32, f32)) -> [f32; 4] {
+    if weight <= 0.0 {
+        return [0.0; 4];
+    }
+    let place = |slot: usize| vector(position[group.neighbors[slot][lane] as usize]);
+    let mut sum = Vec3::ZERO;
+    for (direction, ring) in RINGS.iter().enumerate() {
+        for k in 0..4 {
+            if group.tets[4 * direction + k][lane] > 0.0 {
+                let u = place(CORNERS + direction);
+                sum -= (place(ring[(k + 1) % 4]) - u).cross(place(ring[k]) - u);
+            }
+        }
+    }
+    let length = sum.dot(sum).sqrt();
+    let area = length / 6.0;
+    // Nor has what is not a number.
+    if area > SMALLEST * edge * edge {
+        let scale = weight / length;
+        [sum.x * scale, sum.y * scale, sum.z * scale, area]
+    } else {
+        [0.0; 4]
+    }
+}
+
+/// The nodes that may touch.
+struct Surface<'a> {
+    params: &'a Params,
+    /// How far apart the nodes of a pair can be \[m\].
+    radius: f32,
+    position: &'a [[f32; 4]],
+    rest: &'a [[f32; 4]],
+    sponge: &'a [u32],
+    normal: &'a [[f32; 4]],
+}
+
+impl Surface<'_> {
+    fn may_touch(&self, a: usize, b: usize) -> bool {
+        let (own, other) = (self.sponge[a], self.sponge[b]);
+        if !self.params.may_meet(own, other) {
+            return false;
+        }
+        let edge = self.params.pair_edge(own, other);
+        let (distant, reach) = (vector(self.position[a]) - vector(self.position[b]), self.radius);
+        if distant.dot(distant) > reach * reach {
+            return false;
+        }
+        if own == other {
+            let apart = vector(self.rest[a]) - vector(self.rest[b]);
+            if apart.dot(apart) < APART * APART * edge * edge {
+                return false;
+            }
+        }
+        let ends = [self.position[a], self.position[b]];
+        Pair::new(ends, [self.normal[a], self.normal[b]]).is_some_and(|pair| pair.is_near(edge))
+    }
+}

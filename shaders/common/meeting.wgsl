@@ -1,0 +1,35 @@
+// Which sponges may touch, and what a pair of nodes is to each other; `pairs.rs` has the formulas. Used with the binding
+// `sponges`.
+
+const FACING: f32 = 0.1;
+const ALIKE: f32 = 0.6;
+const REACH: f32 = 1.5;
+
+struct Pair {
+    normal: vec3<f32>,
+    facing: f32,
+    gap: f32,
+    aside: f32,
+}
+
+fn may_meet(a: u32, b: u32) -> bool {
+    let own = sponges.all[a];
+    return own.solver == VBD && sponges.all[b].solver == VBD && (a != b || own.self_contact != 0u);
+}
+
+fn contact_edge(sponge: u32) -> f32 {
+    return sponges.all[sponge].edge * (1.0 + sponges.all[sponge].swelling);
+}
+
+// Facing is not above zero where the surfaces do not face each other; nothing else holds then.
+fn pair_of(a: vec3<f32>, b: vec3<f32>, normal_a: vec3<f32>, normal_b: vec3<f32>) -> Pair {
+    let weight_a = sqrt(dot(normal_a, normal_a));
+    let weight_b = sqrt(dot(normal_b, normal_b));
+    let least = FACING + ALIKE * (1.0 - max(weight_a, weight_b));
+    let facing = -dot(normal_a, normal_b) / (weight_a * weight_b) - least;
+    let towards = normal_b - normal_a;
+    let normal = towards / sqrt(dot(towards, towards));
+    let apart = a - b;
+    let gap = dot(normal, apart);
+    return Pair(normal, facing, gap, dot(apart, apart) - gap * gap);
+}

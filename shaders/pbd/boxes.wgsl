@@ -1,0 +1,39 @@
+// The box around every sponge, as wide as its nodes may reach, one group per sponge.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> ranges: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> boxes: array<vec4<f32>>;
+
+var<workgroup> lows: array<vec3<f32>, 128>;
+var<workgroup> highs: array<vec3<f32>, 128>;
+
+@compute @workgroup_size(128)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u) {
+        return;
+    }
+    var low = vec3<f32>(3.0e38);
+    var high = vec3<f32>(-3.0e38);
+    for (var color = 0u; color < 4u; color += 1u) {
+        let range = ranges[group.x * 8u + color];
+        for (var row = range.x + lane; row < range.y; row += 128u) {
+            low = min(low, position[row].xyz);
+            high = max(high, position[row].xyz);
+        }
+    }
+    lows[lane] = low;
+    highs[lane] = high;
+    for (var half = 64u; half > 0u; half = half / 2u) {
+        workgroupBarrier();
+        if (lane < half) {
+            lows[lane] = min(lows[lane], lows[lane + half]);
+            highs[lane] = max(highs[lane], highs[lane + half]);
+        }
+    }
+    if (lane == 0u) {
+        boxes[group.x * 2u] = vec4<f32>(lows[0] - params.pair_radius, 0.0);
+        boxes[group.x * 2u + 1u] = vec4<f32>(highs[0] + params.pair_radius, 0.0);
+    }
+}

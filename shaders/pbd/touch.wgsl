@@ -1,0 +1,90 @@
+// What nodes of sponges that touch do to each other, with friction; `touch.rs` has the formulas.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> normal: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> list: array<u32>;
+@group(0) @binding(7) var<storage, read_write> stars: array<u32>;
+@group(0) @binding(8) var<storage, read_write> touch: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> stiffness: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> between: array<vec4<f32>>;
+
+const STIFFNESS: f32 = 10.0;
+const TURN: f32 = 0.4;
+const CREEP: f32 = 2.0e-3;
+const PI: f32 = 3.14159265;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.node_rows) {
+        return;
+    }
+    let own = stars[row * STAR + SPONGE];
+    let x_a = position[row].xyz;
+    let y_a = predicted[row].xyz;
+    let n_a = normal[row];
+    var force = vec3<f32>(0.0);
+    var along = vec3<f32>(0.0);
+    var across = vec3<f32>(0.0);
+    var lowest = 0xffffffffu;
+    var highest = 0u;
+    let end = (list[row] + 1u) * params.node_rows;
+    for (var slot = row + params.node_rows; slot < end; slot += params.node_rows) {
+        let other = list[slot];
+        let x_b = position[other].xyz;
+        let y_b = predicted[other].xyz;
+        let n_b = normal[other];
+        let pair = pair_of(x_a, x_b, n_a.xyz, n_b.xyz);
+        let n = pair.normal;
+        let depth = -dot(n, y_a - y_b);
+        if (depth <= 0.0) {
+            continue;
+        }
+        let sponge = stars[other * STAR + SPONGE];
+        let edge = max(contact_edge(own), contact_edge(sponge));
+        let reach = REACH * edge;
+        let closeness = max(1.0 - pair.aside / (reach * reach), 0.0);
+        let share = 3.0 / PI / (reach * reach) * closeness * closeness;
+        let facing = min(pair.facing / TURN, 1.0);
+        let modulus_a = sponges.all[own].lambda + sponges.all[own].mu;
+        let modulus_b = sponges.all[sponge].lambda + sponges.all[sponge].mu;
+        let modulus = 2.0 * modulus_a * modulus_b / (modulus_a + modulus_b);
+        let k = STIFFNESS * modulus / edge * facing * (n_a.w * n_b.w * share);
+        let square = 4.0 * depth * depth / (edge * edge);
+        let push = k * depth * (1.0 + square);
+        var slip = (y_a - x_a) - (y_b - x_b);
+        slip -= n * dot(n, slip);
+        let friction = 0.5 * (sponges.all[own].friction + sponges.all[sponge].friction);
+        let hold = push * friction / max(sqrt(dot(slip, slip)), CREEP * clock.step);
+        force += n * push - slip * hold;
+        let tangent = k * (1.0 + 3.0 * square) - hold;
+        along += n * n * tangent + vec3<f32>(hold);
+        across += vec3<f32>(n.x * n.y, n.x * n.z, n.y * n.z) * tangent;
+        if (sponge != own) {
+            lowest = min(lowest, sponge);
+            highest = max(highest, sponge);
+        }
+    }
+    if (lowest == 0xffffffffu) {
+        lowest = own;
+        highest = own;
+    }
+    touch[row] = vec4<f32>(force, f32(lowest));
+    stiffness[row] = vec4<f32>(along, f32(highest));
+    between[row] = vec4<f32>(across, 0.0);
+    let base = params.node_rows * STAR + row * TOUCH;
+    let words = array<vec3<u32>, 3>(bitcast<vec3<u32>>(force), bitcast<vec3<u32>>(along), bitcast<vec3<u32>>(across));
+    for (var k = 0u; k < 3u; k += 1u) {
+        stars[base + 3u * k] = words[k].x;
+        stars[base + 3u * k + 1u] = words[k].y;
+        stars[base + 3u * k + 2u] = words[k].z;
+    }
+}
