@@ -156,8 +156,9 @@ impl Steps {
             // Along the line between particles the central form is as stiff as five times the other.
             let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
-            if fluid.implicit_viscosity.is_some() {
-                let explicit = 0.125 * h * h / (fluid.wall_viscosity / fluid.rest_density);
+            if let Some(implicit) = &fluid.implicit_viscosity {
+                let viscosity = implicit.viscosity + implicit.central_viscosity;
+                let explicit = 0.125 * h * h / (viscosity / fluid.rest_density);
                 let stopped = bodies.iter().enumerate().filter(|(_, body)| body.no_slip);
                 let longest = stopped.map(|(index, body)| stopping(params, body, engine, index));
                 bounds.push((longest.fold(IMPLICIT * explicit, f32::min), Bound::Viscosity));

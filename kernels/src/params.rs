@@ -136,8 +136,11 @@ pub struct Cohesion {
     pub boundary_share: f32,
 }
 
-/// Step over the root of the roughness from which on the compression of one step follows all of it \[1\].
-const PROMPT: f32 = 2.236;
+/// Time in which the compression of a particle follows the roughness of the pressure, over the root of the roughness \[1\].
+const DELAY: f32 = 8.0;
+
+/// Roughness that a step follows at once, over the square of the step: what is less is stable in any case.
+const AT_ONCE: f32 = 0.2;
 
 impl FluidParams {
     /// How far the neighbours in the lists may be \[m\].
@@ -155,7 +158,9 @@ impl FluidParams {
     /// What of [`roughness`](Self::roughness) the compression of a single step may follow \[s^2\]; see `sph::predict`.
     #[must_use]
     pub fn prompt_roughness(&self, step: f32) -> f32 {
-        let most = step * self.roughness.sqrt() / PROMPT;
+        let delayed = self.roughness * step / (step + DELAY * self.roughness.sqrt());
+        let at_once = AT_ONCE * step * step;
+        let most = if at_once > delayed { at_once } else { delayed };
         if most < self.roughness { most } else { self.roughness }
     }
 }

@@ -241,7 +241,8 @@ mod tests {
     fn lattice_viscosity_tends_to_one() {
         let both = |h| [Wendland::lattice_viscosity(h, 1.0), Wendland::lattice_central_viscosity(h, 1.0)];
         for (coarse, fine) in both(2.0).into_iter().zip(both(8.0)) {
-            assert!((coarse - 1.0).abs() > 0.03 && (fine - 1.0).abs() < 0.005, "{coarse} {fine}");
+            // What divisions are softened by stays.
+            assert!((coarse - 1.0).abs() > 0.03 && (fine - 1.0).abs() < 0.012, "{coarse} {fine}");
         }
     }
 }

@@ -194,10 +194,6 @@ const NOT_RECOVERED: &[(&str, &str)] = &[
     ("ball_drop", "every node somewhere"),
 ];
 
-/// What ends in an error that says why: with water and a ball between them, nodes that come from one place get so fast that steps
-/// would be below the smallest.
-const REFUSED: &[(&str, &str)] = &[("ball_drop", "all nodes at one place")];
-
 #[test]
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
 fn sponges_recover_unless_they_are_tangled() {
@@ -219,11 +215,6 @@ fn sponges_recover_unless_they_are_tangled() {
                 "| {name}: {deformation} | {deformed:.3} | {:.3} | {recovered:?} | {result:?} |",
                 volume(&world)
             );
-            if REFUSED.contains(&(name, *deformation)) {
-                let why = result.expect_err("no longer refused");
-                assert!(why.contains("below time.minimum_step"), "{name}: {deformation}: {why}");
-                continue;
-            }
             assert_eq!(result, Ok(()), "{name}: {deformation}");
             if recovered.is_none() {
                 lost.push((name, *deformation));

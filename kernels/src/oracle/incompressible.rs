@@ -28,10 +28,12 @@ fn box_inside(params: &Params) -> Option<(DVec3, DVec3)> {
     params.walls.map(|(low, high)| (low.as_dvec3() + margin, high.as_dvec3() - margin))
 }
 
-/// What of the roughness a single step follows: all of it from 2.236 times its root on.
+/// What of the roughness a single step follows: with a delay of eight times its root, or a fifth of the square of the step.
 fn prompt_roughness(params: &Params) -> f64 {
     let roughness = f64::from(params.fluid.roughness);
-    roughness.min(f64::from(params.step) * roughness.sqrt() / 2.236)
+    let step = f64::from(params.step);
+    let delayed = roughness / (1.0 + 8.0 * roughness.sqrt() / step);
+    roughness.min(delayed.max(0.2 * step.powi(2)))
 }
 
 pub(super) fn predict(params: &Params, columns: &mut Columns) {

@@ -25,6 +25,9 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    if params.fluid.incompressible.is_none() {
+        return;
+    }
     let count = columns.rows.fluid;
     let Fluid { predicted, velocity, correction, .. } = &mut columns.fluid;
     let inside = super::advect::inside(params);

@@ -8,10 +8,10 @@
 //! (`sph::factors`), but what is allowed at once would be a spring without a damper: where steps are shorter than the time that
 //! sound takes for a spacing, water that is pressed together gives back all it took, and what pushes single particles about has
 //! nothing to set against it. So what is allowed is a state s of the particle that follows w as in a material of Kelvin and
-//! Voigt, within the time `2.236 sqrt(e) - h`, in which the shortest waves do not swing any more:
+//! Voigt, with a delay of `8 sqrt(e)`, some times that in which the shortest waves would not swing any more:
 //!
 //! ```text
-//! s_next = s + b (w - s),   b = min(1, h / (2.236 sqrt(e)))
+//! s_next = s + b (w - s),   b = min(1, max(h / (h + 8 sqrt(e)), 0.2 h^2 / e))
 //! ```
 //!
 //! of which the solve knows `s + b (w - s)` from here and changes `b w` itself. At rest s is w, at any step.

@@ -44,7 +44,7 @@ const BOUNDS: &[(&str, f64)] = &[
     ("sph::pressure_acceleration", 4e-6),
     ("sph::pressure_residual", 1e-5),
     ("sph::pressure_kick", 4e-6),
-    ("sph::position_correction", 1e-6),
+    ("sph::position_correction", 3e-5),
     ("sph::boundary_reaction", 2e-5),
     ("sph::sweep", 2e-3),
     ("sph::advect", 1e-5),
