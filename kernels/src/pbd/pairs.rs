@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p, which is 1 on a face and next to nothing on a
-//! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least [`APART`] edges from
+//! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least `APART` edges from
 //! each other at rest, are a pair where their surfaces face each other:
 //!
 //! ```text
