@@ -61,6 +61,7 @@ fn a_pool_at_rest_sleeps_until_a_plate_moves() {
     let report = frame(&mut world);
     assert_eq!((report.steps, report.bound, world.clock().steps), (0, Bound::Asleep, before));
     assert_eq!(positions(&world), places);
+    assert_eq!(report.shortest_step, f32::INFINITY);
     // It wakes when the plate moves, not a step later, and goes on as it was.
     while world.clock().time < f64::from(START) - 1e-6 {
         frame(&mut world);

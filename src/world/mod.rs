@@ -75,7 +75,7 @@ pub struct FrameReport {
     pub time: f64,
     /// Steps of the frame.
     pub steps: u32,
-    /// Shortest step of the frame \[s\].
+    /// Shortest step of the frame \[s\]; infinite if there was none.
     pub shortest_step: f32,
     /// What limited most of the steps.
     pub bound: Bound,
@@ -297,8 +297,11 @@ impl World {
         // The end is reached exactly: the last step is cut to what is left, and time is summed in f64.
         while end - self.clock.time > 1e-9 {
             let step = self.step_within(end - self.clock.time)?;
-            report.steps += u32::from(step.bound != Bound::Asleep);
-            report.shortest_step = report.shortest_step.min(step.step);
+            // What is slept is no step.
+            if step.bound != Bound::Asleep {
+                report.steps += 1;
+                report.shortest_step = report.shortest_step.min(step.step);
+            }
             report.maximum_speed = report.maximum_speed.max(step.maximum_speed);
             match bounds.iter_mut().find(|(bound, _)| *bound == step.bound) {
                 Some((_, count)) => *count += 1,
@@ -320,16 +323,15 @@ impl World {
             let maximum_speed = self.clock.fluid_speed.max(self.clock.node_speed);
             return Ok(StepReport { step: slept as f32, bound: Bound::Asleep, time, maximum_speed });
         }
-        #[cfg(feature = "gpu")]
-        let report = if self.is_on_device() {
-            self.going_on(Self::step_on_device)
-        } else {
-            self.going_on(|world| world.try_step(left))
-        };
-        #[cfg(not(feature = "gpu"))]
-        let report = self.going_on(|world| world.try_step(left));
+        let report = self.going_on(|world| {
+            #[cfg(feature = "gpu")]
+            if world.is_on_device() {
+                return world.step_on_device();
+            }
+            world.try_step(left)
+        })?;
         self.watch();
-        report
+        Ok(report)
     }
 
     /// Does something unless the world has failed, and remembers if it fails now.

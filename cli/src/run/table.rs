@@ -77,6 +77,8 @@ impl Table {
             let _ = write!(line, ",{:?}", value(measures));
         }
         line += &match report {
+            // A frame that is slept through has no step.
+            Some(report) if report.steps == 0 => format!(",0,,{}\n", report.bound.name()),
             Some(report) => format!(",{},{:?},{}\n", report.steps, report.shortest_step, report.bound.name()),
             None => ",0,,\n".to_owned(),
         };
