@@ -272,7 +272,8 @@ fn text(outcome: &Outcome, control: bool) -> String {
             .collect(),
         Err(failure) => {
             let empty = String::new;
-            let verdict = verdict(known(""), "FAILED");
+            let known = outcome.known_failure(failure).filter(|_| !control);
+            let verdict = verdict(known, "FAILED");
             line(&[
                 name,
                 solver,

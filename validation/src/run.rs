@@ -38,14 +38,20 @@ impl Outcome {
             Ok(figures) => figures
                 .iter()
                 .all(|figure| figure.verdict() == Verdict::Ok || self.known(&figure.name).is_some()),
-            Err(_) => self.known("").is_some(),
+            Err(failure) => self.known_failure(failure).is_some(),
         }
     }
 
-    /// Why a figure is known to miss its bound; the empty name stands for a case that gives no figures.
+    /// Why a figure is known to miss its bound.
     #[must_use]
     pub fn known(&self, figure: &str) -> Option<&'static KnownMiss> {
         known(self.case.name, &self.solver, figure)
+    }
+
+    /// Why a case is known to give no figures; a world that was not even built is no fault of its models.
+    #[must_use]
+    pub fn known_failure(&self, failure: &Failure) -> Option<&'static KnownMiss> {
+        matches!(failure, Failure::Step(_) | Failure::Nothing(_)).then(|| self.known("")).flatten()
     }
 }
 
@@ -62,5 +68,23 @@ pub fn run(case: &'static Case, setting: &Setting) -> Outcome {
         solver: setting.solvers.label(case.subject),
         figures,
         wall: start.elapsed().as_secs_f64(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CASES;
+
+    #[test]
+    fn a_world_that_cannot_be_built_is_no_known_miss() {
+        let case = CASES.iter().find(|case| case.name == "taylor_green").expect("there is one");
+        let setting = Setting { changes: vec!["fluid.spacing=-1".to_owned()], ..Setting::new() };
+        let mut outcome = run(case, &setting);
+        assert!(matches!(outcome.figures, Err(Failure::Scene(_))), "{outcome:?}");
+        assert!(!outcome.holds_but_for_known());
+        // The control: a run of it that gives nothing is one.
+        outcome.figures = Err(Failure::Nothing("no vortex".to_owned()));
+        assert!(outcome.holds_but_for_known());
     }
 }
