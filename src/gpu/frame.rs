@@ -2,10 +2,7 @@
 
 use std::{sync::Arc, time::Instant};
 
-use sorb_kernels::{
-    body::Wrench,
-    gpu::{Answer, Gpu, GpuError, Outcome, Start},
-};
+use sorb_kernels::gpu::{Answer, Gpu, GpuError, Outcome, Start};
 
 use super::{device::Kept, place::placed};
 use crate::{
@@ -177,17 +174,9 @@ impl World {
         self.clock.fluid_pressure = answer.fluid_pressure;
         if taken > 0 {
             self.params.step = answer.last_step;
-            let wrenches: Vec<Wrench> = answer
-                .wrenches
-                .iter()
-                .map(|(fluid, nodes)| Wrench {
-                    impulse: fluid.impulse + nodes.impulse,
-                    angular_impulse: fluid.angular_impulse + nodes.angular_impulse,
-                })
-                .collect();
-            if !wrenches.is_empty() {
+            if !answer.wrenches.is_empty() {
                 let bodies = &mut self.stores.host.bodies;
-                move_bodies(self.engine.as_mut(), bodies, &wrenches, answer.last_step)
+                move_bodies(self.engine.as_mut(), &self.light, bodies, &answer.wrenches, answer.last_step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;
             }
         }

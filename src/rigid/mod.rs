@@ -12,6 +12,7 @@
 mod error;
 #[cfg(feature = "rigid")]
 mod hull;
+mod light;
 mod mass;
 mod mechanics;
 #[cfg(feature = "rigid")]
@@ -29,6 +30,7 @@ use crate::scene::Motion;
 pub use error::RigidError;
 #[cfg(feature = "rigid")]
 pub use hull::{ConvexHull, HullError, MAX_HULL_VERTICES, convex_hull};
+pub(crate) use light::LightBodies;
 pub use mass::MassProperties;
 pub use mechanics::Mechanics;
 #[cfg(feature = "rigid")]

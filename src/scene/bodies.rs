@@ -18,7 +18,8 @@ pub struct Body {
     /// Who moves it: forces (`dynamic`), nobody (`fixed`) or its `motions` (`kinematic`); default `dynamic`.
     #[cfg_attr(feature = "serde", serde(with = "KindKey"), schemars(with = "KindKey"))]
     pub kind: BodyKind,
-    /// Density of a dynamic body. Range 1 to 100000 kg/m^3; default 1000.
+    /// Density of a dynamic body. One of less than a quarter of the density of what touches it has its own weight, but the
+    /// inertia of a quarter. Range 1 to 100000 kg/m^3; default 1000.
     pub density: f32,
     /// Centre of mass (plane: a point of the surface). Range -1000 to 1000 m; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]

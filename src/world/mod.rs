@@ -24,7 +24,7 @@ use sorb_kernels::{
 
 use crate::{
     clock::{Bound, Clock, Steps, within},
-    rigid::{RigidEngine, RigidError},
+    rigid::{LightBodies, RigidEngine, RigidError},
     scene::Scene,
     schedule::{Content, Offload, POROUS_STEP, Plan, PlanLine, Runner, STEP, Verdict},
     setup::Setup,
@@ -97,6 +97,7 @@ pub struct World {
     pub(crate) stores: Stores,
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
+    pub(crate) light: LightBodies,
     pub(crate) plan: Plan,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
@@ -188,6 +189,7 @@ impl World {
             stores,
             lattice,
             engine,
+            light: LightBodies::new(scene),
             plan,
             clock: Clock::default(),
             sleep: sleep::Sleep::new(scene, periods),
@@ -373,11 +375,11 @@ impl World {
 
     /// All phases of a step of given length.
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
-        let Self { runner, cpu, params, stores, engine, .. } = self;
+        let Self { runner, cpu, params, stores, engine, light, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {
-            let wrenches = wrenches(columns);
-            rigid = move_bodies(engine.as_mut(), &mut columns.bodies, &wrenches, step);
+            let given = wrenches(columns);
+            rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, &given, step);
         };
         #[cfg(feature = "gpu")]
         if let Some(device) = &mut stores.device {
@@ -440,28 +442,23 @@ fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
 }
 
 /// What fluid and sponges gave to every body in this step.
-fn wrenches(columns: &Columns) -> Vec<Wrench> {
+fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
     let store = &columns.bodies;
     let count = store.states.0.len();
-    let total = |body| {
-        let (fluid, nodes) =
-            (store.fluid_wrenches.total(body, count), store.node_wrenches.total(body, count));
-        Wrench {
-            impulse: fluid.impulse + nodes.impulse,
-            angular_impulse: fluid.angular_impulse + nodes.angular_impulse,
-        }
-    };
+    let total = |body| (store.fluid_wrenches.total(body, count), store.node_wrenches.total(body, count));
     (0..count).map(total).collect()
 }
 
 /// Hands the wrenches to the engine, and takes over where the bodies are then.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
+    light: &LightBodies,
     bodies: &mut BodyStore,
-    wrenches: &[Wrench],
+    given: &[(Wrench, Wrench)],
     step: f32,
 ) -> Result<(), RigidError> {
-    engine.step(step, wrenches)?;
+    let wrenches = light.wrenches(engine, given, step);
+    engine.step(step, &wrenches)?;
     for (index, body) in bodies.states.0.iter_mut().enumerate() {
         body.state = engine.state(index);
     }

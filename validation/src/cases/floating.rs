@@ -1,4 +1,4 @@
-//! Slabs of four densities float: Archimedes, and the period of heave.
+//! Slabs of five densities float: Archimedes, and the period of heave.
 
 use sorb::{
     World,
@@ -18,7 +18,7 @@ use crate::{
 /// Half as high as wide: a cube of even density floats upright only below 0.21 and above 0.79 of the density of water.
 pub(super) static CASE: Case = Case {
     name: "floating",
-    title: "a square slab half as high as wide floats, at four densities",
+    title: "a square slab half as high as wide floats, at five densities",
     source: "draft = L_y rho_b / rho; heave 2 pi sqrt((m + m_a) / (rho g A)), m_a by DNV-RP-C205",
     subject: Subject::Water,
     control: "the slab half as heavy again",
@@ -34,13 +34,13 @@ const TANK: (f64, f64) = (0.24, 0.12);
 /// Particles over the side of the slab.
 const PARTICLES: u32 = 12;
 /// Density of the slab over that of water.
-const DENSITIES: [f64; 4] = [0.1, 0.3, 0.5, 0.9];
+const DENSITIES: [f64; 5] = [0.01, 0.1, 0.3, 0.5, 0.9];
 /// Gravity \[m/s^2\].
 const GRAVITY: f64 = 9.81;
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let spacing = SIDE / f64::from(setting.count(setting.pick(PARTICLES, PARTICLES * 2 / 3)));
-    let densities = setting.pick(&DENSITIES[..], &DENSITIES[2..3]);
+    let densities = setting.pick(&DENSITIES[..], &DENSITIES[3..4]);
     let mut figures = Vec::new();
     for density in densities {
         figures.extend(float(setting, *density, spacing)?);

@@ -1,0 +1,139 @@
+//! Bodies that are light against what they displace.
+//!
+//! Fluid finds its pressure, and sponges their contact, with bodies on their way as they are; bodies take the impulses afterwards. A
+//! body of far less mass than what has to make room for it would be thrown further than that goes, and back in the next step, each time
+//! further. In truth it carries a share of the fluid along, half of what it displaces if it is a ball (its added mass). So a body that
+//! is touched has at least a quarter of the inertia of what it displaces:
+//!
+//! ```text
+//! m* dv = J + m g h,   m* = max(m, rho_0 V / 4)
+//! ```
+//!
+//! with J the impulse of the step. Its weight is its own, and with it its draft. The added mass comes on top, from the fluid: a ball of no
+//! mass that is let go under water takes off a third slower than it should, one of a tenth of the density a fifth, and from a quarter on nothing
+//! changes. Less than a quarter still gains energy (`docs/stress.md`).
+
+use glam::DVec3;
+
+use super::RigidEngine;
+use crate::{
+    body::{BodyKind, Wrench},
+    scene::Scene,
+};
+
+/// Least inertia of a body that is touched, over that of what it displaces.
+const LEAST_INERTIA: f64 = 0.25;
+
+/// How far the bodies of a scene are lighter than they may be in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct LightBodies {
+    /// m / m* of every body that fluid touches, and of every body that only nodes touch.
+    shares: Vec<[f64; 2]>,
+    gravity: DVec3,
+}
+
+impl LightBodies {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let fluid = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
+        let sponge = scene.sponges.iter().map(|sponge| sponge.density).fold(0.0, f32::max);
+        let shares = scene.bodies.iter().map(|body| match body.kind {
+            BodyKind::Dynamic => [fluid.max(sponge), sponge].map(|displaced| share(body.density, displaced)),
+            _ => [1.0; 2],
+        });
+        Self { shares: shares.collect(), gravity: scene.gravity.as_dvec3() }
+    }
+
+    /// What the engine is to give its bodies, of what fluid and nodes gave them in a step \[s\].
+    pub(crate) fn wrenches(
+        &self,
+        engine: &dyn RigidEngine,
+        given: &[(Wrench, Wrench)],
+        step: f32,
+    ) -> Vec<Wrench> {
+        let wrench = |(index, (fluid, nodes)): (usize, &(Wrench, Wrench))| {
+            let impulse = fluid.impulse + nodes.impulse;
+            let angular_impulse = fluid.angular_impulse + nodes.angular_impulse;
+            let [by_fluid, by_nodes] = self.shares.get(index).copied().unwrap_or([1.0; 2]);
+            let share = match (fluid.impulse == DVec3::ZERO, nodes.impulse == DVec3::ZERO) {
+                (false, _) => by_fluid,
+                (true, false) => by_nodes,
+                (true, true) => 1.0,
+            };
+            let inverse_mass = f64::from(engine.inverse_mass(index));
+            if share == 1.0 || inverse_mass == 0.0 {
+                return Wrench { impulse, angular_impulse };
+            }
+            // The engine adds the whole of the weight, of which a body of more inertia takes a share only.
+            let weight = self.gravity * (f64::from(step) / inverse_mass);
+            Wrench {
+                impulse: impulse * share - weight * (1.0 - share),
+                angular_impulse: angular_impulse * share,
+            }
+        };
+        given.iter().enumerate().map(wrench).collect()
+    }
+}
+
+/// m / m*.
+fn share(density: f32, displaced: f32) -> f64 {
+    let least = LEAST_INERTIA * f64::from(displaced);
+    if f64::from(density) < least { f64::from(density) / least } else { 1.0 }
+}
+
+#[cfg(all(test, feature = "rigid"))]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::{
+        rigid::{BodySetup, RapierEngine},
+        scene::{Body, Fluid, ShapeKind, Sponge},
+    };
+
+    const STEP: f32 = 0.002;
+    const GRAVITY: f32 = 9.81;
+
+    /// Velocity along y of a ball of some density after a step in which it was given what is stated, over its weight in the step.
+    fn after_a_step(density: f32, by_fluid: f64, by_nodes: f64) -> f32 {
+        let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.05 }, Vec3::ZERO, density);
+        let sponge = Sponge { density: 100.0, ..Sponge::default() };
+        let scene = Scene::new("light").with_fluid(Fluid::default()).with_sponge(sponge).with_body(ball);
+        let setup = BodySetup {
+            name: "ball".to_owned(),
+            shape: crate::body::Shape::Sphere { radius: 0.05 },
+            kind: BodyKind::Dynamic,
+            density,
+            state: scene.bodies[0].start(),
+            friction: 0.0,
+            restitution: 0.0,
+            motions: Vec::new(),
+        };
+        let gravity = Vec3::new(0.0, -GRAVITY, 0.0);
+        let mut engine = RapierEngine::new(gravity, None, &[setup]).unwrap_or_else(|error| panic!("{error}"));
+        let mass = 1.0 / f64::from(engine.inverse_mass(0));
+        let weight = mass * f64::from(GRAVITY * STEP);
+        let up = |over: f64| Wrench { impulse: DVec3::Y * over * weight, angular_impulse: DVec3::ZERO };
+        let light = LightBodies::new(&Scene { gravity, ..scene });
+        let wrenches = light.wrenches(&engine, &[(up(by_fluid), up(by_nodes))], STEP);
+        engine.step(STEP, &wrenches).unwrap_or_else(|error| panic!("{error}"));
+        engine.state(0).linear_velocity.y
+    }
+
+    #[test]
+    fn a_light_body_has_its_own_weight_and_more_inertia() {
+        let fall = GRAVITY * STEP;
+        let is =
+            |found: f32, expected: f32| assert!((found - expected).abs() < 1e-4 * fall, "{found} {expected}");
+        // A hundredth of the density of water: borne by its weight, it rests; in the air it falls as all things do.
+        is(after_a_step(10.0, 1.0, 0.0), 0.0);
+        is(after_a_step(10.0, 0.0, 0.0), -fall);
+        // Pushed by more, it answers as a body of 250 kg/m^3.
+        is(after_a_step(10.0, 11.0, 0.0), 0.4 * fall);
+        // Under a sponge of 100 kg/m^3, as one of 25.
+        is(after_a_step(10.0, 0.0, 11.0), 4.0 * fall);
+        is(after_a_step(1.0, 0.0, 11.0), 0.4 * fall);
+        // The control: from a quarter of the density on nothing changes.
+        is(after_a_step(250.0, 11.0, 0.0), 10.0 * fall);
+        is(after_a_step(25.0, 0.0, 11.0), 10.0 * fall);
+    }
+}
