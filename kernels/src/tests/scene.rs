@@ -399,7 +399,8 @@ fn params(options: Options) -> Params {
     let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
     let without = |corner: Vec3, far: f32| Vec3::select(options.periodic.into(), Vec3::splat(far), corner);
     Params {
-        step: 0.001,
+        // As far over the spacing in a step: faster ones would be thrown many boxes far, and the way back in is rounded.
+        step: 0.001 / options.refinement() as f32,
         gravity: Vec3::new(0.5, -9.81, 0.25),
         domain: if options.bounded { domain } else { Domain::Unbounded },
         walls: options.walls.then_some((without(low, -NO_WALL), without(high, NO_WALL))),
