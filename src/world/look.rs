@@ -1,6 +1,8 @@
 //! What is computed for a look at the state, and not for a step.
 
-use sorb_kernels::{columns::Columns, couple, grid, kernel::Kernel, params::Params, pbd, sph};
+use sorb_kernels::{
+    asleep::Asleep, columns::Columns, couple, grid, kernel::Kernel, params::Params, pbd, sph,
+};
 
 use super::World;
 use crate::schedule::{PlanLine, Verdict};
@@ -37,7 +39,7 @@ impl World {
         let mut columns = self.stores.view().clone();
         // Before the first step nothing has asked for compression.
         columns.fluid.acceleration.resize(columns.fluid.position.len(), [0.0; 4]);
-        let params = Params { step: 0.0, ..self.params.clone() };
+        let params = Params { step: 0.0, asleep: Asleep::default(), ..self.params.clone() };
         let phases = [
             &grid::sort_fluid::KERNEL,
             &grid::fluid_neighbors::KERNEL,

@@ -23,10 +23,10 @@ use sorb_kernels::{
 };
 
 use crate::{
-    clock::{Bound, Clock, Steps, within},
+    clock::{Bound, Clock, Dormant, Steps, within},
     rigid::RigidEngine,
     scene::Scene,
-    schedule::{Offload, POROUS_STEP, Plan, Runner, STEP},
+    schedule::{Content, Offload, POROUS_STEP, Plan, Runner, STEP},
     setup::Setup,
     sponge::Lattice,
     stores::Stores,
@@ -101,6 +101,8 @@ pub struct World {
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
     pub(crate) plan: Plan,
+    /// Of the step while the fluid is asleep.
+    dry_plan: Plan,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
@@ -146,7 +148,9 @@ impl World {
         let content = content(&columns, &params);
         let phases = if content.porous { POROUS_STEP } else { STEP };
         let plan = Plan::new(phases, content, &options.observed)?;
-        let steps = Steps::new(scene, &params, &columns.bodies.states.0, engine.as_ref());
+        let dry_plan = Plan::new(phases, Content { fluid: false, ..content }, &options.observed)?;
+        let bodies = &columns.bodies.states.0;
+        let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
         #[cfg(not(feature = "gpu"))]
         if options.offload.wants_gpu() {
             return Err(WorldError::NeedsGpu(options.offload.clone()));
@@ -158,9 +162,9 @@ impl World {
             #[cfg(feature = "gpu")]
             device,
         };
-        let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
         let mut world = Self {
-            runner: Runner::new(&plan),
+            runner: Runner::with_dry(&plan, &dry_plan),
+            sleep: sleep::Sleep::new(scene, &params),
             steps,
             scene: scene.clone(),
             cpu,
@@ -169,8 +173,8 @@ impl World {
             lattice,
             engine,
             plan,
+            dry_plan,
             clock: Clock::default(),
-            sleep: sleep::Sleep::new(scene, periods),
             failed: None,
             #[cfg(feature = "gpu")]
             options: options.clone(),
@@ -302,9 +306,15 @@ impl World {
 
     /// All phases of a step of given length.
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
+        let is_dry = self.is_fluid_asleep();
+        let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
         let Self { runner, cpu, params, stores, engine, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {
+            if are_bodies_still {
+                engine.wait(f64::from(step));
+                return;
+            }
             let wrenches = wrenches(columns);
             rigid = move_bodies(engine.as_mut(), &mut columns.bodies, &wrenches, step);
         };
@@ -316,7 +326,7 @@ impl World {
             }
             return rigid.map_err(|error| StepError::Rigid(error.to_string()));
         }
-        runner.run(cpu, params, &mut stores.host, &mut host);
+        runner.run(is_dry, (cpu, params), &mut stores.host, &mut host);
         rigid.map_err(|error| StepError::Rigid(error.to_string()))
     }
 

@@ -26,6 +26,12 @@ impl World {
         &self.plan
     }
 
+    /// What runs in the next step: [`Self::plan`], or while the fluid is asleep that of the step without it.
+    #[must_use]
+    pub fn step_plan(&self) -> &Plan {
+        if self.is_fluid_asleep() { &self.dry_plan } else { &self.plan }
+    }
+
     /// Time spent in every phase that runs.
     #[must_use]
     pub fn phase_times(&self) -> &[PhaseTime] {
@@ -170,6 +176,6 @@ impl World {
     /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        digest::digest(self.columns(), &self.clock)
+        digest::digest(self.columns(), &self.clock, &self.sleep.dormant())
     }
 }

@@ -73,7 +73,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let rows = Rows { position, predicted, free, reaction, drag, drag_moment };
     cpu.for_chunks_of(1, &mut sums[..], |first, sums| {
         for (sum, Piece { sponge, rows: range }) in sums.iter_mut().zip(&stars.pieces[first..]) {
-            if params.solver(*sponge) == Some(Solver::Vbd) {
+            let is_asleep = params.asleep.has(range.start as usize);
+            if params.solver(*sponge) == Some(Solver::Vbd) && !is_asleep {
                 range.clone().for_each(|node| sum.add(&rows, node as usize, rate));
             }
         }

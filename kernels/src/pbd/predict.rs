@@ -37,6 +37,10 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         for (row, predicted) in predicted.iter_mut().enumerate() {
             let node = first + row;
             let (x, v, a) = (position[node], velocity[node], acceleration[node]);
+            if params.asleep.has(node) {
+                *predicted = [x[0], x[1], x[2], 0.0];
+                continue;
+            }
             let y = match bodies.get(grip[node] as usize) {
                 Some(body) => held(body, grip_offset[node], h).to_array(),
                 None => [0, 1, 2].map(|axis| x[axis] + h * (v[axis] + h * a[axis])),

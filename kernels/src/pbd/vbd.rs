@@ -106,6 +106,11 @@ impl Task<'_> {
         let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
         let groups = self.stars.groups_from(color, first);
         for (group, moved) in groups.iter().zip(moved.chunks_mut(LANES)) {
+            if self.params.asleep.has_group(&group.own) {
+                let rows = group.own[0] as usize;
+                moved.copy_from_slice(&self.predicted[rows..rows + moved.len()]);
+                continue;
+            }
             let constants = constants_of(self.params, self.sponge, &group.own);
             let material = Material::new(simd, &constants);
             let solved = self.solve(simd, group, &material, &obstacles);

@@ -399,6 +399,7 @@ fn params(options: Options) -> Params {
     let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
     let without = |corner: Vec3, far: f32| Vec3::select(options.periodic.into(), Vec3::splat(far), corner);
     Params {
+        asleep: crate::asleep::Asleep::default(),
         step: 0.001,
         gravity: Vec3::new(0.5, -9.81, 0.25),
         domain: if options.bounded { domain } else { Domain::Unbounded },
