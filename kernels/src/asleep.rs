@@ -54,9 +54,25 @@ impl Asleep {
 
     /// The ranges of the other rows, of `count` in all.
     pub(crate) fn others(&self, count: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+        // Ranges beyond the last row are empty.
         let starts = std::iter::once(0).chain(self.ranges.iter().map(|range| range.end));
         let ends = self.ranges.iter().map(|range| range.start).chain(std::iter::once(count));
-        starts.zip(ends).map(|(start, end)| start..end)
+        starts.zip(ends).map(move |(start, end)| start.min(count)..end.min(count))
+    }
+
+    /// The other rows of a range, in whole groups of so many rows from its beginning on: a group may have some that are asleep.
+    pub(crate) fn awake_groups(&self, rows: Range<usize>, group: usize) -> Vec<Range<usize>> {
+        let mut awake: Vec<Range<usize>> = Vec::new();
+        for own in self.others(rows.end).filter(|own| own.start.max(rows.start) < own.end) {
+            let (start, end) = (own.start.max(rows.start) - rows.start, own.end - rows.start);
+            let start = rows.start + start / group * group;
+            let end = (rows.start + end.div_ceil(group) * group).min(rows.end);
+            match awake.last_mut() {
+                Some(last) if last.end >= start => last.end = end,
+                _ => awake.push(start..end),
+            }
+        }
+        awake
     }
 
     /// Whether all nodes of a group are asleep, whose rows follow each other; the last may be repeated.
@@ -82,7 +98,15 @@ mod tests {
         }
         let others: Vec<usize> = asleep.others(100).flatten().collect();
         assert!(others.iter().copied().eq((0..100).filter(|row| !expected(*row))));
+        for (first, end) in [(0, 100), (3, 61), (5, 20), (12, 19), (30, 45), (60, 61), (7, 7)] {
+            let found: Vec<usize> = asleep.awake_groups(first..end, 4).into_iter().flatten().collect();
+            let group =
+                |row: usize| first + (row - first) / 4 * 4..(first + (row - first) / 4 * 4 + 4).min(end);
+            let kept = (first..end).filter(|row| !group(*row).all(expected));
+            assert!(found.iter().copied().eq(kept), "{first}..{end}: {found:?}");
+        }
+        assert!(Asleep::default().awake_groups(3..50, 8).into_iter().eq(std::iter::once(3..50)));
         assert!(asleep.has_group(&[8, 9, 10, 10]) && !asleep.has_group(&[18, 19, 20, 20]));
-        assert!(!asleep.is_empty() && Asleep::new(vec![3..3]).is_empty());
+        assert!(!asleep.is_empty() && Asleep::new(vec![3..3, 9..9]).is_empty());
     }
 }

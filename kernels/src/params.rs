@@ -47,6 +47,12 @@ impl Params {
         (0..self.sponges.len() as u32).any(|sponge| self.meets_any(sponge))
     }
 
+    /// Whether any of these sponges can touch another one of them or itself.
+    #[must_use]
+    pub fn has_touch_among(&self, sponges: &[u32]) -> bool {
+        sponges.iter().any(|sponge| sponges.iter().any(|other| self.may_meet(*sponge, *other)))
+    }
+
     /// Whether a sponge can touch another or itself.
     pub(crate) fn meets_any(&self, sponge: u32) -> bool {
         (0..self.sponges.len() as u32).any(|other| self.may_meet(sponge, other))

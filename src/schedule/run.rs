@@ -60,12 +60,11 @@ struct Group {
     until_converged: bool,
 }
 
-/// A plan, flattened to what is left of it.
+/// Plans, flattened to what is left of them.
 #[derive(Clone, Debug)]
 pub struct Runner {
-    sequence: Sequence,
-    /// Of the step without fluid.
-    dry: Sequence,
+    /// Of every plan, in their order.
+    sequences: Vec<Sequence>,
     times: Vec<PhaseTime>,
     step: PhaseTime,
 }
@@ -81,31 +80,28 @@ impl Runner {
     /// The runner of a plan.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
+        Self::of_all(std::slice::from_ref(plan))
+    }
+
+    /// The runner of several plans, which share its times.
+    pub(crate) fn of_all(plans: &[Plan]) -> Self {
         let mut times = Vec::new();
-        let sequence = Sequence::new(plan, &mut times);
-        Self { sequence, dry: Sequence::default(), times, step: PhaseTime::new("step") }
+        let sequences = plans.iter().map(|plan| Sequence::new(plan, &mut times)).collect();
+        Self { sequences, times, step: PhaseTime::new("step") }
     }
 
-    /// The runner of a plan, and of another one for steps in which the fluid is asleep.
-    pub(crate) fn with_dry(plan: &Plan, dry: &Plan) -> Self {
-        let mut runner = Self::new(plan);
-        runner.dry = Sequence::new(dry, &mut runner.times);
-        runner
-    }
-
-    /// Runs all phases in order, or those of the step without fluid; `host` does the host phases.
+    /// Runs all phases of a plan in order; `host` does the host phases.
     pub(crate) fn run(
         &mut self,
-        is_dry: bool,
+        plan: usize,
         (cpu, params): (&Cpu, &Params),
         columns: &mut Columns,
         host: impl FnMut(&mut Columns) + Send,
     ) {
-        let Self { sequence, dry, times, step } = self;
+        let Self { sequences, times, step } = self;
         let start = Instant::now();
-        let sequence = if is_dry { dry } else { sequence };
         // Waking the threads would be all the cost of an empty scene.
-        if !sequence.kernels.is_empty() {
+        if let Some(sequence) = sequences.get(plan).filter(|sequence| !sequence.kernels.is_empty()) {
             cpu.enter(|| sequence.run((cpu, params), columns, host, times));
         }
         step.record(start);
@@ -143,7 +139,7 @@ impl Runner {
     /// Whether there is nothing to run.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.sequence.kernels.is_empty()
+        self.sequences.iter().all(|sequence| sequence.kernels.is_empty())
     }
 }
 

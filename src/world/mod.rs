@@ -26,7 +26,7 @@ use crate::{
     clock::{Bound, Clock, Dormant, Steps, within},
     rigid::RigidEngine,
     scene::Scene,
-    schedule::{Content, Offload, POROUS_STEP, Plan, Runner, STEP},
+    schedule::{Offload, POROUS_STEP, Plan, Runner, STEP},
     setup::Setup,
     sponge::Lattice,
     stores::Stores,
@@ -101,8 +101,8 @@ pub struct World {
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
     pub(crate) plan: Plan,
-    /// Of the step while the fluid is asleep.
-    dry_plan: Plan,
+    /// The same while parts are asleep, see [`Content::lesser`](crate::schedule::Content).
+    lesser_plans: Vec<Plan>,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
@@ -148,7 +148,8 @@ impl World {
         let content = content(&columns, &params);
         let phases = if content.porous { POROUS_STEP } else { STEP };
         let plan = Plan::new(phases, content, &options.observed)?;
-        let dry_plan = Plan::new(phases, Content { fluid: false, ..content }, &options.observed)?;
+        let lesser = content.lesser().map(|content| Plan::new(phases, content, &options.observed));
+        let lesser_plans = lesser.into_iter().collect::<Result<Vec<_>, _>>()?;
         let bodies = &columns.bodies.states.0;
         let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
         #[cfg(not(feature = "gpu"))]
@@ -163,7 +164,7 @@ impl World {
             device,
         };
         let mut world = Self {
-            runner: Runner::with_dry(&plan, &dry_plan),
+            runner: Runner::of_all(&lesser_plans),
             sleep: sleep::Sleep::new(scene, &params),
             steps,
             scene: scene.clone(),
@@ -173,7 +174,7 @@ impl World {
             lattice,
             engine,
             plan,
-            dry_plan,
+            lesser_plans,
             clock: Clock::default(),
             failed: None,
             #[cfg(feature = "gpu")]
@@ -306,7 +307,7 @@ impl World {
 
     /// All phases of a step of given length.
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
-        let is_dry = self.is_fluid_asleep();
+        let lesser = self.lesser_plan();
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
         let Self { runner, cpu, params, stores, engine, .. } = self;
         let mut rigid = Ok(());
@@ -326,7 +327,7 @@ impl World {
             }
             return rigid.map_err(|error| StepError::Rigid(error.to_string()));
         }
-        runner.run(is_dry, (cpu, params), &mut stores.host, &mut host);
+        runner.run(lesser, (cpu, params), &mut stores.host, &mut host);
         rigid.map_err(|error| StepError::Rigid(error.to_string()))
     }
 

@@ -26,10 +26,13 @@ impl World {
         &self.plan
     }
 
-    /// What runs in the next step: [`Self::plan`], or while the fluid is asleep that of the step without it.
+    /// What runs in the next step: [`Self::plan`] without what has nothing to do as long as parts are asleep.
     #[must_use]
     pub fn step_plan(&self) -> &Plan {
-        if self.is_fluid_asleep() { &self.dry_plan } else { &self.plan }
+        match self.lesser_plan() {
+            0 => &self.plan,
+            lesser => &self.lesser_plans[lesser],
+        }
     }
 
     /// Time spent in every phase that runs.

@@ -86,6 +86,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let motions = motions(&totals, &joined(sponge, [touch, touch_stiffness], totals.len()));
     let step = params.step;
     cpu.for_chunks((&mut predicted[..], &mut velocity[..]), |first, (predicted, velocity)| {
+        if params.asleep.has_all(first..first + predicted.len()) {
+            return;
+        }
         for (row, (y, v)) in predicted.iter_mut().zip(velocity).enumerate() {
             let node = first + row;
             if y[3] <= 0.0 || params.solver(sponge[node]) != Some(Solver::Vbd) {

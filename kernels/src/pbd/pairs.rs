@@ -167,10 +167,12 @@ struct Near {
 impl Near {
     fn new(params: &Params, position: &[[f32; 4]], sponge: &[u32], radius: f32) -> Self {
         let mut own = vec![(Vec3::INFINITY, Vec3::NEG_INFINITY); params.sponges.len()];
-        for (sponge, row) in sponge.iter().zip(position) {
-            let (low, high) = &mut own[*sponge as usize];
-            (*low, *high) = (low.min(vector(*row)), high.max(vector(*row)));
+        for node in params.asleep.others(sponge.len()).flatten() {
+            let (sponge, row) = (sponge[node], position[node]);
+            let (low, high) = &mut own[sponge as usize];
+            (*low, *high) = (low.min(vector(row)), high.max(vector(row)));
         }
+        // Nothing is near what is asleep.
         let wide = |other: u32| {
             let (low, high) = own[other as usize];
             (low - radius, high + radius)

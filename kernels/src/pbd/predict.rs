@@ -34,6 +34,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     predicted.resize(position.len(), [0.0; 4]);
     let h = params.step;
     cpu.for_chunks(&mut predicted[..], |first, predicted| {
+        if params.asleep.has_all(first..first + predicted.len()) {
+            predicted.copy_from_slice(&position[first..first + predicted.len()]);
+            predicted.iter_mut().for_each(|row| row[3] = 0.0);
+            return;
+        }
         for (row, predicted) in predicted.iter_mut().enumerate() {
             let node = first + row;
             let (x, v, a) = (position[node], velocity[node], acceleration[node]);

@@ -76,14 +76,17 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let mut moved = Vec::new();
     for color in 0..4 {
         let rows = stars.rows(color);
-        moved.clear();
-        moved.resize(rows.len(), [0.0; 4]);
-        let wet = Wet::new(params, sponge, wetting);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
-        cpu.for_chunks(&mut moved[..], |first, moved| {
-            with_lanes!(cpu, simd => task.chunk(simd, color, first, moved));
-        });
-        predicted[rows].copy_from_slice(&moved);
+        for awake in params.asleep.awake_groups(rows.clone(), LANES) {
+            moved.clear();
+            moved.resize(awake.len(), [0.0; 4]);
+            let wet = Wet::new(params, sponge, wetting);
+            let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
+            let before = awake.start - rows.start;
+            cpu.for_chunks(&mut moved[..], |first, moved| {
+                with_lanes!(cpu, simd => task.chunk(simd, color, before + first, moved));
+            });
+            predicted[awake].copy_from_slice(&moved);
+        }
     }
 }
 
@@ -106,11 +109,6 @@ impl Task<'_> {
         let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
         let groups = self.stars.groups_from(color, first);
         for (group, moved) in groups.iter().zip(moved.chunks_mut(LANES)) {
-            if self.params.asleep.has_group(&group.own) {
-                let rows = group.own[0] as usize;
-                moved.copy_from_slice(&self.predicted[rows..rows + moved.len()]);
-                continue;
-            }
             let constants = constants_of(self.params, self.sponge, &group.own);
             let material = Material::new(simd, &constants);
             let solved = self.solve(simd, group, &material, &obstacles);

@@ -28,6 +28,10 @@ use parts::{Kind, Part, Rules};
 /// falls, or a corner that swings, is awake.
 const LARGEST: f64 = 100.0;
 
+/// Parts of the time between two looks after which places are taken as well. What swings to and fro as often as looks are taken is where it
+/// was at each of them, and at one time in between that is as far beyond a turn; but not at both of these.
+const BETWEEN: [f64; 2] = [0.236, 0.618];
+
 /// What sleeps, and what that is decided by.
 #[derive(Clone, Debug)]
 pub(crate) struct Sleep {
@@ -41,6 +45,8 @@ pub(crate) struct Sleep {
     is_asleep: bool,
     /// Where everything was at the last look.
     before: Option<Places>,
+    /// Where everything was between that and the next one, at the times of [`BETWEEN`].
+    between: Vec<Places>,
     /// Time up to which ways are known \[s\].
     watched: f64,
     /// How far particles and nodes may have gone since their boxes were taken \[m\].
@@ -70,6 +76,7 @@ impl Sleep {
             parts: Vec::new(),
             is_asleep: false,
             before: None,
+            between: Vec::new(),
             watched: 0.0,
             ways: [0.0; 2],
         }
@@ -212,9 +219,13 @@ impl World {
         }
         self.wake_what_is_reached();
         let time = self.clock.time;
-        let due = self.sleep.before.as_ref().is_none_or(|before| time - before.time >= self.sleep.after);
-        if due {
+        let since = self.sleep.before.as_ref().map_or(f64::INFINITY, |before| time - before.time);
+        let next = BETWEEN.get(self.sleep.between.len());
+        if since >= self.sleep.after {
             self.look_for_rest();
+        } else if next.is_some_and(|part| since >= part * self.sleep.after) {
+            let places = self.places();
+            self.sleep.between.push(places);
         }
     }
 
@@ -227,7 +238,7 @@ impl World {
         self.take_bounds();
         let before = self.sleep.before.take();
         let has_changed = before.is_some_and(|before| self.fall_asleep(&before, &now));
-        self.sleep.before = Some(now);
+        (self.sleep.before, self.sleep.between) = (Some(now), Vec::new());
         if has_changed {
             self.apply_sleep();
         }
@@ -264,24 +275,31 @@ impl World {
         has_changed
     }
 
-    /// Whether a part is where it was, and slow.
+    /// Whether a part is where it was, at all looks since, and slow.
     fn is_still(&self, kind: Kind, before: &Places, now: &Places) -> bool {
         let (sleep, way) = (&self.sleep, self.sleep.speed * (now.time - before.time));
         let is_slow = |speed: f32| f64::from(speed) <= LARGEST * sleep.speed;
+        let looks = || sleep.between.iter().chain([now]);
         match kind {
             Kind::Fluid => {
-                let places = before.particles.iter().zip(&now.particles);
-                is_slow(self.clock.fluid_speed) && sleep.are_still(places, way)
+                let is_still =
+                    |later: &Places| sleep.are_still(before.particles.iter().zip(&later.particles), way);
+                is_slow(self.clock.fluid_speed) && looks().all(is_still)
             }
             Kind::Sponge(index) => {
                 let rows = || self.node_rows(index).into_iter().flatten();
-                let places = rows().filter_map(|row| before.nodes.get(row).zip(now.nodes.get(row)));
                 let velocities = self.node_velocities();
                 let square =
                     |row: usize| velocities.get(row).map_or(0.0, |[x, y, z, _]| x * x + y * y + z * z);
-                is_slow(rows().map(square).fold(0.0, f32::max).sqrt()) && sleep.are_still(places, way)
+                let is_still = |later: &Places| {
+                    let place = |row| before.nodes.get(row).zip(later.nodes.get(row));
+                    sleep.are_still(rows().filter_map(place), way)
+                };
+                is_slow(rows().map(square).fold(0.0, f32::max).sqrt()) && looks().all(is_still)
             }
-            Kind::Body(index) => Sleep::is_body_still(before.bodies[index], now.bodies[index], way),
+            Kind::Body(index) => {
+                looks().all(|later| Sleep::is_body_still(before.bodies[index], later.bodies[index], way))
+            }
         }
     }
 

@@ -7,13 +7,21 @@ use sorb_kernels::{
     asleep::Asleep,
     body::{Body, BodyKind},
     pbd,
+    reduce::Wrenches,
 };
 
 use super::{Bounds, Kind, Part, is_active};
-use crate::{clock::Steps, scene::Motion, world::World, world::fastest_body};
+use crate::{
+    clock::{Dormant, Steps},
+    scene::Motion,
+    world::{World, fastest_body},
+};
 
 /// What particles and nodes may go between two looks at their boxes, over what their largest speeds say \[1\].
 const SPARE: f32 = 1.25;
+
+/// Reach of the fluid, over that of a particle: in a step a particle moves by a part of it \[1\].
+const FLUID_REACH: f32 = 1.5;
 
 /// Reach of a body, over its radius \[1\].
 const BODY_REACH: f32 = 0.1;
@@ -22,9 +30,10 @@ impl World {
     /// Whether parts cannot sleep on their own, because steps run on a device.
     pub(super) fn sleeps_as_a_whole(&self) -> bool {
         #[cfg(feature = "gpu")]
-        return self.stores.device.is_some();
+        let has_device = self.stores.device.is_some();
         #[cfg(not(feature = "gpu"))]
-        false
+        let has_device = false;
+        has_device
     }
 
     /// All parts, awake, with boxes that were never taken.
@@ -36,7 +45,7 @@ impl World {
         };
         let mut parts = Vec::new();
         if self.stores.host.rows.fluid > 0 {
-            parts.push(part(Kind::Fluid, params.fluid.list_radius()));
+            parts.push(part(Kind::Fluid, FLUID_REACH * params.fluid.list_radius()));
         }
         for (index, sponge) in params.sponges.iter().enumerate() {
             let coupling = if self.stores.host.rows.fluid > 0 { params.coupling.support_radius } else { 0.0 };
@@ -161,6 +170,22 @@ impl World {
         }
     }
 
+    /// Which of the lesser plans the next step has; 0 for the whole one.
+    pub(crate) fn lesser_plan(&self) -> usize {
+        let dormant = self.sleep.dormant();
+        if self.sleeps_as_a_whole() || dormant == Dormant::default() {
+            return 0;
+        }
+        let all = 0..self.params.sponges.len() as u32;
+        let awake: Vec<u32> = all.filter(|index| !dormant.sponges.contains(&(*index as usize))).collect();
+        let of_sponges = match (awake.is_empty(), self.params.has_touch_among(&awake)) {
+            (true, _) => 2,
+            (false, false) => 1,
+            (false, true) => 0,
+        };
+        if dormant.fluid { 3 + of_sponges } else { of_sponges }
+    }
+
     /// Makes the next steps go on without what sleeps.
     pub(super) fn apply_sleep(&mut self) {
         if self.sleeps_as_a_whole() {
@@ -177,9 +202,13 @@ impl World {
             }
         }
         self.clock.body_speed = fastest_body(&bodies.states.0);
+        // Nobody renews what was given by those whose phases are left out.
         if dormant.fluid {
-            // Nobody renews what it gave.
-            bodies.fluid_wrenches = sorb_kernels::reduce::Wrenches::default();
+            bodies.fluid_wrenches = Wrenches::default();
+        }
+        if dormant.sponges.len() == self.scene.sponges.len() {
+            bodies.node_wrenches = Wrenches::default();
+            self.stores.host.fluid.interior.fill(0.0);
         }
         self.steps = Steps::new(&self.scene, &self.params, &bodies.states.0, &*self.engine, &dormant);
     }
