@@ -139,19 +139,39 @@ const IMPLICIT_COURANT: f32 = 0.1;
 /// Step over the time in which water that is sucked in crosses a spacing.
 const SUCTION_COURANT: f32 = 0.8;
 
+/// What is asleep: steps go on without it, and it bounds none.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Dormant {
+    pub(crate) fluid: bool,
+    /// Numbers of sponges.
+    pub(crate) sponges: Vec<usize>,
+    /// Numbers of bodies.
+    pub(crate) bodies: Vec<usize>,
+}
+
 /// Bounds that do not change from step to step.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps {
     time: Time,
     constant: (f32, Bound),
     edge: f32,
+    has_fluid: bool,
 }
 
 impl Steps {
-    pub(crate) fn new(scene: &Scene, params: &Params, bodies: &[Body], engine: &dyn RigidEngine) -> Self {
+    pub(crate) fn new(
+        scene: &Scene,
+        params: &Params,
+        bodies: &[Body],
+        engine: &dyn RigidEngine,
+        dormant: &Dormant,
+    ) -> Self {
         let mut bounds = vec![(scene.time.maximum_step, Bound::Maximum)];
         let fluid = &params.fluid;
-        if let Some(water) = &scene.fluid {
+        let has_fluid = fluid.particle_mass > 0.0 && !dormant.fluid;
+        let sponges = || params.sponges.iter().zip(&scene.sponges).enumerate();
+        let sponges = || sponges().filter(|(index, _)| !dormant.sponges.contains(index)).map(|(_, own)| own);
+        if let Some(water) = scene.fluid.as_ref().filter(|_| has_fluid) {
             let h = fluid.smoothing.support_radius;
             // Along the line between particles the central form is as stiff as five times the other.
             let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
@@ -165,7 +185,7 @@ impl Steps {
             }
             let capillary = fluid.rest_density * h * h * h / (2.0 * PI * water.surface_tension);
             bounds.push((CAPILLARY_COURANT * capillary.sqrt(), Bound::SurfaceTension));
-            for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
+            for (sponge, scene) in sponges() {
                 if params.solid.is_some() {
                     // Water enters at this speed; nodes bear the suction together with what they hold.
                     let pressure = sponge.entry_pressure + sponge.wetting.receding;
@@ -181,7 +201,7 @@ impl Steps {
                 bounds.push((1.0 / frequency, Bound::Suction));
             }
         }
-        for (sponge, scene) in params.sponges.iter().zip(&scene.sponges) {
+        for (sponge, scene) in sponges() {
             let crossing = |modulus: f32| sponge.edge * (scene.density / modulus).sqrt();
             bounds.push(match sponge.solver {
                 // The solver is stable beyond, but one sweep a step is then far from converged: a ball that falls on a
@@ -198,12 +218,12 @@ impl Steps {
             });
         }
         let constant = smallest(&bounds);
-        let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
+        let edge = sponges().map(|(sponge, _)| sponge.edge).fold(f32::INFINITY, f32::min);
         let mut time = scene.time;
         if fluid.implicit_viscosity.is_some() {
             time.courant = time.courant.min(IMPLICIT_COURANT);
         }
-        Self { time, constant, edge }
+        Self { time, constant, edge, has_fluid }
     }
 
     /// Longest stable step after the last one, and what bounds it.
@@ -211,7 +231,7 @@ impl Steps {
         let mut bounds = vec![self.constant];
         let fluid = &params.fluid;
         let h = fluid.smoothing.support_radius;
-        if fluid.particle_mass > 0.0 {
+        if self.has_fluid {
             let sound_speed = if fluid.incompressible.is_some() { 0.0 } else { fluid.sound_speed };
             bounds.push((self.time.courant * h / (sound_speed + clock.fluid_speed), Bound::Courant));
             // In a column at rest the largest pressure is the square root of three times the root of the mean square.
@@ -220,7 +240,7 @@ impl Steps {
             bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
         }
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
-        let reach = if fluid.particle_mass > 0.0 { self.time.courant * h } else { f32::INFINITY };
+        let reach = if self.has_fluid { self.time.courant * h } else { f32::INFINITY };
         let crossing = reach.min(0.25 * self.edge) / clock.body_speed;
         // A script may move a body at any speed; what is faster than this is swept.
         bounds.push((crossing.max(SHORTEST_BY_BODY * self.time.minimum_step), Bound::BodySpeed));

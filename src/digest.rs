@@ -3,10 +3,10 @@
 use sorb_kernels::columns::{Column, Columns, Life};
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::clock::Clock;
+use crate::clock::{Clock, Dormant};
 
-/// Digest of all state columns, in their order, and of the clock.
-pub(crate) fn digest(columns: &Columns, clock: &Clock) -> u64 {
+/// Digest of all state columns, in their order, of the clock, and of what is asleep.
+pub(crate) fn digest(columns: &Columns, clock: &Clock, dormant: &Dormant) -> u64 {
     let mut hasher = Xxh3::new();
     hasher.update(&clock.time.to_bits().to_le_bytes());
     hasher.update(&clock.steps.to_le_bytes());
@@ -16,6 +16,14 @@ pub(crate) fn digest(columns: &Columns, clock: &Clock) -> u64 {
         let rows = columns.rows.of(column.store());
         columns.data(*column).visit_words(rows, &mut |word| buffer.extend_from_slice(&word.to_le_bytes()));
         hasher.update(&buffer);
+    }
+    // A world that is awake is what it would be if it could not sleep.
+    if *dormant != Dormant::default() {
+        hasher.update(&[u8::from(dormant.fluid)]);
+        for numbers in [&dormant.sponges, &dormant.bodies] {
+            hasher.update(&(numbers.len() as u64).to_le_bytes());
+            numbers.iter().for_each(|number| hasher.update(&(*number as u64).to_le_bytes()));
+        }
     }
     hasher.digest()
 }

@@ -4,6 +4,7 @@
 //! reads and writes, and has a body for the CPU that is generic over the SIMD level and runs on fixed chunks of
 //! rows; its oracle, a brute-force loop in f64, is in `oracle` (tests and feature `oracles`). Kernels know no scene, and no other kernel.
 
+pub mod asleep;
 pub mod body;
 pub mod columns;
 pub mod couple;

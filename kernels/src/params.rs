@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::{columns::FAR, grid::cells::Domain, periodic::Periodic, smoothing::Wendland};
+use crate::{asleep::Asleep, columns::FAR, grid::cells::Domain, periodic::Periodic, smoothing::Wendland};
 
 /// Distance from the origin of walls that are not there \[m\]: finite, as shaders ask for, and out of reach.
 pub const NO_WALL: f32 = FAR;
@@ -26,6 +26,8 @@ pub struct Params {
     pub fluid: FluidParams,
     /// The sponges, in the order of the scene.
     pub sponges: Vec<SpongeParams>,
+    /// Nodes that stay as they are, because their sponges are asleep; on the CPU only.
+    pub asleep: Asleep,
     /// Smoothing between nodes and particles; its support is the suction radius.
     pub coupling: Wendland,
     /// Smoothing of the volume of the sponges' material, where that displaces fluid: none with the paper's coupling.
@@ -43,6 +45,12 @@ impl Params {
     #[must_use]
     pub fn has_touch(&self) -> bool {
         (0..self.sponges.len() as u32).any(|sponge| self.meets_any(sponge))
+    }
+
+    /// Whether any of these sponges can touch another one of them or itself.
+    #[must_use]
+    pub fn has_touch_among(&self, sponges: &[u32]) -> bool {
+        sponges.iter().any(|sponge| sponges.iter().any(|other| self.may_meet(*sponge, *other)))
     }
 
     /// Whether a sponge can touch another or itself.

@@ -134,6 +134,7 @@ impl World {
     pub fn move_to(&mut self, gpu: Option<&Arc<Gpu>>) -> Result<(), WorldError> {
         // Reads back what the host does not have yet, if it can.
         self.stores.view();
+        self.wake_all();
         if let Some(device) = &mut self.stores.device
             && let Some(kept) = device.give_up(&mut self.stores.host)
         {

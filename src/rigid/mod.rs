@@ -5,7 +5,7 @@
 //! `RapierEngine` adds dynamic bodies, moved by rapier3d. A host with an engine of its own implements the
 //! trait instead.
 //!
-//! The same inputs give the same bits on every run: bodies are inserted in the order given, nothing sleeps,
+//! The same inputs give the same bits on every run: bodies are inserted in the order given, nothing sleeps of its own accord,
 //! and scripted poses are evaluated in closed form from the time, with trigonometry that does not depend on
 //! the platform.
 
@@ -81,6 +81,10 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
     /// Lets time pass \[s\] in which nothing moves: bodies stay where they are, with their velocities, and scripts go on from the
     /// time after it.
     fn wait(&mut self, time: f64);
+
+    /// Holds a dynamic body where it is, at rest, whatever acts on it, or lets it go on with the velocity that it had. Mass and inertia
+    /// stay what they are. No body that moves is near one that is held. Without effect on fixed and kinematic bodies.
+    fn hold(&mut self, index: usize, is_held: bool);
 
     /// Copies the engine with everything that its future depends on: the copy continues with the same bits.
     fn boxed_clone(&self) -> Box<dyn RigidEngine>;

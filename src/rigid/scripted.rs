@@ -76,6 +76,8 @@ impl RigidEngine for ScriptedEngine {
         self.time += time;
     }
 
+    fn hold(&mut self, _index: usize, _is_held: bool) {}
+
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())
     }

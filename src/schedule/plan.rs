@@ -48,6 +48,18 @@ pub struct Content {
     pub viscosity_rounds: u32,
 }
 
+impl Content {
+    /// What a step has to do while parts are asleep: with and without fluid, and with sponges of which none can touch another, with
+    /// those that can, and without sponges. The first is all of it.
+    pub(crate) fn lesser(self) -> [Self; 6] {
+        let apart = Self { touch: false, ..self };
+        let bare =
+            Self { sponge: false, solvers: [None; 3], porous: false, wetting: false, iterations: 0, ..apart };
+        let dry = |content| Self { fluid: false, ..content };
+        [self, apart, bare, dry(self), dry(apart), dry(bare)]
+    }
+}
+
 /// What becomes of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {

@@ -60,79 +60,51 @@ struct Group {
     until_converged: bool,
 }
 
-/// A plan, flattened to what is left of it.
+/// Plans, flattened to what is left of them.
 #[derive(Clone, Debug)]
 pub struct Runner {
-    kernels: Vec<(Work, usize)>,
-    groups: Vec<Group>,
+    /// Of every plan, in their order.
+    sequences: Vec<Sequence>,
     times: Vec<PhaseTime>,
     step: PhaseTime,
+}
+
+/// What runs in a step, in order; with the place of its time.
+#[derive(Clone, Debug, Default)]
+struct Sequence {
+    kernels: Vec<(Work, usize)>,
+    groups: Vec<Group>,
 }
 
 impl Runner {
     /// The runner of a plan.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        let mut runner =
-            Self { kernels: Vec::new(), groups: Vec::new(), times: Vec::new(), step: PhaseTime::new("step") };
-        let mut group = None;
-        for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
-            let time = runner.times.iter().position(|time| time.name == line.name).unwrap_or_else(|| {
-                runner.times.push(PhaseTime::new(line.name));
-                runner.times.len() - 1
-            });
-            let at = runner.kernels.len();
-            match (runner.groups.last_mut(), line.repeat) {
-                (Some(group_of), Some((index, _))) if group == Some(index) => group_of.last = at + 1,
-                (_, repeat) => runner.groups.push(Group {
-                    first: at,
-                    last: at + 1,
-                    times: repeat.map_or(1, |(_, times)| times),
-                    until_converged: line.until_converged,
-                }),
-            }
-            group = line.repeat.map(|(index, _)| index);
-            runner.kernels.push((line.work, time));
-        }
-        runner
+        Self::of_all(std::slice::from_ref(plan))
     }
 
-    /// Runs all phases in order; `host` does the host phases.
+    /// The runner of several plans, which share its times.
+    pub(crate) fn of_all(plans: &[Plan]) -> Self {
+        let mut times = Vec::new();
+        let sequences = plans.iter().map(|plan| Sequence::new(plan, &mut times)).collect();
+        Self { sequences, times, step: PhaseTime::new("step") }
+    }
+
+    /// Runs all phases of a plan in order; `host` does the host phases.
     pub(crate) fn run(
         &mut self,
-        cpu: &Cpu,
-        params: &Params,
+        plan: usize,
+        (cpu, params): (&Cpu, &Params),
         columns: &mut Columns,
-        mut host: impl FnMut(&mut Columns) + Send,
+        host: impl FnMut(&mut Columns) + Send,
     ) {
-        let Self { kernels, groups, times, step } = self;
-        let start_of_step = Instant::now();
-        let work = || {
-            for group in &*groups {
-                for _ in 0..group.times {
-                    for (work, time) in &kernels[group.first..group.last] {
-                        let start = Instant::now();
-                        match work {
-                            Work::Kernel(kernel) => (kernel.cpu)(cpu, params, columns),
-                            Work::Host(_) => host(columns),
-                        }
-                        times[*time].record(start);
-                    }
-                    let has_converged = |(work, _): &(Work, usize)| match work {
-                        Work::Kernel(kernel) => has_converged(kernel, columns),
-                        Work::Host(_) => true,
-                    };
-                    if group.until_converged && kernels[group.first..group.last].iter().all(has_converged) {
-                        break;
-                    }
-                }
-            }
-        };
+        let Self { sequences, times, step } = self;
+        let start = Instant::now();
         // Waking the threads would be all the cost of an empty scene.
-        if !kernels.is_empty() {
-            cpu.enter(work);
+        if let Some(sequence) = sequences.get(plan).filter(|sequence| !sequence.kernels.is_empty()) {
+            cpu.enter(|| sequence.run((cpu, params), columns, host, times));
         }
-        step.record(start_of_step);
+        step.record(start);
     }
 
     /// Takes over the time of steps on a device: of all of them together, and of every call of a kernel \[ms\] as far as
@@ -167,6 +139,61 @@ impl Runner {
     /// Whether there is nothing to run.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.kernels.is_empty()
+        self.sequences.iter().all(|sequence| sequence.kernels.is_empty())
+    }
+}
+
+impl Sequence {
+    fn new(plan: &Plan, times: &mut Vec<PhaseTime>) -> Self {
+        let mut sequence = Self::default();
+        let mut group = None;
+        for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
+            let time = times.iter().position(|time| time.name == line.name).unwrap_or_else(|| {
+                times.push(PhaseTime::new(line.name));
+                times.len() - 1
+            });
+            let at = sequence.kernels.len();
+            match (sequence.groups.last_mut(), line.repeat) {
+                (Some(group_of), Some((index, _))) if group == Some(index) => group_of.last = at + 1,
+                (_, repeat) => sequence.groups.push(Group {
+                    first: at,
+                    last: at + 1,
+                    times: repeat.map_or(1, |(_, times)| times),
+                    until_converged: line.until_converged,
+                }),
+            }
+            group = line.repeat.map(|(index, _)| index);
+            sequence.kernels.push((line.work, time));
+        }
+        sequence
+    }
+
+    fn run(
+        &self,
+        (cpu, params): (&Cpu, &Params),
+        columns: &mut Columns,
+        mut host: impl FnMut(&mut Columns),
+        times: &mut [PhaseTime],
+    ) {
+        for group in &self.groups {
+            let members = &self.kernels[group.first..group.last];
+            for _ in 0..group.times {
+                for (work, time) in members {
+                    let start = Instant::now();
+                    match work {
+                        Work::Kernel(kernel) => (kernel.cpu)(cpu, params, columns),
+                        Work::Host(_) => host(columns),
+                    }
+                    times[*time].record(start);
+                }
+                let has_converged = |(work, _): &(Work, usize)| match work {
+                    Work::Kernel(kernel) => has_converged(kernel, columns),
+                    Work::Host(_) => true,
+                };
+                if group.until_converged && members.iter().all(has_converged) {
+                    break;
+                }
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use sorb_kernels::{
+    asleep::Asleep,
     grid::cells::Domain,
     params::{
         Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
@@ -35,6 +36,7 @@ pub(super) fn params(scene: &Scene) -> Params {
         no_slip: scene.fluid.as_ref().is_some_and(|fluid| fluid.no_slip),
         fluid: fluid_params(scene),
         sponges: scene.sponges.iter().map(|sponge| sponge_params(scene, sponge)).collect(),
+        asleep: Asleep::default(),
         coupling: Wendland::new(if radius > 0.0 { radius } else { 1.0 }),
         solid: solid(scene),
     }

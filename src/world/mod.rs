@@ -1,8 +1,13 @@
 //! The world: the one object that a host builds, steps and looks at.
 
+mod content;
 mod error;
+#[cfg(all(test, feature = "serde"))]
+mod failing;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
+mod look;
+mod moving;
 #[cfg(test)]
 mod pool;
 mod sleep;
@@ -12,27 +17,25 @@ mod views;
 use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
-    body::{Body, Wrench},
-    columns::{BodyStore, Column, Columns},
-    couple,
+    columns::{Column, Columns},
     cpu::Cpu,
-    grid,
-    kernel::Kernel,
-    params::{Params, Solver},
-    pbd, sph,
+    params::Params,
 };
 
 use crate::{
-    clock::{Bound, Clock, Steps, within},
-    rigid::{LightBodies, RigidEngine, RigidError},
+    clock::{Bound, Clock, Dormant, Steps, within},
+    rigid::{LightBodies, RigidEngine},
     scene::Scene,
-    schedule::{Content, Offload, POROUS_STEP, Plan, PlanLine, Runner, STEP, Verdict},
+    schedule::{Offload, POROUS_STEP, Plan, Runner, STEP},
     setup::Setup,
     sponge::Lattice,
     stores::Stores,
 };
 
+use content::content;
 pub use error::{StepError, WorldError};
+pub(crate) use moving::move_bodies;
+use moving::{column_pressure, fastest, fastest_body, wrenches};
 
 /// What to run on.
 #[derive(Clone, Debug, Default)]
@@ -99,6 +102,8 @@ pub struct World {
     pub(crate) engine: Box<dyn RigidEngine>,
     pub(crate) light: LightBodies,
     pub(crate) plan: Plan,
+    /// The same while parts are asleep, see [`Content::lesser`](crate::schedule::Content).
+    lesser_plans: Vec<Plan>,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
@@ -141,33 +146,13 @@ impl World {
         let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
         let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
         let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu)?;
-        let content = Content {
-            fluid: columns.rows.fluid > 0,
-            sponge: columns.rows.nodes > 0,
-            solvers: [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean]
-                .map(|solver| params.sponges.iter().any(|sponge| sponge.solver == solver).then_some(solver)),
-            walls: params.walls.is_some(),
-            bodies: columns.rows.bodies > 0,
-            surface_tension: params.fluid.surface_tension > 0.0,
-            cohesion: params.fluid.cohesion.is_some(),
-            no_slip: params.fluid.wall_viscosity > 0.0
-                && (params.no_slip || columns.bodies.states.0.iter().any(|body| body.no_slip)),
-            porous: params.solid.is_some(),
-            wetting: params.has_wetting(),
-            touch: params.has_touch(),
-            rounds: params.fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds),
-            projections: params
-                .fluid
-                .incompressible
-                .as_ref()
-                .and_then(|solve| solve.projections)
-                .unwrap_or(0),
-            viscosity_rounds: params.fluid.implicit_viscosity.map_or(0, |implicit| implicit.rounds),
-            iterations: params.sponges.iter().map(|sponge| sponge.iterations).max().unwrap_or(0),
-        };
+        let content = content(&columns, &params);
         let phases = if content.porous { POROUS_STEP } else { STEP };
         let plan = Plan::new(phases, content, &options.observed)?;
-        let steps = Steps::new(scene, &params, &columns.bodies.states.0, engine.as_ref());
+        let lesser = content.lesser().map(|content| Plan::new(phases, content, &options.observed));
+        let lesser_plans = lesser.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let bodies = &columns.bodies.states.0;
+        let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
         #[cfg(not(feature = "gpu"))]
         if options.offload.wants_gpu() {
             return Err(WorldError::NeedsGpu(options.offload.clone()));
@@ -179,9 +164,9 @@ impl World {
             #[cfg(feature = "gpu")]
             device,
         };
-        let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
         let mut world = Self {
-            runner: Runner::new(&plan),
+            runner: Runner::of_all(&lesser_plans),
+            sleep: sleep::Sleep::new(scene, &params),
             steps,
             scene: scene.clone(),
             cpu,
@@ -191,8 +176,8 @@ impl World {
             engine,
             light: LightBodies::new(scene),
             plan,
+            lesser_plans,
             clock: Clock::default(),
-            sleep: sleep::Sleep::new(scene, periods),
             failed: None,
             #[cfg(feature = "gpu")]
             options: options.clone(),
@@ -209,57 +194,6 @@ impl World {
         }
         world.look();
         Ok(world)
-    }
-
-    /// Runs the phases that measures depend on, so that they hold at time zero as well.
-    fn look(&mut self) {
-        let phases = [
-            &grid::sort_fluid::KERNEL,
-            &grid::fluid_neighbors::KERNEL,
-            &sph::density::KERNEL,
-            &couple::controls::KERNEL,
-            &couple::saturation::KERNEL,
-            &couple::pores::KERNEL,
-            &couple::interior::KERNEL,
-        ];
-        for kernel in phases {
-            if self.runs(kernel) {
-                let Self { cpu, params, stores, .. } = self;
-                cpu.enter(|| (kernel.cpu)(cpu, params, &mut stores.host));
-            }
-        }
-    }
-
-    /// Whether a kernel is part of a step.
-    fn runs(&self, kernel: &Kernel) -> bool {
-        let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
-        self.plan.lines().iter().any(runs)
-    }
-
-    /// Columns with the density, and the share of walls and bodies, at the present positions: a solve for the pressure needs
-    /// neither of them there.
-    pub(crate) fn summed_density(&self) -> Columns {
-        let mut columns = self.stores.view().clone();
-        // Before the first step nothing has asked for compression.
-        columns.fluid.acceleration.resize(columns.fluid.position.len(), [0.0; 4]);
-        let params = Params { step: 0.0, ..self.params.clone() };
-        let phases = [
-            &grid::sort_fluid::KERNEL,
-            &grid::fluid_neighbors::KERNEL,
-            &sph::density::KERNEL,
-            &sph::predict::KERNEL,
-            &sph::boundary::KERNEL,
-        ];
-        let solid = [
-            &couple::controls::KERNEL,
-            &pbd::gravity::KERNEL,
-            &couple::solid_pressure::KERNEL,
-            &couple::solid_share::KERNEL,
-        ];
-        let solid = if self.runs(&couple::solid_share::KERNEL) { &solid[..] } else { &[] };
-        let phases = phases.iter().chain(solid);
-        self.cpu.enter(|| phases.for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
-        columns
     }
 
     /// Takes one step, as long as stability allows.
@@ -375,9 +309,15 @@ impl World {
 
     /// All phases of a step of given length.
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
+        let lesser = self.lesser_plan();
+        let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
         let Self { runner, cpu, params, stores, engine, light, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {
+            if are_bodies_still {
+                engine.wait(f64::from(step));
+                return;
+            }
             let given = wrenches(columns);
             rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, &given, step);
         };
@@ -389,7 +329,7 @@ impl World {
             }
             return rigid.map_err(|error| StepError::Rigid(error.to_string()));
         }
-        runner.run(cpu, params, &mut stores.host, &mut host);
+        runner.run(lesser, (cpu, params), &mut stores.host, &mut host);
         rigid.map_err(|error| StepError::Rigid(error.to_string()))
     }
 
@@ -420,86 +360,5 @@ fn default_threads() -> usize {
         std::thread::available_parallelism().map_or(1, usize::from).min(1024)
     } else {
         1
-    }
-}
-
-fn fastest(velocities: &[[f32; 4]]) -> f32 {
-    velocities.iter().map(|v| Vec3::new(v[0], v[1], v[2]).length()).fold(0.0, f32::max)
-}
-
-/// Largest speed of a surface.
-fn fastest_body(bodies: &[Body]) -> f32 {
-    bodies.iter().map(Body::fastest).fold(0.0, f32::max)
-}
-
-/// Root of the mean square of the pressure over density in a column at rest that is as deep as the fluid \[m^2/s^2\]: what a
-/// first step can meet, before any pressure was solved for.
-fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
-    let depths = positions.iter().map(|p| gravity.dot(Vec3::new(p[0], p[1], p[2])));
-    let (low, high) =
-        depths.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)));
-    (high - low).max(0.0) / 3.0_f32.sqrt()
-}
-
-/// What fluid and sponges gave to every body in this step.
-fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
-    let store = &columns.bodies;
-    let count = store.states.0.len();
-    let total = |body| (store.fluid_wrenches.total(body, count), store.node_wrenches.total(body, count));
-    (0..count).map(total).collect()
-}
-
-/// Hands the wrenches to the engine, and takes over where the bodies are then.
-pub(crate) fn move_bodies(
-    engine: &mut dyn RigidEngine,
-    light: &LightBodies,
-    bodies: &mut BodyStore,
-    given: &[(Wrench, Wrench)],
-    step: f32,
-) -> Result<(), RigidError> {
-    let wrenches = light.wrenches(engine, given, step);
-    engine.step(step, &wrenches)?;
-    for (index, body) in bodies.states.0.iter_mut().enumerate() {
-        body.state = engine.state(index);
-    }
-    Ok(())
-}
-
-#[cfg(all(test, feature = "serde"))]
-mod tests {
-    use super::*;
-
-    /// The error of a step over a state that was spoilt.
-    fn failure(name: &str, spoil: impl FnOnce(&mut Columns)) -> (World, Result<StepReport, StepError>) {
-        let scene = crate::scene::preset(name).and_then(|scene| scene.scaled(0.5));
-        let scene = scene.unwrap_or_else(|error| panic!("{error}"));
-        let mut world = World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
-        assert!(world.step().is_ok());
-        spoil(&mut world.stores.host);
-        let result = world.step();
-        (world, result)
-    }
-
-    #[test]
-    fn a_particle_that_is_not_finite_is_named_and_stops_the_world() {
-        let (mut world, result) = failure("water", |columns| columns.fluid.velocity[5][1] = f32::NAN);
-        let error = result.expect_err("the step must not go on");
-        // The fault spreads within the step: the particle that is named is the spoilt one or a neighbour.
-        let StepError::Particle { step, .. } = error else { panic!("{error}") };
-        assert_eq!(step, 2);
-        assert!(error.to_string().contains("is no longer finite"), "{error}");
-        let digest = world.digest();
-        assert_eq!(world.step(), Err(error));
-        assert_eq!(world.digest(), digest, "a failed world must stay as it is");
-        // The control: the same step without the fault.
-        assert!(failure("water", |_| {}).1.is_ok());
-    }
-
-    #[test]
-    fn a_node_that_is_not_finite_is_named() {
-        let (_, result) = failure("dry", |columns| columns.nodes.velocity[7][0] = f32::INFINITY);
-        let error = result.expect_err("the step must not go on");
-        assert!(matches!(error, StepError::Node { step: 2, .. }), "{error}");
-        assert!(failure("dry", |_| {}).1.is_ok());
     }
 }

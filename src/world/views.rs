@@ -26,6 +26,15 @@ impl World {
         &self.plan
     }
 
+    /// What runs in the next step: [`Self::plan`] without what has nothing to do as long as parts are asleep.
+    #[must_use]
+    pub fn step_plan(&self) -> &Plan {
+        match self.lesser_plan() {
+            0 => &self.plan,
+            lesser => &self.lesser_plans[lesser],
+        }
+    }
+
     /// Time spent in every phase that runs.
     #[must_use]
     pub fn phase_times(&self) -> &[PhaseTime] {
@@ -170,6 +179,6 @@ impl World {
     /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        digest::digest(self.columns(), &self.clock)
+        digest::digest(self.columns(), &self.clock, &self.sleep.dormant())
     }
 }

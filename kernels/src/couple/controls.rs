@@ -18,11 +18,11 @@ pub static KERNEL: Kernel = Kernel {
 };
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let (particles, count) = (columns.rows.fluid, columns.rows.nodes);
+    let particles = columns.rows.fluid;
     let radius = params.coupling.support_radius;
+    sort(cpu, params, columns);
     let (fluid, nodes, controls) = (&mut columns.fluid, &columns.nodes, &mut columns.controls);
-    controls.cells.build(cpu, &nodes.position[..count], radius, params.domain);
-    controls.node.clone_from(&controls.cells.order);
+    let count = controls.node.len();
     controls.position.clear();
     controls.position.resize(padded(count), FAR_ROW);
     permute(cpu, &controls.node, &nodes.position, &mut controls.position);
@@ -40,4 +40,20 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (particles, controls_rows) = ((&fluid.position[..], particles), (&controls.position[..], count));
     fluid.controls.build(cpu, particles, controls_rows, &controls.cells, (radius, None));
     controls.fluid.build(cpu, controls_rows, particles, &fluid.cells, (radius, None));
+}
+
+/// The nodes by cell; without those that are asleep, which no fluid is near.
+fn sort(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let (count, radius) = (columns.rows.nodes, params.coupling.support_radius);
+    let (nodes, controls) = (&columns.nodes, &mut columns.controls);
+    if params.asleep.is_empty() {
+        controls.cells.build(cpu, &nodes.position[..count], radius, params.domain);
+        controls.node.clone_from(&controls.cells.order);
+        return;
+    }
+    let awake: Vec<u32> = params.asleep.others(count).flatten().map(|node| node as u32).collect();
+    let points: Vec<[f32; 4]> = awake.iter().map(|node| nodes.position[*node as usize]).collect();
+    controls.cells.build(cpu, &points, radius, params.domain);
+    controls.node.clear();
+    controls.node.extend(controls.cells.order.iter().map(|row| awake[*row as usize]));
 }

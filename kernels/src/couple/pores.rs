@@ -46,6 +46,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let groups = stars.groups_from(color, first);
             with_lanes!(cpu, simd => {
                 for (group, pores) in groups.iter().zip(pores.chunks_mut(LANES)) {
+                    if params.asleep.has_group(&group.own) {
+                        continue;
+                    }
                     let edges = group.own.map(|node| params.sponges[sponge[node as usize] as usize].edge);
                     let places = (&position[..], lanes::load_array(simd, &edges));
                     let [volume, count] = volumes(simd, group, &stars.shape, places);

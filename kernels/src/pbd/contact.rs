@@ -58,6 +58,9 @@ impl Task<'_> {
             .map(|body| (body, Placed::new(simd, &self.bodies[body])))
             .collect();
         for row in (0..predicted.len()).step_by(LANES) {
+            if self.params.asleep.has_all(first + row..first + row + LANES) {
+                continue;
+            }
             let [x, y, z, w] = lanes::load_rows(simd, predicted, row);
             let [ox, oy, oz, _] = lanes::load_rows(simd, self.position, first + row);
             let (mut point, old) = ([x, y, z], [ox, oy, oz]);

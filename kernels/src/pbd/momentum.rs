@@ -73,7 +73,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let rows = Rows { position, predicted, free, reaction, drag, drag_moment };
     cpu.for_chunks_of(1, &mut sums[..], |first, sums| {
         for (sum, Piece { sponge, rows: range }) in sums.iter_mut().zip(&stars.pieces[first..]) {
-            if params.solver(*sponge) == Some(Solver::Vbd) {
+            let is_asleep = params.asleep.has(range.start as usize);
+            if params.solver(*sponge) == Some(Solver::Vbd) && !is_asleep {
                 range.clone().for_each(|node| sum.add(&rows, node as usize, rate));
             }
         }
@@ -85,6 +86,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let motions = motions(&totals, &joined(sponge, [touch, touch_stiffness], totals.len()));
     let step = params.step;
     cpu.for_chunks((&mut predicted[..], &mut velocity[..]), |first, (predicted, velocity)| {
+        if params.asleep.has_all(first..first + predicted.len()) {
+            return;
+        }
         for (row, (y, v)) in predicted.iter_mut().zip(velocity).enumerate() {
             let node = first + row;
             if y[3] <= 0.0 || params.solver(sponge[node]) != Some(Solver::Vbd) {

@@ -107,7 +107,8 @@ pub(super) fn vector(row: [f32; 4]) -> Vec3 {
 }
 
 /// How far apart the nodes of a pair can be \[m\].
-pub(crate) fn pair_radius(params: &Params) -> f32 {
+#[must_use]
+pub fn pair_radius(params: &Params) -> f32 {
     // Of the cylinder that `Pair::is_near` describes.
     let reach = (REACH * REACH + DEEP * DEEP).sqrt();
     let edges = (0..).zip(&params.sponges).filter(|(index, _)| params.meets_any(*index));
@@ -166,10 +167,12 @@ struct Near {
 impl Near {
     fn new(params: &Params, position: &[[f32; 4]], sponge: &[u32], radius: f32) -> Self {
         let mut own = vec![(Vec3::INFINITY, Vec3::NEG_INFINITY); params.sponges.len()];
-        for (sponge, row) in sponge.iter().zip(position) {
-            let (low, high) = &mut own[*sponge as usize];
-            (*low, *high) = (low.min(vector(*row)), high.max(vector(*row)));
+        for node in params.asleep.others(sponge.len()).flatten() {
+            let (sponge, row) = (sponge[node], position[node]);
+            let (low, high) = &mut own[sponge as usize];
+            (*low, *high) = (low.min(vector(row)), high.max(vector(row)));
         }
+        // Nothing is near what is asleep.
         let wide = |other: u32| {
             let (low, high) = own[other as usize];
             (low - radius, high + radius)
@@ -198,6 +201,9 @@ fn normals(
     normal: &mut [[f32; 4]],
 ) {
     for (group, normal) in stars.groups_from(color, first).iter().zip(normal.chunks_mut(LANES)) {
+        if params.asleep.has_group(&group.own) {
+            continue;
+        }
         for (lane, normal) in normal.iter_mut().enumerate() {
             let node = group.own[lane] as usize;
             let sponge = sponge[node];

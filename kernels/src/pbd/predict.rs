@@ -34,9 +34,18 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     predicted.resize(position.len(), [0.0; 4]);
     let h = params.step;
     cpu.for_chunks(&mut predicted[..], |first, predicted| {
+        if params.asleep.has_all(first..first + predicted.len()) {
+            predicted.copy_from_slice(&position[first..first + predicted.len()]);
+            predicted.iter_mut().for_each(|row| row[3] = 0.0);
+            return;
+        }
         for (row, predicted) in predicted.iter_mut().enumerate() {
             let node = first + row;
             let (x, v, a) = (position[node], velocity[node], acceleration[node]);
+            if params.asleep.has(node) {
+                *predicted = [x[0], x[1], x[2], 0.0];
+                continue;
+            }
             let y = match bodies.get(grip[node] as usize) {
                 Some(body) => held(body, grip_offset[node], h).to_array(),
                 None => [0, 1, 2].map(|axis| x[axis] + h * (v[axis] + h * a[axis])),

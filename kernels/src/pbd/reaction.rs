@@ -109,6 +109,9 @@ impl Task<'_> {
         let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
         let groups = self.stars.groups_from(color, first);
         for (group, reaction) in groups.iter().zip(reaction.chunks_mut(LANES)) {
+            if self.params.asleep.has_group(&group.own) {
+                continue;
+            }
             let constants = constants_of(self.params, self.sponge, &group.own);
             let material = Material::new(simd, &constants);
             // A short last group repeats its last node, which must not count twice.

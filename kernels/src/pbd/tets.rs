@@ -99,7 +99,9 @@ impl<L: Law> Task<'_, L> {
         if parts <= 1 || chunks.len() <= 1 {
             for chunk in chunks {
                 let sponge = &self.params.sponges[chunk.sponge as usize];
-                if sponge.solver != L::SOLVER {
+                // A tet has all of its nodes in one sponge.
+                let node = self.tets[chunk.tets.start as usize][0];
+                if sponge.solver != L::SOLVER || self.params.asleep.has(node as usize) {
                     continue;
                 }
                 with_lanes!(cpu, simd => self.chunk(simd, sponge, chunk, &mut nodes));

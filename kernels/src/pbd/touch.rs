@@ -63,6 +63,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let task = Task { params, position, predicted, sponge, normal };
     cpu.for_chunks(rows, |first, (force, stiffness, between)| {
         let lists = pairs.chunk(first);
+        if params.asleep.has_all(first..first + force.len()) {
+            for (row, own) in sponge[first..first + force.len()].iter().enumerate() {
+                let nothing = [0.0, 0.0, 0.0, *own as f32];
+                (force[row], stiffness[row], between[row]) = (nothing, nothing, [0.0; 4]);
+            }
+            return;
+        }
         for row in 0..force.len() {
             let node = first + row;
             let own = sponge[node];

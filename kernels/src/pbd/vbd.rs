@@ -76,14 +76,17 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let mut moved = Vec::new();
     for color in 0..4 {
         let rows = stars.rows(color);
-        moved.clear();
-        moved.resize(rows.len(), [0.0; 4]);
-        let wet = Wet::new(params, sponge, wetting);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
-        cpu.for_chunks(&mut moved[..], |first, moved| {
-            with_lanes!(cpu, simd => task.chunk(simd, color, first, moved));
-        });
-        predicted[rows].copy_from_slice(&moved);
+        for awake in params.asleep.awake_groups(rows.clone(), LANES) {
+            moved.clear();
+            moved.resize(awake.len(), [0.0; 4]);
+            let wet = Wet::new(params, sponge, wetting);
+            let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
+            let before = awake.start - rows.start;
+            cpu.for_chunks(&mut moved[..], |first, moved| {
+                with_lanes!(cpu, simd => task.chunk(simd, color, before + first, moved));
+            });
+            predicted[awake].copy_from_slice(&moved);
+        }
     }
 }
 

@@ -29,7 +29,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(rows, |first, (position, velocity, extreme)| {
         let extreme = &mut extreme.0[0];
         let mut largest = 0.0_f32;
+        if params.asleep.has_all(first..first + position.len()) {
+            return;
+        }
         for (row, (x, v)) in position.iter_mut().zip(velocity).enumerate() {
+            if params.asleep.has(first + row) {
+                continue;
+            }
             let y = predicted[first + row];
             (0..3).for_each(|axis| v[axis] = (y[axis] - x[axis]) * rate);
             *x = y;

@@ -401,6 +401,7 @@ fn params(options: Options) -> Params {
     Params {
         // As far over the spacing in a step: faster ones would be thrown many boxes far, and the way back in is rounded.
         step: 0.001 / options.refinement() as f32,
+        asleep: crate::asleep::Asleep::default(),
         gravity: Vec3::new(0.5, -9.81, 0.25),
         domain: if options.bounded { domain } else { Domain::Unbounded },
         walls: options.walls.then_some((without(low, -NO_WALL), without(high, NO_WALL))),

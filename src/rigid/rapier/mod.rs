@@ -8,7 +8,7 @@ use glam::{Mat3, Vec3};
 use rapier3d::prelude::{
     BroadPhaseBvh, CCDSolver, CoefficientCombineRule, ColliderBuilder, ColliderSet, ImpulseJointSet,
     IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsPipeline, Pose, Real,
-    RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SharedShape, SoftBodySet,
+    RigidBodyBuilder, RigidBodyHandle, RigidBodySet, RigidBodyType, SharedShape, SoftBodySet,
 };
 use std::fmt;
 
@@ -26,7 +26,7 @@ const LOOK_AHEAD: Real = 1e3;
 /// with `h = dt / 4`. Where a body would move by more than the thickness of the thinnest dynamic body, the
 /// step is cut into equal rapier3d steps, 32 at most, so that fast bodies stop at a wall instead of inside it.
 ///
-/// Gyroscopic forces are on, sleeping and contact recycling are off, speed and spin have no limit. Lengths are
+/// Gyroscopic forces are on, rapier3d's sleep and contact recycling are off, speed and spin have no limit. Lengths are
 /// scaled to the thinnest dynamic body: rapier3d's defaults (contacts predicted 2 cm ahead) are made for bodies
 /// of a metre.
 pub struct RapierEngine {
@@ -37,6 +37,8 @@ pub struct RapierEngine {
     /// For fixed and kinematic bodies.
     scripts: Vec<Option<Script>>,
     states: Vec<BodyState>,
+    /// Velocity and angular velocity that a body that is held goes on with.
+    held: Vec<Option<[Vec3; 2]>>,
     time: f64,
     parameters: IntegrationParameters,
     islands: IslandManager,
@@ -72,6 +74,7 @@ impl RapierEngine {
             handles: Vec::with_capacity(bodies.len()),
             scripts: Vec::with_capacity(bodies.len()),
             states: Vec::with_capacity(bodies.len()),
+            held: vec![None; bodies.len()],
             time: 0.0,
             parameters: parameters(bodies),
             islands: IslandManager::new(),
@@ -262,11 +265,18 @@ impl RigidEngine for RapierEngine {
     }
 
     fn inverse_mass(&self, index: usize) -> f32 {
-        self.bodies[self.handles[index]].mass_properties().effective_inv_mass.x
+        let mass = self.bodies[self.handles[index]].mass_properties();
+        if self.held[index].is_some() { mass.local_mprops.inv_mass } else { mass.effective_inv_mass.x }
     }
 
     fn inverse_inertia(&self, index: usize) -> Mat3 {
-        let m = self.bodies[self.handles[index]].mass_properties().effective_world_inv_inertia;
+        let body = &self.bodies[self.handles[index]];
+        let mass = body.mass_properties();
+        let m = if self.held[index].is_some() {
+            mass.local_mprops.world_inv_inertia(body.rotation())
+        } else {
+            mass.effective_world_inv_inertia
+        };
         Mat3::from_cols_array(&[m.m11, m.m12, m.m13, m.m12, m.m22, m.m23, m.m13, m.m23, m.m33])
     }
 
@@ -290,6 +300,26 @@ impl RigidEngine for RapierEngine {
         self.time += time;
     }
 
+    fn hold(&mut self, index: usize, is_held: bool) {
+        if self.kinds[index] != BodyKind::Dynamic || self.held[index].is_some() == is_held {
+            return;
+        }
+        let (body, state) = (&mut self.bodies[self.handles[index]], &mut self.states[index]);
+        let velocities = match self.held[index].take() {
+            Some(velocities) => velocities,
+            None => {
+                self.held[index] = Some([state.linear_velocity, state.angular_velocity]);
+                [Vec3::ZERO; 2]
+            }
+        };
+        // What rapier3d calls sleep is decided by its own islands, which know neither fluid nor sponges.
+        let kind = if is_held { RigidBodyType::KinematicPositionBased } else { RigidBodyType::Dynamic };
+        body.set_body_type(kind, true);
+        [state.linear_velocity, state.angular_velocity] = velocities;
+        body.set_linvel(state.linear_velocity, true);
+        body.set_angvel(state.angular_velocity, true);
+    }
+
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())
     }
@@ -304,6 +334,7 @@ impl Clone for RapierEngine {
             handles: self.handles.clone(),
             scripts: self.scripts.clone(),
             states: self.states.clone(),
+            held: self.held.clone(),
             time: self.time,
             parameters: self.parameters,
             islands: self.islands.clone(),

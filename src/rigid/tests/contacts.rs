@@ -189,3 +189,30 @@ fn a_copy_continues_with_the_same_bits() {
         assert_eq!(bits(&*copy), bits(&engine), "the copy of step {n} took another way");
     }
 }
+
+#[test]
+fn a_body_that_is_held_stays_and_goes_on_with_what_it_had() {
+    // The lower one lies on the floor, the other falls on it and is stopped on the way.
+    let mut engine = boxed(&[ball(Vec3::Y * 0.02), ball(Vec3::new(0.001, 0.3, 0.0))]);
+    step(&mut engine, DT, 12);
+    let (before, mass) = (engine.state(1), (engine.inverse_mass(1), engine.inverse_inertia(1)));
+    assert!(before.linear_velocity.y < -0.9);
+    (0..2).for_each(|index| engine.hold(index, true));
+    let held = engine.state(1);
+    assert_eq!((held.position, held.linear_velocity), (before.position, Vec3::ZERO));
+    assert_eq!((engine.inverse_mass(1), engine.inverse_inertia(1)), mass);
+    let mut copy = engine.clone();
+    step(&mut engine, DT, 100);
+    assert_eq!((engine.state(1), engine.inverse_mass(1)), (held, mass.0));
+    (0..2).for_each(|index| engine.hold(index, false));
+    assert_eq!(engine.state(1), before);
+    // The control: it falls again, and comes to rest as one does that was let go at once.
+    step(&mut engine, DT, 1);
+    assert!(engine.state(1).position.y < before.position.y - 0.008);
+    step(&mut engine, DT, 300);
+    (0..2).for_each(|index| copy.hold(index, false));
+    step(&mut copy, DT, 301);
+    for index in 0..2 {
+        assert_close(engine.state(index).position, copy.state(index).position, 1e-3);
+    }
+}

@@ -1,12 +1,12 @@
 //! Scenes that come to rest cost nothing until something moves.
 
-mod common;
-
 use sorb::{
     Bound, World,
     glam::Vec3,
     scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
 };
+
+use crate::{common, frame, positions};
 
 /// Time at which the plate begins to move \[s\].
 const START: f32 = 6.0;
@@ -31,18 +31,6 @@ fn pool(sleep_after: f32) -> World {
         .with_body(plate);
     scene.time = Time { sleep_after, ..scene.time };
     common::world(&scene)
-}
-
-fn frame(world: &mut World) -> sorb::FrameReport {
-    world.advance_frame().unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn positions(world: &World) -> Vec<Vec3> {
-    let mut places = vec![Vec3::ZERO; world.particle_ids().len()];
-    for (id, x) in world.particle_ids().iter().zip(world.particle_positions()) {
-        places[*id as usize] = Vec3::new(x[0], x[1], x[2]);
-    }
-    places
 }
 
 fn largest_way(then: &[Vec3], world: &World) -> f32 {

@@ -1,0 +1,61 @@
+//! What is computed for a look at the state, and not for a step.
+
+use sorb_kernels::{
+    asleep::Asleep, columns::Columns, couple, grid, kernel::Kernel, params::Params, pbd, sph,
+};
+
+use super::World;
+use crate::schedule::{PlanLine, Verdict};
+
+impl World {
+    /// Runs the phases that measures depend on, so that they hold at time zero as well.
+    pub(super) fn look(&mut self) {
+        let phases = [
+            &grid::sort_fluid::KERNEL,
+            &grid::fluid_neighbors::KERNEL,
+            &sph::density::KERNEL,
+            &couple::controls::KERNEL,
+            &couple::saturation::KERNEL,
+            &couple::pores::KERNEL,
+            &couple::interior::KERNEL,
+        ];
+        for kernel in phases {
+            if self.runs(kernel) {
+                let Self { cpu, params, stores, .. } = self;
+                cpu.enter(|| (kernel.cpu)(cpu, params, &mut stores.host));
+            }
+        }
+    }
+
+    /// Whether a kernel is part of a step.
+    fn runs(&self, kernel: &Kernel) -> bool {
+        let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
+        self.plan.lines().iter().any(runs)
+    }
+
+    /// Columns with the density, and the share of walls and bodies, at the present positions: a solve for the pressure needs
+    /// neither of them there.
+    pub(crate) fn summed_density(&self) -> Columns {
+        let mut columns = self.stores.view().clone();
+        // Before the first step nothing has asked for compression.
+        columns.fluid.acceleration.resize(columns.fluid.position.len(), [0.0; 4]);
+        let params = Params { step: 0.0, asleep: Asleep::default(), ..self.params.clone() };
+        let phases = [
+            &grid::sort_fluid::KERNEL,
+            &grid::fluid_neighbors::KERNEL,
+            &sph::density::KERNEL,
+            &sph::predict::KERNEL,
+            &sph::boundary::KERNEL,
+        ];
+        let solid = [
+            &couple::controls::KERNEL,
+            &pbd::gravity::KERNEL,
+            &couple::solid_pressure::KERNEL,
+            &couple::solid_share::KERNEL,
+        ];
+        let solid = if self.runs(&couple::solid_share::KERNEL) { &solid[..] } else { &[] };
+        let phases = phases.iter().chain(solid);
+        self.cpu.enter(|| phases.for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
+        columns
+    }
+}

@@ -1,0 +1,52 @@
+//! What moves: speeds of particles, nodes and bodies, and bodies by what fluid and sponges gave to them.
+
+use glam::Vec3;
+use sorb_kernels::{
+    body::{Body, Wrench},
+    columns::{BodyStore, Columns},
+};
+
+use crate::rigid::{LightBodies, RigidEngine, RigidError};
+
+/// Largest speed of particles or nodes \[m/s\].
+pub(super) fn fastest(velocities: &[[f32; 4]]) -> f32 {
+    velocities.iter().map(|v| Vec3::new(v[0], v[1], v[2]).length()).fold(0.0, f32::max)
+}
+
+/// Largest speed of the surface of a body \[m/s\].
+pub(super) fn fastest_body(bodies: &[Body]) -> f32 {
+    bodies.iter().map(Body::fastest).fold(0.0, f32::max)
+}
+
+/// Root of the mean square of the pressure over density in a column at rest that is as deep as the fluid \[m^2/s^2\]: what a
+/// first step can meet, before any pressure was solved for.
+pub(super) fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
+    let depths = positions.iter().map(|p| gravity.dot(Vec3::new(p[0], p[1], p[2])));
+    let (low, high) =
+        depths.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)));
+    (high - low).max(0.0) / 3.0_f32.sqrt()
+}
+
+/// What fluid and sponges gave to every body in this step.
+pub(super) fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
+    let store = &columns.bodies;
+    let count = store.states.0.len();
+    let total = |body| (store.fluid_wrenches.total(body, count), store.node_wrenches.total(body, count));
+    (0..count).map(total).collect()
+}
+
+/// Hands what fluid and sponges gave to the engine, and takes over where the bodies are then.
+pub(crate) fn move_bodies(
+    engine: &mut dyn RigidEngine,
+    light: &LightBodies,
+    bodies: &mut BodyStore,
+    given: &[(Wrench, Wrench)],
+    step: f32,
+) -> Result<(), RigidError> {
+    let wrenches = light.wrenches(engine, given, step);
+    engine.step(step, &wrenches)?;
+    for (index, body) in bodies.states.0.iter_mut().enumerate() {
+        body.state = engine.state(index);
+    }
+    Ok(())
+}

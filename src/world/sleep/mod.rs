@@ -1,0 +1,322 @@
+//! Sleep: what has come to rest is left as it is, and costs next to nothing, until something comes near.
+//!
+//! A part of a scene (`parts.rs`) is at rest if in `time.sleep_after` seconds its particles or nodes have moved by no more than
+//! `time.sleep_speed` would take them, in the mean; if none of them is a hundred times as fast; and if no script moved a body near it.
+//! A body is at rest if it moved by no more than that. What counts first is the way between two looks, not the speed: single particles
+//! of a pool tremble for ever, and go nowhere. An island falls asleep when all of its parts are at rest. Velocities and pressures stay
+//! as they were, so that the step after waking is the step that would have come next.
+//!
+//! While all parts sleep and no script moves a body, the scene sleeps as a whole, and takes no steps. Otherwise steps go on without
+//! the parts that sleep (`waking.rs`). On a device there is only the whole.
+
+mod bounds;
+mod parts;
+mod waking;
+
+use glam::{Quat, Vec3};
+use sorb_kernels::params::Params;
+
+use crate::{
+    clock::Dormant,
+    scene::{Motion, Scene, Time},
+    world::World,
+};
+use bounds::Bounds;
+use parts::{Kind, Part, Rules};
+
+/// Largest speed of a single particle or node over the mean: thin films glide on floors that they do not stick to, but a drop that
+/// falls, or a corner that swings, is awake.
+const LARGEST: f64 = 100.0;
+
+/// Parts of the time between two looks after which places are taken as well. What swings to and fro as often as looks are taken is where it
+/// was at each of them, and at one time in between that is as far beyond a turn; but not at both of these.
+const BETWEEN: [f64; 2] = [0.236, 0.618];
+
+/// What sleeps, and what that is decided by.
+#[derive(Clone, Debug)]
+pub(crate) struct Sleep {
+    after: f64,
+    speed: f64,
+    rules: Rules,
+    /// Motions of bodies by scripts, by the number of the body.
+    motions: Vec<(usize, Motion)>,
+    parts: Vec<Part>,
+    /// Whether the scene sleeps as a whole.
+    is_asleep: bool,
+    /// Where everything was at the last look.
+    before: Option<Places>,
+    /// Where everything was between that and the next one, at the times of [`BETWEEN`].
+    between: Vec<Places>,
+    /// Time up to which ways are known \[s\].
+    watched: f64,
+    /// How far particles and nodes may have gone since their boxes were taken \[m\].
+    ways: [f32; 2],
+}
+
+#[derive(Clone, Debug)]
+struct Places {
+    time: f64,
+    /// By identity.
+    particles: Vec<Vec3>,
+    nodes: Vec<Vec3>,
+    bodies: Vec<(Vec3, Quat)>,
+}
+
+impl Sleep {
+    pub(super) fn new(scene: &Scene, params: &Params) -> Self {
+        let Time { sleep_after, sleep_speed, .. } = scene.time;
+        let motions = scene.bodies.iter().enumerate();
+        let motions = motions.flat_map(|(index, body)| body.motions.iter().map(move |own| (index, *own)));
+        let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
+        Self {
+            after: f64::from(sleep_after),
+            speed: f64::from(sleep_speed),
+            rules: Rules { periods, has_wetting: params.has_wetting() },
+            motions: motions.collect(),
+            parts: Vec::new(),
+            is_asleep: false,
+            before: None,
+            between: Vec::new(),
+            watched: 0.0,
+            ways: [0.0; 2],
+        }
+    }
+
+    /// What steps go on without.
+    pub(crate) fn dormant(&self) -> Dormant {
+        let mut dormant = Dormant::default();
+        for part in self.parts.iter().filter(|part| part.is_asleep) {
+            match part.kind {
+                Kind::Fluid => dormant.fluid = true,
+                Kind::Sponge(index) => dormant.sponges.push(index),
+                Kind::Body(index) => dormant.bodies.push(index),
+            }
+        }
+        dormant
+    }
+
+    /// Whether a part sleeps; false for what is no part.
+    fn has(&self, kind: Kind) -> bool {
+        self.parts.iter().any(|part| part.kind == kind && part.is_asleep)
+    }
+
+    /// Whether a script moves a body between two times.
+    fn moves(&self, from: f64, to: f64) -> bool {
+        self.motions.iter().any(|(_, motion)| is_active(motion, from, to))
+    }
+
+    /// Whether no body moves in a step that begins now, nor has a velocity that it must lose.
+    pub(super) fn are_bodies_still(&self, time: f64, step: f32) -> bool {
+        let is_dynamic = |part: &Part| matches!(part.kind, Kind::Body(_));
+        let touches = |(_, motion): &(usize, Motion)| {
+            let (start, end) = interval(motion);
+            start <= time + f64::from(step) && end >= time
+        };
+        // Without a look there are no parts yet.
+        self.before.is_some()
+            && self.parts.iter().filter(|part| is_dynamic(part)).all(|part| part.is_asleep)
+            && !self.motions.iter().any(touches)
+    }
+
+    /// How long it can sleep on as a whole, at most `left`; none if it is awake \[s\].
+    fn rest(&self, time: f64, left: f64) -> Option<f64> {
+        let intervals = self.motions.iter().map(|(_, motion)| interval(motion));
+        let next = intervals.filter(|(_, end)| *end > time).map(|(start, _)| start - time);
+        let rest = next.fold(left, f64::min);
+        (self.is_asleep && rest > 0.0).then_some(rest)
+    }
+
+    /// Distance between two places, across the seam of a box that repeats.
+    fn way(&self, before: Vec3, now: Vec3) -> f32 {
+        let (apart, periods) = (now - before, self.rules.periods);
+        let turns = Vec3::select(periods.cmpgt(Vec3::ZERO), (apart / periods).round(), Vec3::ZERO);
+        (apart - turns * periods).length()
+    }
+
+    /// Whether places are where they were, `way` apart \[m\].
+    fn are_still<'a>(&self, places: impl Iterator<Item = (&'a Vec3, &'a Vec3)>, way: f64) -> bool {
+        let (mut sum, mut count, mut largest) = (0.0_f64, 0.0_f64, 0.0_f32);
+        for (before, now) in places {
+            let own = self.way(*before, *now);
+            sum += f64::from(own);
+            count += 1.0;
+            largest = if own < largest { largest } else { own };
+        }
+        sum <= way * count && f64::from(largest) <= LARGEST * way
+    }
+
+    /// Whether a body is where it was.
+    fn is_body_still(before: (Vec3, Quat), now: (Vec3, Quat), way: f64) -> bool {
+        // Radians, as metres of something a metre large.
+        let angle = 2.0 * (now.1 - before.1).length().min((now.1 + before.1).length());
+        f64::from(before.0.distance(now.0).max(angle)) <= way
+    }
+}
+
+/// Time of the first movement and of rest \[s\].
+fn interval(motion: &Motion) -> (f64, f64) {
+    let (start, end) = motion.interval();
+    (f64::from(start), f64::from(end))
+}
+
+/// Whether a motion moves anything between two times.
+fn is_active(motion: &Motion, from: f64, to: f64) -> bool {
+    let (start, end) = interval(motion);
+    start < to && end > from
+}
+
+impl World {
+    /// Whether the whole scene has come to rest and is left as it is; see [`Time::sleep_after`].
+    #[must_use]
+    pub fn is_asleep(&self) -> bool {
+        self.sleep.is_asleep
+    }
+
+    /// Whether the fluid has come to rest and is left as it is, while other parts of the scene may move; see [`Time::sleep_after`].
+    #[must_use]
+    pub fn is_fluid_asleep(&self) -> bool {
+        self.sleep.has(Kind::Fluid)
+    }
+
+    /// The same of a sponge, by its number in the scene; false if there is no such sponge.
+    #[must_use]
+    pub fn is_sponge_asleep(&self, index: usize) -> bool {
+        self.sleep.has(Kind::Sponge(index))
+    }
+
+    /// The same of a body, by its number in the scene; false for bodies that are fixed or that scripts move.
+    #[must_use]
+    pub fn is_body_asleep(&self, index: usize) -> bool {
+        self.sleep.has(Kind::Body(index))
+    }
+
+    /// Sleeps until a time \[s\], or until a script moves a body, if the scene is asleep; whether the time is reached.
+    pub(super) fn sleep_until(&mut self, end: f64) -> bool {
+        let slept = self.sleep_within(end - self.clock.time);
+        slept.is_some() && end - self.clock.time <= 1e-9
+    }
+
+    /// Sleeps as long as a step may be, but no longer than `left`, nor until a script moves a body, if the scene is asleep; the time
+    /// slept \[s\].
+    pub(super) fn sleep_within(&mut self, left: f64) -> Option<f64> {
+        let left = if left.is_finite() { left } else { f64::from(self.scene.time.maximum_step) };
+        let time = self.sleep.rest(self.clock.time, left);
+        if self.sleep.is_asleep && time.is_none() {
+            self.sleep.is_asleep = false;
+            self.wake_what_is_reached();
+        }
+        let time = time?;
+        self.engine.wait(time);
+        self.clock.time += time;
+        self.sleep.watched = self.clock.time;
+        Some(time)
+    }
+
+    /// Wakes what something that moves comes near, and looks, once in `sleep_after`, what has come to rest.
+    pub(super) fn watch(&mut self) {
+        if self.sleep.after == 0.0 {
+            return;
+        }
+        self.wake_what_is_reached();
+        let time = self.clock.time;
+        let since = self.sleep.before.as_ref().map_or(f64::INFINITY, |before| time - before.time);
+        let next = BETWEEN.get(self.sleep.between.len());
+        if since >= self.sleep.after {
+            self.look_for_rest();
+        } else if next.is_some_and(|part| since >= part * self.sleep.after) {
+            let places = self.places();
+            self.sleep.between.push(places);
+        }
+    }
+
+    /// Lets islands fall asleep whose parts have not moved since the last look.
+    fn look_for_rest(&mut self) {
+        let now = self.places();
+        if self.sleep.before.is_none() {
+            self.sleep.parts = self.parts();
+        }
+        self.take_bounds();
+        let before = self.sleep.before.take();
+        let has_changed = before.is_some_and(|before| self.fall_asleep(&before, &now));
+        (self.sleep.before, self.sleep.between) = (Some(now), Vec::new());
+        if has_changed {
+            self.apply_sleep();
+        }
+    }
+
+    /// Decides who falls asleep; whether that is anyone.
+    fn fall_asleep(&mut self, before: &Places, now: &Places) -> bool {
+        let moving = self.movers(before.time);
+        let is_moved = self.sleep.moves(before.time, now.time);
+        let (sleep, as_a_whole) = (&self.sleep, self.sleeps_as_a_whole());
+        let is_still = |part: &Part| {
+            let is_beside = if as_a_whole {
+                is_moved
+            } else {
+                moving.iter().any(|mover| sleep.rules.is_kept_awake(part, mover))
+            };
+            let is_rested = part.awake_since <= before.time && !is_beside;
+            part.is_asleep || is_rested && self.is_still(part.kind, before, now)
+        };
+        let mut first = sleep.rules.islands(&sleep.parts, |_| true);
+        if as_a_whole {
+            first.fill(0);
+        }
+        let mut are_still = vec![true; first.len()];
+        for (part, first) in sleep.parts.iter().zip(&first) {
+            are_still[*first] &= is_still(part);
+        }
+        let mut has_changed = false;
+        for (part, first) in self.sleep.parts.iter_mut().zip(&first) {
+            has_changed |= are_still[*first] && !part.is_asleep;
+            part.is_asleep |= are_still[*first];
+        }
+        self.sleep.is_asleep = !is_moved && self.sleep.parts.iter().all(|part| part.is_asleep);
+        has_changed
+    }
+
+    /// Whether a part is where it was, at all looks since, and slow.
+    fn is_still(&self, kind: Kind, before: &Places, now: &Places) -> bool {
+        let (sleep, way) = (&self.sleep, self.sleep.speed * (now.time - before.time));
+        let is_slow = |speed: f32| f64::from(speed) <= LARGEST * sleep.speed;
+        let looks = || sleep.between.iter().chain([now]);
+        match kind {
+            Kind::Fluid => {
+                let is_still =
+                    |later: &Places| sleep.are_still(before.particles.iter().zip(&later.particles), way);
+                is_slow(self.clock.fluid_speed) && looks().all(is_still)
+            }
+            Kind::Sponge(index) => {
+                let rows = || self.node_rows(index).into_iter().flatten();
+                let velocities = self.node_velocities();
+                let square =
+                    |row: usize| velocities.get(row).map_or(0.0, |[x, y, z, _]| x * x + y * y + z * z);
+                let is_still = |later: &Places| {
+                    let place = |row| before.nodes.get(row).zip(later.nodes.get(row));
+                    sleep.are_still(rows().filter_map(place), way)
+                };
+                is_slow(rows().map(square).fold(0.0, f32::max).sqrt()) && looks().all(is_still)
+            }
+            Kind::Body(index) => {
+                looks().all(|later| Sleep::is_body_still(before.bodies[index], later.bodies[index], way))
+            }
+        }
+    }
+
+    fn places(&self) -> Places {
+        let place = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
+        let ids = self.particle_ids();
+        let mut particles = vec![Vec3::ZERO; ids.len()];
+        for (id, row) in ids.iter().zip(self.particle_positions()) {
+            if let Some(particle) = particles.get_mut(*id as usize) {
+                *particle = place(row);
+            }
+        }
+        Places {
+            time: self.clock.time,
+            particles,
+            nodes: self.node_positions().iter().map(place).collect(),
+            bodies: self.bodies().iter().map(|body| (body.state.position, body.state.rotation)).collect(),
+        }
+    }
+}

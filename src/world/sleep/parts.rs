@@ -1,0 +1,134 @@
+//! Parts of a scene that sleep on their own, and the islands that they form.
+//!
+//! The water, every sponge and every dynamic body is a part. Parts whose boxes, grown by their reach, meet are an island: they can touch,
+//! or are about to. What falls asleep are whole islands. What is awake wakes what comes within its reach; islands are joined at [`JOIN`]
+//! times the reach, so that what has just been woken by a neighbour is in an island with it, and does not fall asleep again while the
+//! neighbour moves.
+
+use glam::Vec3;
+
+use super::bounds::Bounds;
+
+/// Reach within which parts are one island, over that within which one wakes another \[1\].
+const JOIN: f32 = 1.5;
+
+/// What a part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// All particles.
+    Fluid,
+    /// A sponge, by its number.
+    Sponge(usize),
+    /// A dynamic body, by its number.
+    Body(usize),
+}
+
+/// A part of a scene.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub(super) kind: Kind,
+    /// How far beyond its box it can touch others, and more than it moves in a step \[m\].
+    pub(super) reach: f32,
+    /// Where it was when its places were looked at last.
+    pub(super) bounds: Bounds,
+    pub(super) is_asleep: bool,
+    /// Since when it is awake \[s\].
+    pub(super) awake_since: f64,
+}
+
+/// What all islands are found by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules {
+    /// Lengths of the box along axes on which it repeats, else zero \[m\].
+    pub(super) periods: Vec3,
+    /// Whether sponges change with the water in them, and go on changing when it is gone: then all of them are one island with it.
+    pub(super) has_wetting: bool,
+}
+
+impl Rules {
+    fn are_joined(&self, a: &Part, b: &Part) -> bool {
+        let is_wetting = |a: &Part, b: &Part| matches!((a.kind, b.kind), (Kind::Fluid, Kind::Sponge(_)));
+        let (near, far) = (a.bounds.grown(JOIN * a.reach), b.bounds.grown(JOIN * b.reach));
+        self.has_wetting && (is_wetting(a, b) || is_wetting(b, a)) || near.meets(&far, self.periods)
+    }
+
+    /// For every part the first of its island, among those that count.
+    pub(super) fn islands(&self, parts: &[Part], counts: impl Fn(&Part) -> bool) -> Vec<usize> {
+        let mut first: Vec<usize> = (0..parts.len()).collect();
+        for (a, part) in parts.iter().enumerate().filter(|(_, part)| counts(part)) {
+            for (b, other) in parts[..a].iter().enumerate().filter(|(_, other)| counts(other)) {
+                if !self.are_joined(part, other) {
+                    continue;
+                }
+                let [mut low, mut high] = [a, b];
+                while first[low] != low {
+                    low = first[low];
+                }
+                while first[high] != high {
+                    high = first[high];
+                }
+                first[low.max(high)] = low.min(high);
+            }
+        }
+        // The first of a chain comes before all others of it.
+        for index in 0..first.len() {
+            first[index] = first[first[index]];
+        }
+        first
+    }
+
+    /// Whether a box that is awake comes within reach of a part.
+    pub(super) fn is_reached(&self, part: &Part, awake: &Bounds) -> bool {
+        part.bounds.grown(part.reach).meets(awake, self.periods)
+    }
+
+    /// Whether a box that is awake is so near that a part must not fall asleep.
+    pub(super) fn is_kept_awake(&self, part: &Part, awake: &Bounds) -> bool {
+        part.bounds.grown(JOIN * part.reach).meets(awake, self.periods)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(kind: Kind, low: f32, high: f32) -> Part {
+        let bounds = Bounds::of([[low, 0.0, 0.0, 0.0], [high, 0.0, 0.0, 0.0]].iter());
+        Part { kind, reach: 0.1, bounds, is_asleep: false, awake_since: 0.0 }
+    }
+
+    #[test]
+    fn chains_are_one_island_in_any_order() {
+        let mut parts = vec![
+            part(Kind::Fluid, 0.0, 1.0),
+            part(Kind::Sponge(0), 3.2, 4.0),
+            part(Kind::Sponge(1), 1.2, 2.0),
+            part(Kind::Body(0), 2.25, 2.95),
+            part(Kind::Body(1), 5.0, 6.0),
+        ];
+        let rules = Rules { periods: Vec3::ZERO, has_wetting: false };
+        assert_eq!(rules.islands(&parts, |_| true), [0, 0, 0, 0, 4]);
+        // The control: without the middle one there are two.
+        let without = rules.islands(&parts, |part| part.kind != Kind::Body(0));
+        assert_eq!(without, [0, 1, 0, 3, 4]);
+        parts.reverse();
+        assert_eq!(rules.islands(&parts, |_| true), [0, 1, 1, 1, 1]);
+        let wetting = Rules { has_wetting: true, ..rules };
+        let parts =
+            [part(Kind::Sponge(0), 0.0, 1.0), part(Kind::Body(0), 2.0, 3.0), part(Kind::Fluid, 4.0, 5.0)];
+        assert_eq!(wetting.islands(&parts, |_| true), [0, 1, 0]);
+        assert_eq!(rules.islands(&parts, |_| true), [0, 1, 2]);
+    }
+
+    #[test]
+    fn what_wakes_a_part_is_in_an_island_with_it() {
+        let rules = Rules { periods: Vec3::ZERO, has_wetting: false };
+        let own = part(Kind::Sponge(0), 0.0, 1.0);
+        for apart in [0.05, 0.15, 0.19, 0.21, 0.29, 0.31] {
+            let other = part(Kind::Sponge(1), 1.0 + apart, 2.0);
+            let wakes = rules.is_reached(&own, &other.bounds.grown(other.reach));
+            let joins = rules.islands(&[own.clone(), other], |_| true) == [0, 0];
+            assert_eq!((wakes, joins), (apart < 0.2, apart < 0.3), "{apart}");
+        }
+    }
+}

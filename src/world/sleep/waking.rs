@@ -1,0 +1,228 @@
+//! What parts that sleep mean for the steps of the others, and what wakes them.
+
+use std::ops::Range;
+
+use glam::Vec3;
+use sorb_kernels::{
+    asleep::Asleep,
+    body::{Body, BodyKind},
+    pbd,
+    reduce::Wrenches,
+};
+
+use super::{Bounds, Kind, Part, is_active};
+use crate::{
+    clock::{Dormant, Steps},
+    scene::Motion,
+    world::{World, fastest_body},
+};
+
+/// What particles and nodes may go between two looks at their boxes, over what their largest speeds say \[1\].
+const SPARE: f32 = 1.25;
+
+/// Reach of the fluid, over that of a particle: in a step a particle moves by a part of it \[1\].
+const FLUID_REACH: f32 = 1.5;
+
+/// Reach of a body, over its radius \[1\].
+const BODY_REACH: f32 = 0.1;
+
+impl World {
+    /// Whether parts cannot sleep on their own, because steps run on a device.
+    pub(super) fn sleeps_as_a_whole(&self) -> bool {
+        #[cfg(feature = "gpu")]
+        let has_device = self.stores.device.is_some();
+        #[cfg(not(feature = "gpu"))]
+        let has_device = false;
+        has_device
+    }
+
+    /// All parts, awake, with boxes that were never taken.
+    pub(super) fn parts(&self) -> Vec<Part> {
+        let (params, awake_since) = (&self.params, self.clock.time);
+        let part = |kind, reach| {
+            let bounds = Bounds::of(std::iter::empty());
+            Part { kind, reach, bounds, is_asleep: false, awake_since }
+        };
+        let mut parts = Vec::new();
+        if self.stores.host.rows.fluid > 0 {
+            parts.push(part(Kind::Fluid, FLUID_REACH * params.fluid.list_radius()));
+        }
+        for (index, sponge) in params.sponges.iter().enumerate() {
+            let coupling = if self.stores.host.rows.fluid > 0 { params.coupling.support_radius } else { 0.0 };
+            let touch = pbd::pairs::pair_radius(params);
+            parts.push(part(Kind::Sponge(index), coupling.max(touch).max(2.0 * sponge.edge)));
+        }
+        for (index, body) in self.bodies().iter().enumerate() {
+            if body.kind == BodyKind::Dynamic {
+                parts.push(part(Kind::Body(index), BODY_REACH * body.shape.bounding_radius()));
+            }
+        }
+        parts
+    }
+
+    /// Rows of the nodes of a sponge.
+    pub(super) fn node_rows(&self, sponge: usize) -> [Range<usize>; 4] {
+        let range = |color| self.lattice.node_range(color, sponge as u32);
+        std::array::from_fn(|color| range(color).start as usize..range(color).end as usize)
+    }
+
+    /// Takes the boxes of all parts that are awake.
+    pub(super) fn take_bounds(&mut self) {
+        let bounds = |kind| match kind {
+            Kind::Fluid => Bounds::of(self.particle_positions().iter()),
+            Kind::Sponge(index) => {
+                let nodes = self.node_positions();
+                Bounds::of(self.node_rows(index).into_iter().flat_map(|rows| &nodes[rows]))
+            }
+            Kind::Body(index) => self.body_bounds(index),
+        };
+        let awake = self.sleep.parts.iter().enumerate().filter(|(_, part)| !part.is_asleep);
+        let taken: Vec<_> = awake.map(|(index, part)| (index, bounds(part.kind))).collect();
+        for (index, bounds) in taken {
+            self.sleep.parts[index].bounds = bounds;
+        }
+        self.sleep.ways = [0.0; 2];
+    }
+
+    /// Around a dynamic body, now and in the next step.
+    fn body_bounds(&self, index: usize) -> Bounds {
+        let (body, step) = (&self.bodies()[index], self.scene.time.maximum_step);
+        let next = (body.fastest() + step * self.scene.gravity.length()) * step;
+        Bounds::of_body(body).grown(next)
+    }
+
+    /// Boxes around bodies that scripts move, from a time on until the end of a step that begins now.
+    pub(super) fn movers(&self, from: f64) -> Vec<Bounds> {
+        let longest = self.scene.time.maximum_step;
+        let until = self.clock.time + f64::from(longest);
+        let bodies = self.bodies();
+        let mover = |(index, body): (usize, &Body)| {
+            let own = self.sleep.motions.iter().filter(|(of, _)| *of == index);
+            let active = own.filter(|(_, motion)| is_active(motion, from, until));
+            let speeds: Vec<f32> = active.map(|(_, motion)| speed(motion, body)).collect();
+            let way = speeds.iter().sum::<f32>() * longest;
+            (!speeds.is_empty()).then(|| Bounds::of_body(body).grown(way))
+        };
+        bodies.iter().enumerate().filter_map(mover).collect()
+    }
+
+    /// Wakes the islands of parts that something awake has come near.
+    pub(super) fn wake_what_is_reached(&mut self) {
+        let passed = (self.clock.time - self.sleep.watched) as f32;
+        self.sleep.watched = self.clock.time;
+        let speeds = [self.clock.fluid_speed, self.clock.node_speed];
+        self.sleep.ways.iter_mut().zip(speeds).for_each(|(way, speed)| *way += SPARE * speed * passed);
+        if self.sleep.parts.iter().all(|part| !part.is_asleep) {
+            return;
+        }
+        if self.sleeps_as_a_whole() {
+            if !self.sleep.is_asleep {
+                self.wake_all();
+            }
+            return;
+        }
+        let mut reached = self.reached();
+        // Boxes that have grown for a while are too large.
+        if reached.contains(&true) {
+            self.take_bounds();
+            reached = self.reached();
+        }
+        if reached.contains(&true) {
+            self.wake(&reached);
+        }
+    }
+
+    /// For every part whether it sleeps, and something awake has come within its reach.
+    fn reached(&self) -> Vec<bool> {
+        let sleep = &self.sleep;
+        let mut awake = self.movers(self.clock.time);
+        for part in sleep.parts.iter().filter(|part| !part.is_asleep) {
+            awake.push(match part.kind {
+                Kind::Fluid => part.bounds.grown(part.reach + sleep.ways[0]),
+                Kind::Sponge(_) => part.bounds.grown(part.reach + sleep.ways[1]),
+                Kind::Body(index) => self.body_bounds(index).grown(part.reach),
+            });
+        }
+        let is_reached = |part: &Part| awake.iter().any(|awake| sleep.rules.is_reached(part, awake));
+        sleep.parts.iter().map(|part| part.is_asleep && is_reached(part)).collect()
+    }
+
+    /// Wakes the islands of some parts.
+    fn wake(&mut self, reached: &[bool]) {
+        let time = self.clock.time;
+        let first = self.sleep.rules.islands(&self.sleep.parts, |part| part.is_asleep);
+        let mut wakes = vec![false; first.len()];
+        first.iter().zip(reached).for_each(|(first, reached)| wakes[*first] |= *reached);
+        for (part, first) in self.sleep.parts.iter_mut().zip(&first) {
+            if part.is_asleep && wakes[*first] {
+                (part.is_asleep, part.awake_since) = (false, time);
+            }
+        }
+        self.sleep.is_asleep = false;
+        self.apply_sleep();
+    }
+
+    /// Wakes everything.
+    pub(crate) fn wake_all(&mut self) {
+        let asleep: Vec<bool> = self.sleep.parts.iter().map(|part| part.is_asleep).collect();
+        if asleep.contains(&true) {
+            self.wake(&asleep);
+        }
+    }
+
+    /// Which of the lesser plans the next step has; 0 for the whole one.
+    pub(crate) fn lesser_plan(&self) -> usize {
+        let dormant = self.sleep.dormant();
+        if self.sleeps_as_a_whole() || dormant == Dormant::default() {
+            return 0;
+        }
+        let all = 0..self.params.sponges.len() as u32;
+        let awake: Vec<u32> = all.filter(|index| !dormant.sponges.contains(&(*index as usize))).collect();
+        let of_sponges = match (awake.is_empty(), self.params.has_touch_among(&awake)) {
+            (true, _) => 2,
+            (false, false) => 1,
+            (false, true) => 0,
+        };
+        if dormant.fluid { 3 + of_sponges } else { of_sponges }
+    }
+
+    /// Makes the next steps go on without what sleeps.
+    pub(super) fn apply_sleep(&mut self) {
+        if self.sleeps_as_a_whole() {
+            return;
+        }
+        let dormant = self.sleep.dormant();
+        let rows = dormant.sponges.iter().flat_map(|sponge| self.node_rows(*sponge));
+        self.params.asleep = Asleep::new(rows.collect());
+        let bodies = &mut self.stores.host.bodies;
+        for (index, body) in bodies.states.0.iter_mut().enumerate() {
+            if body.kind == BodyKind::Dynamic {
+                self.engine.hold(index, dormant.bodies.contains(&index));
+                body.state = self.engine.state(index);
+            }
+        }
+        self.clock.body_speed = fastest_body(&bodies.states.0);
+        // Nobody renews what was given by those whose phases are left out.
+        if dormant.fluid {
+            bodies.fluid_wrenches = Wrenches::default();
+        }
+        if dormant.sponges.len() == self.scene.sponges.len() {
+            bodies.node_wrenches = Wrenches::default();
+            self.stores.host.fluid.interior.fill(0.0);
+        }
+        self.steps = Steps::new(&self.scene, &self.params, &bodies.states.0, &*self.engine, &dormant);
+    }
+}
+
+/// Largest speed that a motion gives to the surface of a body where it is now \[m/s\].
+fn speed(motion: &Motion, body: &Body) -> f32 {
+    match *motion {
+        Motion::Linear { velocity, .. } => velocity.length(),
+        Motion::Turn { pivot, rate, .. } => {
+            let radius = body.shape.bounding_radius();
+            // Boxes of planes are all of space as they are.
+            let radius = if radius.is_finite() { radius } else { 0.0 };
+            rate.abs() * (Vec3::distance(body.state.position, pivot) + radius)
+        }
+    }
+}
