@@ -25,7 +25,7 @@ pub struct Measures {
     pub saturation: f64,
     /// Height of the highest node that is more than half saturated above the lowest node \[m\].
     pub wicking_height: f64,
-    /// Volume of all sponges \[m^3\].
+    /// Volume of all sponges \[m^3\], pores included; that of a block at rest is the volume of its box.
     pub sponge_volume: f64,
     /// Centre of mass of the dry sponges \[m\].
     pub sponge_centre: DVec3,
@@ -145,8 +145,9 @@ impl Measures {
 
     /// Volume and strain energy of the tets.
     fn add_tets(&mut self, world: &World) {
-        let nodes = world.node_positions();
-        for (tet, sponge) in world.lattice().tets.iter().zip(&world.lattice().tet_sponge) {
+        let (nodes, lattice) = (world.node_positions(), world.lattice());
+        let weights = lattice.tet_weight.iter().map(|weight| f64::from(*weight));
+        for ((tet, sponge), weight) in lattice.tets.iter().zip(&lattice.tet_sponge).zip(weights) {
             let sponge = &world.params().sponges[*sponge as usize];
             let (size, stiffness) = of_tet(world.columns(), sponge, tet);
             let edge = f64::from(sponge.edge) * size;
@@ -154,8 +155,10 @@ impl Measures {
             let (d, e, f) = ((p1 - p0) / edge, (p2 - p3) / edge, (p2 + p3 - p0 - p1) / edge);
             let ratio = d.dot(e.cross(f));
             let rest = edge.powi(3) / 12.0;
-            self.sponge_volume += rest * ratio;
-            self.elastic_energy += rest * stiffness * energy_density(sponge, [d, e, f], ratio);
+            self.sponge_volume += weight * rest * ratio;
+            // The constraints of strain based dynamics know the tets alone.
+            let strained = if sponge.solver == Solver::Sbd { 1.0 } else { weight };
+            self.elastic_energy += strained * rest * stiffness * energy_density(sponge, [d, e, f], ratio);
         }
     }
 }

@@ -14,7 +14,7 @@ use sorb_kernels::{
     pbd::{
         flatness::flatness,
         lattice::{TetChunk, Topology},
-        stars::Stars,
+        stars::{Stars, TETS},
     },
 };
 
@@ -171,7 +171,7 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     }
     nodes.volume.clone_from(&lattice.node_volume);
     nodes.sponge.clone_from(&lattice.node_sponge);
-    nodes.suction = suction(scene, params, lattice);
+    nodes.suction = suction(params, lattice);
     nodes.velocity = lattice
         .node_sponge
         .iter()
@@ -211,15 +211,13 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
 }
 
 /// Whether nodes suck: 1 or 0. Those of the surface do not, so that no coat of water forms around the sponge; as porous
-/// media only those of the outermost layer, which have at most half the volume of a node inside.
-fn suction(scene: &Scene, params: &Params, lattice: &Lattice) -> Vec<f32> {
+/// media only those of the outermost layer, which have at most half as many tets as a node inside.
+fn suction(params: &Params, lattice: &Lattice) -> Vec<f32> {
     let sucks = |node: usize| {
         if params.solid.is_none() {
             return !lattice.node_surface[node];
         }
-        let edge = scene.sponges[lattice.node_sponge[node] as usize].edge;
-        // A cell has two nodes.
-        lattice.node_volume[node] > 0.51 * 0.5 * edge.powi(3)
+        2 * lattice.node_tet_count[node] > TETS as u32
     };
     (0..lattice.node_count()).map(|node| if sucks(node) { 1.0 } else { 0.0 }).collect()
 }
@@ -233,6 +231,7 @@ fn topology(lattice: &Lattice) -> Topology {
     });
     Topology {
         tets: lattice.tets.clone(),
+        weights: lattice.tet_weight.clone(),
         vertex_color_start: lattice.vertex_color_start,
         slot_vertex_color: SLOT_VERTEX_COLOR,
         chunks,

@@ -89,6 +89,7 @@ fn touch_of(row: u32) -> array<vec3<f32>, 3> {
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
     let base = row * STAR;
     let tets = stars[base + TETS];
+    let weights = stars[base + WEIGHTS];
     let dry_shear = sponge.edge * sponge.mu / 12.0;
     let dry_volume = sponge.edge * sponge.lambda / 12.0;
     let dry_rate = sponge.damping / step;
@@ -111,8 +112,14 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
         let partner = stars[base + DIRECTION + direction];
         let u = predicted[partner].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
-            if (((tets >> (4u * direction + k)) & 1u) == 0u) {
+            let tet = 4u * direction + k;
+            if (((tets >> tet) & 1u) == 0u) {
                 continue;
+            }
+            // Where there is no table, all weights are 1.
+            var weight = 1.0;
+            if (weights != 0u) {
+                weight = bitcast<f32>(stars[weights + tet]);
             }
             let r_row = stars[base + ring[k]];
             let q_row = stars[base + ring[(k + 1u) % 4u]];
@@ -129,19 +136,20 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
                 rate = dry_rate * (softer / size);
             }
             let lame = volume - shear;
-            pull += ((q - x) + (r - x)) * shear;
-            count += 2.0 * shear;
+            pull += ((q - x) + (r - x)) * (shear * weight);
+            count += 2.0 * shear * weight;
             let area = cross(q - u, r - u) * (2.0 * inverse_edge * inverse_edge);
             let ratio = dot(u - x, area) * inverse_edge;
             strain = max(strain, abs(ratio - 1.0));
             let inverse = 1.0 / max(ratio, SOLID);
             let slope = lame * (ratio - 1.0) - shear * inverse * (2.0 - ratio * inverse);
-            pressure += area * (slope * edge);
-            stiffness += outer(area * (lame + shear * inverse * inverse), area);
+            let own = area * weight;
+            pressure += own * (slope * edge);
+            stiffness += outer(own * (lame + shear * inverse * inverse), area);
             if (rate > 0.0) {
                 let f = columns_of(x, u, q, r);
                 let g = columns_of(old, position[partner].xyz, position[q_row].xyz, position[r_row].xyz);
-                let part = viscosity(f, g, sponge, rate);
+                let part = viscosity(f, g, sponge, rate * weight);
                 damping.force += part.force;
                 damping.stiffness += part.stiffness;
             }

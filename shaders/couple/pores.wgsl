@@ -27,26 +27,33 @@ fn main(
         return;
     }
     let tets = stars[base + TETS];
+    let weights = stars[base + WEIGHTS];
     let x = position[row].xyz;
     var rings = RINGS;
     var sum = 0.0;
-    var count = 0.0;
+    var all = 0.0;
     for (var direction = 0u; direction < 6u; direction += 1u) {
         let ring = rings[direction];
         let u = position[stars[base + DIRECTION + direction]].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
-            if (((tets >> (4u * direction + k)) & 1u) == 0u) {
+            let tet = 4u * direction + k;
+            if (((tets >> tet) & 1u) == 0u) {
                 continue;
+            }
+            // Where there is no table, all weights are 1.
+            var weight = 1.0;
+            if (weights != 0u) {
+                weight = bitcast<f32>(stars[weights + tet]);
             }
             let r = position[stars[base + ring[k]]].xyz;
             let q = position[stars[base + ring[(k + 1u) % 4u]]].xyz;
-            sum += dot(u - x, cross(q - u, r - u));
-            count += 1.0;
+            sum += dot(u - x, cross(q - u, r - u)) * weight;
+            all += weight;
         }
     }
     let volume = 2.0 * sum / (sponge.edge * sponge.edge * sponge.edge);
     let least = (1.0 - sponge.porosity) / (1.0 - min(LEAST_POROSITY, sponge.porosity));
-    let ratio = clamp(volume / count, least, LARGEST);
+    let ratio = clamp(volume / all, least, LARGEST);
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);

@@ -7,6 +7,7 @@
 @group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> node_wetting: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> tet_weight: array<f32>;
 
 // Volume over that at rest below which the logarithm of `descent.rs` goes on as a polynomial.
 const SOLID: f32 = 0.2;
@@ -59,7 +60,10 @@ fn main(
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
                 + sponge.lambda * (ratio - 1.0) * (ratio - 1.0);
         }
-        own.a = vec4<f32>(volume * ratio, 0.5 * volume * energy, 0.0, 0.0);
+        let weight = tet_weight[row];
+        // The constraints of strain based dynamics know the tets alone.
+        let strained = select(1.0, weight, sponge.solver == VBD || sponge.solver == XPBD_NEO_HOOKEAN);
+        own.a = vec4<f32>(volume * weight * ratio, 0.5 * volume * strained * energy, 0.0, 0.0);
     }
     write_sums(group_of(group, groups), lane, group_sums(lane, own));
 }

@@ -13,7 +13,8 @@ struct Batch {
 @group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> tets: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> tet_sponge: array<u32>;
-@group(0) @binding(6) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> tet_weight: array<f32>;
+@group(0) @binding(7) var<storage, read_write> predicted: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -68,7 +69,7 @@ fn main(
         norm_rate += dot(n, way);
         apart_rate += dot(a, way);
     }
-    let rest = sponge.edge * sponge.edge * sponge.edge / 12.0;
+    let rest = tet_weight[batch.first + row] * sponge.edge * sponge.edge * sponge.edge / 12.0;
     let soft_norm = 1.0 / (sponge.mu * rest * clock.step * clock.step);
     let soft_ratio = 1.0 / (sponge.lambda * rest * clock.step * clock.step);
     let damping = sponge.damping / clock.step;

@@ -101,7 +101,7 @@ mod tests {
         }
         let (skin, drawn) = (lowest(soaked.node_saturations()), lowest(&wetness(&soaked)));
         // The control: what is drawn is not what the outermost nodes say.
-        assert!(skin < 0.3, "{skin}");
+        assert!(skin < 0.4, "{skin}");
         assert!(drawn > 0.6, "{drawn}");
         let dry = world(&["sponges.sponge.saturation=0"]);
         assert!(wetness(&dry).iter().all(|wet| *wet < 0.05));

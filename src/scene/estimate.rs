@@ -56,9 +56,10 @@ fn tets(sponge: &Sponge) -> f64 {
     4.0 * faces * sponge.shape.fraction()
 }
 
-/// Water in a sponge at time zero \[m^3\]; twelve tets fill the volume of a cell.
+/// Water in a sponge at time zero \[m^3\].
 fn water(sponge: &Sponge) -> f64 {
-    let volume = tets(sponge) / 12.0 * f64::from(sponge.edge).powi(3);
+    let cells: f64 = sponge.cells.to_array().map(f64::from).iter().product();
+    let volume = cells * f64::from(sponge.edge).powi(3) * sponge.shape.fraction();
     volume * f64::from(sponge.porosity) * f64::from(sponge.saturation)
 }
 

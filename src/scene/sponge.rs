@@ -86,7 +86,7 @@ pub struct Sponge {
     pub velocity: Vec3,
     /// Mass of the dry sponge over its volume, pores included. Range 1 to 5000 kg/m^3; default 50.
     ///
-    /// Below 10 the lattice is so light that the water's pressure noise shakes it.
+    /// A block weighs this times the volume of its box. Below 10 the lattice is so light that the water's pressure noise shakes it.
     pub density: f32,
     /// Share of the volume that is pores. Range 0.05 to 0.99; default 0.9.
     pub porosity: f32,

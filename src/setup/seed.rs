@@ -26,10 +26,8 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
     }
     let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
     for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| sponge.saturation > 0.0) {
-        // As many particles as fill the pores, evenly over the inside of the true tets: boundary squares are pits
-        // of half an edge, a sixth of an edge on average.
-        let inset = Vec3::splat(sponge.edge / 6.0);
-        let size = sponge.size() - inset * 2.0;
+        // As many particles as fill the pores, evenly.
+        let size = sponge.size();
         let fraction = f64::from(sponge.porosity * sponge.saturation);
         let pitch = (volume / fraction).cbrt() as f32;
         let wanted = size.to_array().map(|size| size / pitch);
@@ -43,7 +41,7 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
         let keep = |point: Vec3| {
             holds(sponge, point) && !scene.sponges[..index].iter().any(|other| first_of(other, point))
         };
-        seeds.fill(sponge.position + inset, pitch, counts, sponge.velocity, keep);
+        seeds.fill(sponge.position, pitch, counts, sponge.velocity, keep);
     }
     let count = columns.fluid.position.len();
     columns.rows.fluid = count;

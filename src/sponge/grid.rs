@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::class::{CLASS_OFFSET, TET_CLASS_COUNT, doubled};
 use super::error::LatticeError;
 use super::lattice::LatticeSponge;
+use super::pits::Pits;
 
 /// Row of a site that no tet touches.
 pub(super) const NO_NODE: u32 = u32::MAX;
@@ -23,6 +24,7 @@ pub(super) struct Grid {
     sites: [Vec<u32>; 2],
     pub(super) tet_count: u32,
     pub(super) node_count: u32,
+    pub(super) pits: Pits,
     candidates: u32,
 }
 
@@ -37,6 +39,7 @@ impl Grid {
             sites: [vec![0; corners], vec![0; centres]],
             tet_count: 0,
             node_count: 0,
+            pits: Pits::default(),
             candidates: 0,
         };
         grid.select(sponge);
@@ -44,6 +47,7 @@ impl Grid {
             return Err(LatticeError::Empty { sponge: index, cells, candidates: grid.candidates });
         }
         grid.node_count = grid.sites.iter().flatten().map(|&count| u32::from(count > 0)).sum();
+        grid.pits = Pits::new(&grid, sponge);
         Ok(grid)
     }
 
@@ -139,12 +143,40 @@ impl Grid {
         usize::try_from((k * ny + j) * nx + i).is_ok_and(|corner| self.present[corner] >> class & 1 == 1)
     }
 
+    /// Place of a cell of the lattice.
+    pub(super) fn corner(&self, cell: [i64; 3]) -> usize {
+        self.bases(cell.map(|index| index as u32))[0]
+    }
+
+    /// Whether a site, given in units of half an edge, lies in the block.
+    pub(super) fn is_inside(&self, site: [i32; 3]) -> bool {
+        (0..3).all(|axis| (0..=2 * i64::from(self.cells[axis])).contains(&i64::from(site[axis])))
+    }
+
+    /// Number of tets at a site inside, given in units of half an edge, before the sites are numbered.
+    pub(super) fn count(&self, site: [i32; 3]) -> u32 {
+        let sublattice = site[0].rem_euclid(2) as usize;
+        let [i, j, k] = site.map(|half| half as usize / 2);
+        let [nx, ny, _] = self.cells.map(|n| n as usize + 1 - sublattice);
+        self.sites[sublattice][(k * ny + j) * nx + i]
+    }
+
+    /// Every cell that lacks tets, with their classes, in the order k, j, i.
+    pub(super) fn absent(&self) -> impl Iterator<Item = ([i64; 3], impl Iterator<Item = usize>)> {
+        let [nx, ny, _] = self.cells.map(|n| n as usize + 1);
+        let lacking = self.present.iter().enumerate().filter(|(_, present)| **present != ALL_CLASSES);
+        lacking.map(move |(corner, present)| {
+            let cell = [corner % nx, corner / nx % ny, corner / (nx * ny)].map(|index| index as i64);
+            (cell, classes(!present & ALL_CLASSES))
+        })
+    }
+
     /// Numbers the sites of one vertex colour from `next` on, in the order k, j, i; calls `node` with the indices of
-    /// each site in use and its number of tets.
-    pub(super) fn number(&mut self, color: u32, next: &mut u32, mut node: impl FnMut([u32; 3], u32)) {
+    /// each site in use, its number of tets, and the volume of pits that it stands for, over that of a tet.
+    pub(super) fn number(&mut self, color: u32, next: &mut u32, mut node: impl FnMut([u32; 3], u32, f64)) {
         let [sublattice, parity] = [color / 2, color % 2];
         let [nx, ny, nz] = self.cells.map(|n| n + 1 - sublattice);
-        let sites = &mut self.sites[sublattice as usize];
+        let (sites, pits) = (&mut self.sites[sublattice as usize], &self.pits);
         for k in 0..nz {
             for j in 0..ny {
                 let row = (k as usize * ny as usize + j as usize) * nx as usize;
@@ -154,7 +186,7 @@ impl Grid {
                     if count > 0 {
                         *site = *next;
                         *next += 1;
-                        node([i, j, k], count);
+                        node([i, j, k], count, pits.of_node(sublattice, [i, j, k]));
                     }
                 }
             }

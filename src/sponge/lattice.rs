@@ -21,7 +21,8 @@ pub struct LatticeSponge<'a> {
     pub cells: [u32; 3],
     /// Minimum corner of the block in the world \[m\]; finite, within `2^17` edges of the world's origin.
     pub origin: Vec3,
-    /// Whether a tet belongs to the shape, given its centroid in the unit cube of the block; asked once for each tet.
+    /// Whether a tet belongs to the shape, given its centroid in the unit cube of the block; asked once for each tet, and once for each
+    /// half of a tet that the end of the block cuts through.
     pub keep: &'a dyn Fn(Vec3) -> bool,
     /// Whether there is room for a node at a place in the unit cube of the block: tets with a node where there is none are left out.
     pub has_room: &'a dyn Fn(Vec3) -> bool,
@@ -48,7 +49,8 @@ pub struct SpongeSummary {
     pub tet_count: u32,
     /// Its triangles, which are contiguous.
     pub triangles: Range<u32>,
-    /// Volume of its tets at rest \[m^3\]; less than that of its box.
+    /// Volume that it takes up at rest \[m^3\], pores included: its tets with their [weights](Lattice::tet_weight). That of a whole block is
+    /// the volume of its box.
     pub rest_volume: f64,
 }
 
@@ -61,7 +63,8 @@ pub struct Lattice {
     pub node_sponge: Vec<u32>,
     /// Number of tets at each node: 1 to 24, and 24 inside.
     pub node_tet_count: Vec<u32>,
-    /// A quarter of the volume of the tets at each node \[m^3\].
+    /// Volume that each node stands for \[m^3\]: a quarter of each of its tets, and what it has of pits in the faces of the sponge. Together
+    /// the volume of the sponge.
     pub node_volume: Vec<f32>,
     /// Whether the node lies on the outer surface.
     pub node_surface: Vec<bool>,
@@ -69,6 +72,9 @@ pub struct Lattice {
     pub vertex_color_start: [u32; VERTEX_COLOR_COUNT + 1],
     /// Nodes of each tet, positively oriented, in the slots of [`CLASS_OFFSET`](super::CLASS_OFFSET).
     pub tets: Vec<[u32; 4]>,
+    /// Volume that each tet stands for over its own \[1\]: 1 inside, 2 in the face of a block, more at its edges. The material has as
+    /// much energy of strain, and as many pores, as the sum says, with the strain of the tet.
+    pub tet_weight: Vec<f32>,
     /// First tet of each colour (`class * 2 + parity`), then the number of tets.
     pub color_start: [u32; COLOR_COUNT + 1],
     /// Sponge of each tet.
@@ -128,7 +134,7 @@ impl Lattice {
         sponge_range(&self.tet_sponge, &self.color_start, color, sponge)
     }
 
-    /// Volume of the tets of a sponge at rest \[m^3\]; `None` if there is no such sponge.
+    /// Volume of a sponge at rest \[m^3\], pores included; `None` if there is no such sponge.
     #[must_use]
     pub fn rest_volume(&self, sponge: u32) -> Option<f64> {
         self.sponges.get(sponge as usize).map(|summary| summary.rest_volume)
@@ -144,17 +150,17 @@ impl Lattice {
         for color in 0..4 {
             for ((index, sponge), grid) in (0..).zip(sponges).zip(grids.iter_mut()) {
                 let half_edge = 0.5 * f64::from(sponge.edge);
-                let quarter_tet = tet_volume(sponge.edge) / 4.0;
+                let tet = tet_volume(sponge.edge);
                 let origin = sponge.origin.as_dvec3();
                 let shift = if color < 2 { 0.0 } else { 1.0 };
-                grid.number(color, &mut next, |site, tet_count| {
+                grid.number(color, &mut next, |site, tet_count, of_pits| {
                     // Rounded once, from an exact site, so that rest lengths are as equal as they can be.
                     let doubled = DVec3::from_array(site.map(|index| 2.0 * f64::from(index) + shift));
                     let place = (origin + half_edge * doubled).as_vec3();
                     self.position.push([place.x, place.y, place.z, 0.0]);
                     self.node_sponge.push(index);
                     self.node_tet_count.push(tet_count);
-                    self.node_volume.push(rounded(quarter_tet * f64::from(tet_count)));
+                    self.node_volume.push(rounded(tet * (0.25 * f64::from(tet_count) + of_pits)));
                 });
             }
             self.vertex_color_start[color as usize + 1] = next;
@@ -166,6 +172,7 @@ impl Lattice {
         self.tets.reserve_exact(count);
         self.tet_sponge.reserve_exact(count);
         self.tet_slab.reserve_exact(count);
+        self.tet_weight.reserve_exact(count);
         let mut next = 0;
         for color in 0..COLOR_COUNT {
             let [class, odd] = [color / 2, color % 2];
@@ -181,6 +188,7 @@ impl Lattice {
                                 self.tets.push(grid.nodes(bases, &deltas));
                                 self.tet_sponge.push(index);
                                 self.tet_slab.push(k);
+                                self.tet_weight.push(rounded(1.0 + grid.pits.of_tet(bases[0], class)));
                                 next += 1;
                             }
                         }
@@ -216,7 +224,7 @@ fn summary((sponge, grid): (&LatticeSponge<'_>, &Grid)) -> SpongeSummary {
         node_count: grid.node_count,
         tet_count: grid.tet_count,
         triangles: 0..0,
-        rest_volume: f64::from(grid.tet_count) * tet_volume(sponge.edge),
+        rest_volume: (f64::from(grid.tet_count) + grid.pits.volume) * tet_volume(sponge.edge),
     }
 }
 

@@ -4,8 +4,9 @@
 //! `0 <= i <= nx`, and sublattice B on the cell centres, `B(i,j,k)` with `0 <= i < nx`. Every tet has one long
 //! edge A-A and one long edge B-B, both of length `a` and perpendicular to each other, so all tets are congruent
 //! with volume `a^3/12`. A block keeps the tets that lie wholly inside it: every boundary square is then a
-//! pyramid pit of depth `a/2`, and the block holds less than its box (`1 - 1/n` of it for `n^3` cells).
-//! [`SpongeSummary::rest_volume`] is the volume of the true tets; mass and porosity must use it.
+//! pyramid pit of depth `a/2`, and the tets hold less than the box (`1 - 1/n` of it for `n^3` cells). The tets around a pit
+//! stand for it ([`Lattice::tet_weight`]) and its corners have its mass ([`Lattice::node_volume`]), so that a block weighs, resists and
+//! soaks up as much as its box. [`SpongeSummary::rest_volume`] is the sum.
 //!
 //! [`Lattice::new`] packs any number of sponges into one set of rows in an order that the sweeps rely on:
 //!
@@ -25,6 +26,7 @@ mod lattice;
 mod limits;
 mod mask;
 mod pieces;
+mod pits;
 mod surface;
 #[cfg(test)]
 mod tests;

@@ -23,6 +23,12 @@ impl Surface {
         Self { behind: std::array::from_fn(|class| std::array::from_fn(|face| behind(class, face))) }
     }
 
+    /// Cell and class of the tet behind the face opposite to a slot.
+    pub(super) fn behind(&self, cell: [i64; 3], class: usize, slot: usize) -> ([i64; 3], usize) {
+        let behind = self.behind[class][slot];
+        (std::array::from_fn(|axis| cell[axis] + behind.offset[axis]), behind.class)
+    }
+
     /// Calls `triangle` for each face of the outer surface, in the order of cells (k, j, i), classes and faces.
     pub(super) fn triangles(&self, grid: &Grid, mut triangle: impl FnMut([u32; 3])) {
         let [nx, ny, nz] = grid.cells;
@@ -33,9 +39,9 @@ impl Surface {
                     let bases = grid.bases([i, j, k]);
                     let cell = [i, j, k].map(i64::from);
                     for class in classes(grid.present(bases[0])) {
-                        for (face, behind) in FACE.iter().zip(&self.behind[class]) {
-                            let other = std::array::from_fn(|axis| cell[axis] + behind.offset[axis]);
-                            if !grid.has(other, behind.class) {
+                        for (slot, face) in FACE.iter().enumerate() {
+                            let (other, behind) = self.behind(cell, class, slot);
+                            if !grid.has(other, behind) {
                                 let nodes = grid.nodes(bases, &deltas[class]);
                                 triangle(face.map(|slot| nodes[slot]));
                             }

@@ -1,7 +1,7 @@
 //! What compression does to the pores of a sponge, and drag with it.
 //!
 //! ```text
-//! J_a     = mean of V / V_0 over the tets of a node
+//! J_a     = mean of V / V_0 over the tets of a node, by the volume that they stand for
 //! phi_a   = 1 - (1 - phi) / J_a                                   the volume of the material stays
 //! K_a     = K (phi_a / phi)^3 ((1 - phi) / (1 - phi_a))^2         [C37]
 //! beta_a  = mu phi_a / (rho K_a),   gamma_a = c_F phi_a^2 / sqrt(K_a)
@@ -51,11 +51,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     }
                     let edges = group.own.map(|node| params.sponges[sponge[node as usize] as usize].edge);
                     let places = (&position[..], lanes::load_array(simd, &edges));
-                    let [volume, count] = volumes(simd, group, &stars.shape, places);
+                    let [volume, weight] = volumes(simd, group, &stars.shape, places);
                     for (lane, pores) in pores.iter_mut().enumerate() {
                         let node = group.own[lane] as usize;
                         let sponge = &params.sponges[sponge[node] as usize];
-                        *pores = of_node(sponge, volume[lane], count[lane]);
+                        *pores = of_node(sponge, volume[lane], weight[lane]);
                         if let Some([wetness, ..]) = wetting.get(node) {
                             let size = sponge.wetting.size(*wetness);
                             let swollen = size * size * size;
@@ -68,7 +68,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Sum of the volumes of the tets of eight nodes over those at rest, and the number of their tets.
+/// Sum of the volumes of the tets of eight nodes over those at rest, with the weights of the tets, and the sum of those.
 #[inline(always)]
 fn volumes<S: Simd>(
     simd: S,
@@ -78,18 +78,18 @@ fn volumes<S: Simd>(
 ) -> [[f32; LANES]; 2] {
     let zero = lanes::splat(simd, 0.0);
     let own = places(simd, position, &group.own);
-    let (mut sum, mut count) = (zero, zero);
+    let (mut sum, mut weights) = (zero, zero);
     let scale = lanes::splat(simd, 2.0) / (edge * edge * edge);
     for (tet, [partner, q, r]) in shape.tets.iter().enumerate() {
         let u = places(simd, position, &group.neighbors[*partner]);
         let q = places(simd, position, &group.neighbors[*q]);
         let r = places(simd, position, &group.neighbors[*r]);
-        let exists = lanes::load_array(simd, &group.tets[tet]);
+        let weight = lanes::load_array(simd, &group.tets[tet]);
         let area = cross(minus(q, u), minus(r, u));
-        sum += dot(minus(u, own), area) * scale * exists;
-        count += exists;
+        sum += dot(minus(u, own), area) * scale * weight;
+        weights += weight;
     }
-    [sum.to_array(), count.to_array()]
+    [sum.to_array(), weights.to_array()]
 }
 
 /// Where eight nodes are.
@@ -100,13 +100,13 @@ fn places<S: Simd>(simd: S, position: &[[f32; 4]], rows: &[u32; LANES]) -> Vec3x
 }
 
 /// J, beta J \[1/s\], gamma J \[1/m\] and porosity of a node.
-fn of_node(sponge: &SpongeParams, volume: f32, count: f32) -> [f32; 4] {
+fn of_node(sponge: &SpongeParams, volume: f32, weight: f32) -> [f32; 4] {
     if !sponge.pores_close {
         return [1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity];
     }
     // Where pores are as narrow as they get.
     let least = (1.0 - sponge.porosity) / (1.0 - LEAST_POROSITY.min(sponge.porosity));
-    let ratio = volume / count;
+    let ratio = volume / weight;
     let ratio = if ratio > least { ratio } else { least };
     let ratio = if ratio < LARGEST { ratio } else { LARGEST };
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;

@@ -11,7 +11,7 @@ use crate::{
         lattice::{COLORS, Topology},
         momentum::joined,
         pairs::pair_radius,
-        stars::NEIGHBORS,
+        stars::{NEIGHBORS, TETS},
     },
     smoothing::Wendland,
 };
@@ -247,15 +247,29 @@ pub(super) fn batch_bytes(batches: &[[u32; 2]; BATCHES]) -> Vec<u8> {
     bytes.0
 }
 
-/// Words of the star of a node: neighbours, tets, sponge, wetness. The last is no constant, but passes that need it have no binding
-/// left.
-pub(super) const STAR_WORDS: usize = NEIGHBORS + 3;
+/// Words of the star of a node: neighbours, tets, sponge, wetness, place of the weights of its tets, or 0 if all are 1. The wetness is no
+/// constant, but passes that need it have no binding left.
+pub(super) const STAR_WORDS: usize = NEIGHBORS + 4;
 
 /// Words of what touches a node, behind the stars of all nodes for the same reason: force and stiffness.
 pub(super) const TOUCH_WORDS: usize = 9;
 
-/// The stars of all nodes, a row each, and what touches the nodes, if anything does.
-pub(super) fn stars(nodes: &Nodes, rows: usize) -> Vec<u32> {
+/// Words of the weights of the tets of a node, behind all that. Most nodes have none.
+const WEIGHT_WORDS: usize = TETS;
+
+/// Number of words of [`stars`].
+pub(super) fn star_words(nodes: &Nodes, rows: usize, has_touch: bool) -> usize {
+    let weighted = nodes.stars.each().filter(|(_, _, weights)| is_weighted(weights)).count();
+    rows * (STAR_WORDS + if has_touch { TOUCH_WORDS } else { 0 }) + weighted * WEIGHT_WORDS
+}
+
+/// Whether a tet stands for more or less than its own volume.
+fn is_weighted(weights: &[f32; TETS]) -> bool {
+    weights.iter().any(|weight| *weight != 0.0 && *weight != 1.0)
+}
+
+/// The stars of all nodes, a row each, what touches the nodes, if anything does, and weights.
+pub(super) fn stars(nodes: &Nodes, rows: usize, has_touch: bool) -> Vec<u32> {
     let mut words = vec![0; rows * STAR_WORDS];
     for ((force, along), between) in
         nodes.touch.iter().zip(&nodes.touch_stiffness).zip(&nodes.touch_between).take(rows)
@@ -264,12 +278,18 @@ pub(super) fn stars(nodes: &Nodes, rows: usize) -> Vec<u32> {
             [force, along, between].iter().flat_map(|row| row[..3].iter().map(|value| value.to_bits())),
         );
     }
-    for (node, neighbors, tets) in nodes.stars.each() {
+    words.resize(rows * (STAR_WORDS + if has_touch { TOUCH_WORDS } else { 0 }), 0);
+    for (node, neighbors, weights) in nodes.stars.each() {
         let first = node as usize * STAR_WORDS;
         words[first..first + NEIGHBORS].copy_from_slice(&neighbors);
         let wetness = nodes.wetting.get(node as usize).map_or(0.0, |row| row[0]);
-        let own = [tets, nodes.sponge[node as usize], wetness.to_bits()];
-        words[first + NEIGHBORS..][..3].copy_from_slice(&own);
+        let tets = (0..TETS).map(|tet| u32::from(weights[tet] > 0.0) << tet).sum();
+        let table = if is_weighted(&weights) { words.len() as u32 } else { 0 };
+        let own = [tets, nodes.sponge[node as usize], wetness.to_bits(), table];
+        words[first + NEIGHBORS..][..4].copy_from_slice(&own);
+        if table != 0 {
+            words.extend(weights.map(f32::to_bits));
+        }
     }
     words
 }

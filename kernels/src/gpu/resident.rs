@@ -9,8 +9,7 @@ use super::{
     device::Gpu,
     error::GpuError,
     pack::{
-        self, BATCH_STRIDE, BATCHES, BODY_BYTES, Capacities, Grid, RANGES, SPONGE_BYTES, SPONGES, STAR_WORDS,
-        StepLimits, TOUCH_WORDS,
+        self, BATCH_STRIDE, BATCHES, BODY_BYTES, Capacities, Grid, RANGES, SPONGE_BYTES, SPONGES, StepLimits,
     },
     program::{FEW_ROWS, GROUP, SMALL_GROUP},
     sums::{SUM_BYTES, sum_groups},
@@ -162,6 +161,7 @@ impl Resident {
         let tense = if self.params.fluid.cohesion.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let touching = if self.params.has_touch() { nodes } else { 0 };
+        let stars = pack::star_words(&columns.nodes, self.rows.nodes, self.params.has_touch());
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
         let pair_cells = cells(&self.grids[2], touching);
         let sponges = self.params.sponges.len() as u64;
@@ -225,7 +225,7 @@ impl Resident {
             ("node_reaction", nodes * 16, plain),
             ("node_pores", nodes * 16, plain),
             ("node_wetting", wetted * 16, plain),
-            ("node_stars", (nodes * STAR_WORDS as u64 + touching * TOUCH_WORDS as u64) * 4, plain),
+            ("node_stars", stars as u64 * 4, plain),
             ("node_rest", touching * 16, plain),
             ("node_normal", touching * 16, plain),
             ("node_pairs", list(touching, self.capacities[3]), plain),
@@ -249,6 +249,7 @@ impl Resident {
             ("node_saturation", nodes * 4, plain),
             ("tets", tets as u64 * 16, plain),
             ("tet_sponge", tets as u64 * 4, plain),
+            ("tet_weight", tets as u64 * 4, plain),
             ("control_node", controls * 4, plain),
             ("control_position", controls * 16, plain),
             ("control_velocity", controls * 16, plain),
@@ -305,6 +306,7 @@ impl Resident {
         self.write("batch", &pack::batch_bytes(&self.batches));
         self.write("tets", bytemuck::cast_slice(&nodes.topology.tets));
         self.write("tet_sponge", bytemuck::cast_slice(tet_sponge));
+        self.write("tet_weight", bytemuck::cast_slice(&nodes.topology.weights));
         let trait_of = |values: &[f32], node: usize| values.get(node).copied().unwrap_or(0.0).to_bits();
         let traits: Vec<[u32; 4]> = (0..self.rows.nodes)
             .map(|node| {
@@ -313,7 +315,8 @@ impl Resident {
             })
             .collect();
         self.write("node_traits", bytemuck::cast_slice(&traits));
-        self.write("node_stars", bytemuck::cast_slice(&pack::stars(nodes, self.rows.nodes)));
+        let stars = pack::stars(nodes, self.rows.nodes, self.params.has_touch());
+        self.write("node_stars", bytemuck::cast_slice(&stars));
         self.fill_ranges(columns);
         self.fill_params();
     }

@@ -203,7 +203,7 @@ impl Resident {
                 let rows = columns_rows(self, *column);
                 self.write(name, data.bytes(rows));
                 if is_beside_stars(*column) && rows > 0 {
-                    let stars = pack::stars(&columns.nodes, self.rows.nodes);
+                    let stars = pack::stars(&columns.nodes, self.rows.nodes, self.params.has_touch());
                     self.write("node_stars", bytemuck::cast_slice(&stars));
                     self.fill_ranges(columns);
                 }

@@ -34,12 +34,16 @@ fn descends(params: &Params, nodes: &Nodes, node: usize) -> bool {
     params.sponges[nodes.sponge[node] as usize].solver == Solver::Vbd
 }
 
-/// Tets of every node, with its slot in them.
-fn incidence(nodes: &Nodes) -> Vec<Vec<([usize; 4], usize)>> {
+/// A tet of a node: its nodes, the slot of that node, and the volume that it stands for over its own.
+type Incident = ([usize; 4], usize, f64);
+
+/// Tets of every node.
+fn incidence(nodes: &Nodes) -> Vec<Vec<Incident>> {
     let mut incidence = vec![Vec::new(); nodes.position.len()];
-    for tet in &nodes.topology.tets {
+    for (tet, weight) in nodes.topology.tets.iter().zip(&nodes.topology.weights) {
         for slot in 0..4 {
-            incidence[tet[slot] as usize].push((tet.map(|node| node as usize), slot));
+            let own = (tet.map(|node| node as usize), slot, f64::from(*weight));
+            incidence[tet[slot] as usize].push(own);
         }
     }
     incidence
@@ -60,16 +64,16 @@ fn local(
     (nodes, node): (&Nodes, usize),
     places: &[DVec3],
     before: &[DVec3],
-    tets: &[([usize; 4], usize)],
+    tets: &[Incident],
 ) -> (DVec3, DMat3) {
     let sponge = &params.sponges[nodes.sponge[node] as usize];
     let rate = f64::from(sponge.damping) / f64::from(params.step);
     let (mut force, mut stiffness) = (DVec3::ZERO, DMat3::ZERO);
-    for (tet, slot) in tets {
+    for (tet, slot, weight) in tets {
         let (size, softer) = wetting::of_tet(sponge, nodes, *tet);
         let edge = f64::from(sponge.edge) * size;
         let [mu, lambda] = [sponge.mu, sponge.lambda].map(|constant| f64::from(constant) * softer);
-        let volume = edge.powi(3) / 12.0;
+        let volume = weight * edge.powi(3) / 12.0;
         let n = SHAPE[*slot].map(|shape| shape / edge);
         let f = columns_of(places, *tet, edge);
         let cofactor = [f[1].cross(f[2]), f[2].cross(f[0]), f[0].cross(f[1])];
@@ -105,7 +109,7 @@ fn least(
     nodes: &Nodes,
     node: usize,
     (places, before): (&[DVec3], &[DVec3]),
-    tets: &[([usize; 4], usize)],
+    tets: &[Incident],
 ) -> (DVec3, DMat3) {
     let (force, stiffness) = local(params, (nodes, node), places, before, tets);
     let h = f64::from(params.step);
@@ -194,7 +198,7 @@ fn relaxation(
     params: &Params,
     (nodes, node): (&Nodes, usize),
     places: &[DVec3],
-    tets: &[([usize; 4], usize)],
+    tets: &[Incident],
     way: DVec3,
 ) -> f64 {
     let sponge = &params.sponges[nodes.sponge[node] as usize];
@@ -203,7 +207,7 @@ fn relaxation(
     if sponge.iterations < 2 || touches {
         return 1.0;
     }
-    let volume = |(tet, _): &([usize; 4], usize)| {
+    let volume = |(tet, ..): &Incident| {
         let (size, _) = wetting::of_tet(sponge, nodes, *tet);
         let f = columns_of(places, *tet, f64::from(sponge.edge) * size);
         f[0].dot(f[1].cross(f[2]))

@@ -62,12 +62,14 @@ fn sweep(
         if sponge.solver != solver {
             continue;
         }
-        for tet in &nodes.topology.tets[chunk.tets.start as usize..chunk.tets.end as usize] {
+        let own = chunk.tets.start as usize..chunk.tets.end as usize;
+        for (tet, weight) in nodes.topology.tets[own.clone()].iter().zip(&nodes.topology.weights[own]) {
             let tet = tet.map(|node| node as usize);
             let mut state = Tet {
                 p: tet.map(|node| predicted[node]),
                 old: tet.map(|node| vector(nodes.position[node])),
                 w: tet.map(|node| f64::from(nodes.predicted[node][3])),
+                weight: f64::from(*weight),
             };
             solve(&mut state, sponge, f64::from(params.step));
             (0..4).for_each(|vertex| predicted[tet[vertex]] = state.p[vertex]);
@@ -82,6 +84,8 @@ struct Tet {
     p: [DVec3; 4],
     old: [DVec3; 4],
     w: [f64; 4],
+    /// Volume that it stands for, over its own; strain constraints know the tets alone.
+    weight: f64,
 }
 
 impl Tet {
@@ -114,7 +118,7 @@ impl Tet {
     /// Both constraints at once.
     fn solve_neo_hookean(&mut self, sponge: &SpongeParams, h: f64) {
         let [edge, mu, lambda, tau] = [sponge.edge, sponge.mu, sponge.lambda, sponge.damping].map(f64::from);
-        let (f, volume) = (self.columns(edge), edge.powi(3) / 12.0);
+        let (f, volume) = (self.columns(edge), self.weight * edge.powi(3) / 12.0);
         let norm = f.iter().map(|f| f.length_squared()).sum::<f64>().sqrt();
         let (ratio, by_ratio) = self.volume(edge);
         let values = [norm, ratio - 1.0 - mu / lambda];

@@ -89,21 +89,22 @@ pub(super) fn node_velocity(params: &Params, columns: &mut Columns) {
 pub(super) fn pores(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let mut volumes = vec![(0.0, 0.0); nodes.position.len()];
-    for tet in &nodes.topology.tets {
+    for (tet, weight) in nodes.topology.tets.iter().zip(&nodes.topology.weights) {
+        let weight = f64::from(*weight);
         let [a, b, c, d] = tet.map(|node| vector(nodes.position[node as usize]));
         let volume = (b - a).cross(c - a).dot(d - a) / 6.0;
         for node in tet {
-            volumes[*node as usize].0 += volume;
-            volumes[*node as usize].1 += 1.0;
+            volumes[*node as usize].0 += weight * volume;
+            volumes[*node as usize].1 += weight;
         }
     }
     nodes.pores = vec![[0.0; 4]; nodes.position.len()];
-    for (node, (volume, count)) in volumes.into_iter().enumerate().take(columns.rows.nodes) {
+    for (node, (volume, weights)) in volumes.into_iter().enumerate().take(columns.rows.nodes) {
         let sponge = &params.sponges[nodes.sponge[node] as usize];
         let porosity = f64::from(sponge.porosity);
         let rest = f64::from(sponge.edge).powi(3) / 12.0;
         let least = (1.0 - porosity) / (1.0 - porosity.min(0.15));
-        let ratio = if sponge.pores_close { (volume / count / rest).clamp(least, 10.0) } else { 1.0 };
+        let ratio = if sponge.pores_close { (volume / weights / rest).clamp(least, 10.0) } else { 1.0 };
         let now = 1.0 - (1.0 - porosity) / ratio;
         // K / K_0.
         let permeability = (now / porosity).powi(3) * ((1.0 - porosity) / (1.0 - now)).powi(2);

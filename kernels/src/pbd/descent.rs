@@ -18,13 +18,14 @@
 //! down to there: a sponge that is squeezed does not get narrower. The energies without a logarithm \[SGK18, MM21\] draw a sponge that is pressed to
 //! half its thickness together to half its width, and one that is pressed further into a single point.
 //!
-//! J is linear in the place x of one node and |F|^2 quadratic, so the energy is convex in x. With the corners of the star
-//! `p_k` in `c_k` tets each, and per tet the partner u and the consecutive corners r and q of its ring:
+//! J is linear in the place x of one node and |F|^2 quadratic, so the energy is convex in x. A tet counts with the volume that it
+//! stands for: w times its own, where w is 1 inside and more where the faces of a sponge are pits. With the corners of the star
+//! `p_k`, which lie in tets of weight `c_k` together, and per tet the partner u and the consecutive corners r and q of its ring:
 //!
 //! ```text
 //! G = 2 (q - u) x (r - u) / a^2,   J = (u - x) . G / a
-//! -dE/dx = a mu / 12 sum_k c_k (p_k - x) + a^2 / 12 sum_tets p G
-//! H      = a mu / 12 sum_k c_k 1         + a   / 12 sum_tets k G G^T
+//! -dE/dx = a mu / 12 sum_k c_k (p_k - x) + a^2 / 12 sum_tets w p G
+//! H      = a mu / 12 sum_k c_k 1         + a   / 12 sum_tets w k G G^T
 //! ```
 //!
 //! Where material becomes wet, its tets are not all alike: `wetted.rs`.

@@ -23,6 +23,8 @@ pub struct TetChunk {
 pub struct Topology {
     /// Nodes of every tet, ordered by colour.
     pub tets: Vec<[u32; 4]>,
+    /// Volume that every tet stands for, over its own \[1\]: above 1 where the faces of a sponge are pits.
+    pub weights: Vec<f32>,
     /// Where the vertex colours begin: each tet has one node of each.
     pub vertex_color_start: [u32; 5],
     /// Vertex colour of every slot of the tets of a colour.
@@ -34,8 +36,10 @@ pub struct Topology {
 impl ColumnData for Topology {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
         self.tets.iter().flatten().for_each(|node| visit(*node));
+        self.weights.iter().for_each(|weight| visit(weight.to_bits()));
     }
     fn poison(&mut self) {
         self.tets.fill([u32::MAX; 4]);
+        self.weights.fill(f32::NAN);
     }
 }

@@ -55,9 +55,9 @@ pub struct StarGroup {
     pub(crate) own: [u32; LANES],
     /// Neighbours, first the corners, then the directions; the node itself where there is none.
     pub(crate) neighbors: [[u32; LANES]; NEIGHBORS],
-    /// 1 for tets that exist, else 0.
+    /// [Weights](Topology::weights) of the tets, 0 for those that do not exist.
     pub(crate) tets: [[f32; LANES]; TETS],
-    /// Number of tets that have a corner.
+    /// Sum of the weights of the tets that have a corner.
     pub(crate) shares: [[f32; LANES]; CORNERS],
 }
 
@@ -107,7 +107,7 @@ impl Default for StarShape {
 #[derive(Clone, Copy)]
 struct Star {
     neighbors: [u32; NEIGHBORS],
-    tets: u32,
+    weights: [f32; TETS],
 }
 
 impl Stars {
@@ -116,8 +116,8 @@ impl Stars {
     pub fn new(topology: &Topology, rest: &[[f32; 4]], sponge: &[u32]) -> Self {
         let starts = topology.vertex_color_start;
         let mut stars: Vec<Star> =
-            (0..starts[4]).map(|node| Star { neighbors: [node; NEIGHBORS], tets: 0 }).collect();
-        for tet in &topology.tets {
+            (0..starts[4]).map(|node| Star { neighbors: [node; NEIGHBORS], weights: [0.0; TETS] }).collect();
+        for (tet, weight) in topology.tets.iter().zip(&topology.weights) {
             for roles in ROLES {
                 let [node, partner, q, r] = roles.map(|slot| tet[slot]);
                 let side = |other: u32, axis: usize| {
@@ -136,7 +136,7 @@ impl Stars {
                 star.neighbors[CORNERS + direction] = partner;
                 let place = RINGS[direction].iter().position(|corner_of| *corner_of == corner(r));
                 debug_assert_eq!(place.map(|k| RINGS[direction][(k + 1) % 4]), Some(corner(q)));
-                star.tets |= 1 << (4 * direction + place.unwrap_or(0));
+                star.weights[4 * direction + place.unwrap_or(0)] = *weight;
             }
         }
         let mut all = Self { color_start: starts, ..Self::default() };
@@ -174,13 +174,12 @@ impl Stars {
         &self.groups[self.group_start[color] as usize + first / LANES..]
     }
 
-    /// Every node with its neighbours and its tets, in the order of the rows.
-    pub(crate) fn each(&self) -> impl Iterator<Item = (u32, [u32; NEIGHBORS], u32)> {
+    /// Every node with its neighbours and the weights of its tets, in the order of the rows.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (u32, [u32; NEIGHBORS], [f32; TETS])> {
         self.groups.iter().flat_map(|group| {
             let lanes = (0..LANES).filter(|lane| *lane == 0 || group.own[*lane] != group.own[lane - 1]);
             lanes.map(|lane| {
-                let bit = |tet: usize| u32::from(group.tets[tet][lane] > 0.0) << tet;
-                (group.own[lane], group.neighbors.map(|rows| rows[lane]), (0..TETS).map(bit).sum())
+                (group.own[lane], group.neighbors.map(|rows| rows[lane]), group.tets.map(|row| row[lane]))
             })
         })
     }
@@ -191,24 +190,24 @@ fn group(own: [u32; LANES], stars: &[Star]) -> StarGroup {
     let share = |corner: usize, lane: usize| {
         let has = |tet: &usize| {
             let ring = RINGS[tet / 4];
-            star(lane).tets >> tet & 1 == 1 && (ring[tet % 4] == corner || ring[(tet + 1) % 4] == corner)
+            ring[tet % 4] == corner || ring[(tet + 1) % 4] == corner
         };
-        (0..TETS).filter(has).count() as f32
+        (0..TETS).filter(has).map(|tet| star(lane).weights[tet]).sum()
     };
     StarGroup {
         own,
         neighbors: std::array::from_fn(|k| std::array::from_fn(|lane| star(lane).neighbors[k])),
-        tets: std::array::from_fn(|tet| std::array::from_fn(|lane| (star(lane).tets >> tet & 1) as f32)),
+        tets: std::array::from_fn(|tet| std::array::from_fn(|lane| star(lane).weights[tet])),
         shares: std::array::from_fn(|corner| std::array::from_fn(|lane| share(corner, lane))),
     }
 }
 
 impl ColumnData for Stars {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
-        for (node, neighbors, tets) in self.each() {
+        for (node, neighbors, weights) in self.each() {
             visit(node);
             neighbors.into_iter().for_each(&mut *visit);
-            visit(tets);
+            weights.into_iter().for_each(|weight| visit(weight.to_bits()));
         }
     }
     fn poison(&mut self) {

@@ -18,6 +18,8 @@
 //! and last, with hardly any compliance, that the volume is at least a tenth of that at rest: an inverted tet satisfies
 //! the stretch and shear constraints, and would stay inverted.
 //!
+//! V is the volume of the tet: what it stands for beyond that where the faces of a sponge are pits adds to the masses alone.
+//!
 //! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\] instead of a stiffness
 //! between 0 and 1 (compliance of \[MMC16\]), so that the sponge does not stiffen when the step shrinks.
 

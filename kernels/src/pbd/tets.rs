@@ -20,6 +20,8 @@ pub(super) struct TetLanes<S: Simd> {
     pub(super) old: [Vec3x8<S>; 4],
     /// Inverse masses.
     pub(super) w: [f32x8<S>; 4],
+    /// Volumes that they stand for, over their own.
+    pub(super) weight: f32x8<S>,
 }
 
 impl<S: Simd> TetLanes<S> {
@@ -51,6 +53,7 @@ pub(super) fn sweep<L: Law>(cpu: &Cpu, params: &Params, nodes: &mut Nodes) {
         let task = Task {
             params,
             tets: &topology.tets,
+            weights: &topology.weights,
             slots: topology.slot_vertex_color[color].map(usize::from),
             position,
             law: std::marker::PhantomData::<L>,
@@ -88,6 +91,7 @@ impl NodeSlices<'_> {
 struct Task<'a, L> {
     params: &'a Params,
     tets: &'a [[u32; 4]],
+    weights: &'a [f32],
     /// Vertex colour of every slot.
     slots: [usize; 4],
     position: &'a [[f32; 4]],
@@ -134,10 +138,12 @@ impl<L: Law> Task<'_, L> {
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "the slot is an index into several arrays")]
     fn chunk<S: Simd>(&self, simd: S, sponge: &SpongeParams, chunk: &TetChunk, nodes: &mut NodeSlices<'_>) {
-        let tets = &self.tets[chunk.tets.start as usize..chunk.tets.end as usize];
-        for tets in tets.chunks(LANES) {
+        let own = chunk.tets.start as usize..chunk.tets.end as usize;
+        let (tets, weights) = (&self.tets[own.clone()], &self.weights[own]);
+        for (tets, weights) in tets.chunks(LANES).zip(weights.chunks(LANES)) {
             // A short last group repeats its last tet, and stores it once.
             let tet = |lane: usize| &tets[lane.min(tets.len() - 1)];
+            let weight: [f32; LANES] = std::array::from_fn(|lane| weights[lane.min(weights.len() - 1)]);
             let row = |slot: usize| std::array::from_fn(|lane| tet(lane)[slot]);
             let rows: [[u32; LANES]; 4] = [row(0), row(1), row(2), row(3)];
             let (p0, w0) = self.gather(simd, nodes, &rows, 0);
@@ -148,8 +154,12 @@ impl<L: Law> Task<'_, L> {
                 let [x, y, z, _] = lanes::gather_rows(simd, self.position, &rows[slot]);
                 [x, y, z]
             };
-            let mut state =
-                TetLanes { p: [p0, p1, p2, p3], old: [old(0), old(1), old(2), old(3)], w: [w0, w1, w2, w3] };
+            let mut state = TetLanes {
+                p: [p0, p1, p2, p3],
+                old: [old(0), old(1), old(2), old(3)],
+                w: [w0, w1, w2, w3],
+                weight: lanes::load_array(simd, &weight),
+            };
             L::solve(simd, sponge, self.params.step, &mut state);
             for slot in 0..4 {
                 let [x, y, z] = state.p[slot];

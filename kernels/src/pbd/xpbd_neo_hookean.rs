@@ -7,7 +7,7 @@
 //! ((1 + tau / h) G W G^T + diag(a_D, a_H) / h^2) l = -(C + tau / h G (p - x)),   p += W G^T l
 //! ```
 //!
-//! G holds the gradients of both. Both are far from zero at rest, with forces that cancel, so they must be solved together; and
+//! V is the volume that the tet stands for. G holds the gradients of both. Both are far from zero at rest, with forces that cancel, so they must be solved together; and
 //! the multipliers begin at zero, so that more than one sweep a step does not converge to the material: steps must be short
 //! instead.
 //!
@@ -54,7 +54,10 @@ impl Law for NeoHookean {
         let splat = |value: f32| lanes::splat(simd, value);
         let scale = splat(1.0 / sponge.edge);
         let volume = sponge.edge * sponge.edge * sponge.edge / 12.0;
-        let [soft_norm, soft_ratio] = [sponge.mu, sponge.lambda].map(|m| 1.0 / (m * volume * step * step));
+        let own = volume * step * step;
+        let own = lanes::splat(simd, own) * tet.weight;
+        let soft_norm = one / (splat(sponge.mu) * own);
+        let soft_ratio = one / (splat(sponge.lambda) * own);
         let damping = splat(sponge.damping / step);
         let f = tet.columns(scale);
         let area = [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])];

@@ -128,7 +128,7 @@ fn a_sweep_never_raises_the_energy() {
             (y[node] - vector(nodes.target[node])).length_squared()
                 / (2.0 * h * h * f64::from(nodes.predicted[node][3]))
         };
-        let elastic = |tet: &[u32; 4]| {
+        let elastic = |(tet, weight): (&[u32; 4], &f32)| {
             let sponge = nodes.sponge[tet[0] as usize] as usize;
             let (edge, params) = (EDGES[sponge], &scene.params.sponges[sponge]);
             let (mu, lambda) = (f64::from(params.mu), f64::from(params.lambda));
@@ -139,10 +139,11 @@ fn a_sweep_never_raises_the_energy() {
             let least = ratio.max(0.2);
             let beyond = ratio / least - 1.0;
             let logarithm = least.ln() + beyond - 0.5 * beyond * beyond;
-            edge.powi(3) / 24.0
+            f64::from(*weight) * edge.powi(3) / 24.0
                 * (mu * (square - 3.0 - 2.0 * logarithm) + (lambda - mu) * (ratio - 1.0).powi(2))
         };
-        (0..count).map(inertia).sum::<f64>() + nodes.topology.tets.iter().map(elastic).sum::<f64>()
+        let tets = nodes.topology.tets.iter().zip(&nodes.topology.weights);
+        (0..count).map(inertia).sum::<f64>() + tets.map(elastic).sum::<f64>()
     };
     let mut last = energy(&scene);
     let first = last;

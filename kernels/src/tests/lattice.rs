@@ -75,7 +75,16 @@ impl Lattice {
                 lattice.add_tets(tet_color, sponge, block, &node_of[sponge], target);
             }
         }
+        lattice.weigh();
         lattice
+    }
+
+    /// Tets at a surface stand for more than their own volume, no two kinds of them alike.
+    fn weigh(&mut self) {
+        let at = &self.tets_at;
+        let missing = |tet: &[u32; 4]| tet.iter().map(|node| 24 - at[*node as usize]).sum::<u32>();
+        self.topology.weights =
+            self.topology.tets.iter().map(|tet| 1.0 + missing(tet) as f32 / 32.0).collect();
     }
 
     fn add_tets(

@@ -11,6 +11,7 @@ use crate::{
     grid::{cells::Domain, neighbors::ListValues},
     kernel::{KERNELS, Kernel, kernel},
     oracle::oracle,
+    pbd::stars::Stars,
 };
 
 /// Largest error of any column over the scale of its changes.
@@ -247,6 +248,40 @@ fn a_small_fault_in_any_column_that_a_kernel_reads_is_noticed() {
             let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
             assert!(worst > bound(kernel), "{} does not notice {}: {worst:.1e}", kernel.name, column.name());
         }
+    }
+}
+
+/// Kernels that know what tets stand for.
+pub(super) const WEIGHED: &[&str] = &["pbd::vbd", "pbd::reaction", "pbd::xpbd_neo_hookean", "couple::pores"];
+
+/// The scene with tets that stand for their own volume only.
+pub(super) fn without_weights(scene: &Scene) -> Scene {
+    let mut plain = scene.clone();
+    let nodes = &mut plain.columns.nodes;
+    assert!(nodes.topology.weights.iter().any(|weight| *weight > 1.1), "nothing to forget");
+    nodes.topology.weights.fill(1.0);
+    // The places that tell where neighbours are, from those at rest.
+    nodes.stars = Stars::new(&nodes.topology, &nodes.rest, &nodes.sponge);
+    plain
+}
+
+#[test]
+fn weights_that_are_forgotten_on_one_side_are_noticed() {
+    for name in WEIGHED {
+        let kernel = kernel(name).expect("there is one");
+        let before = Scene::new(FULL.suiting(kernel)).before(name, &best());
+        let oracle = expected(kernel, &before);
+        let mut faulty = without_weights(&before);
+        faulty.run(&best(), &[name]);
+        let errors = errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
+        let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+        assert!(worst > 10.0 * bound(kernel), "{name} does not notice: {worst:.1e}");
+        // The control: forgotten on both sides, nothing is.
+        let plain = without_weights(&before);
+        let oracle = expected(kernel, &plain);
+        let errors =
+            super::compare::errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
+        assert!(errors.iter().all(|(_, error)| *error <= bound(kernel)), "{name}");
     }
 }
 

@@ -33,7 +33,7 @@ fn every_preset_can_be_refined_and_coarsened() {
         let count = scene.estimate().particles as f64;
         // A bar of 5 cells cannot become thinner than 2, so only validity is asked of the coarsest.
         for (resolution, slack) in
-            [(0.25, 1.0), (0.5, 0.4), (0.8, 0.2), (1.5, 0.25), (2.0, 0.15), (4.0, 0.25)]
+            [(0.25, 2.0), (0.5, 0.5), (0.8, 0.2), (1.5, 0.25), (2.0, 0.15), (4.0, 0.25)]
         {
             let scaled = scene.scaled(resolution).unwrap_or_else(|error| panic!("{error}"));
             let expected = count * f64::from(resolution).powi(3);

@@ -60,9 +60,11 @@ fn a_dyadic_edge_leaves_no_rounding() {
         assert_eq!(rest_error(corners, edge, color / 2), 0.0);
         assert_eq!(volume(corners), edge.powi(3) / 2.0 / 6.0);
     }
+    // Of the nodes that have no pits: those on the faces and below them have more.
     let exact = |node: usize| f64::from(cube.node_tet_count[node]) * edge.powi(3) / 48.0;
     for node in 0..cube.node_count() {
-        assert!((f64::from(cube.node_volume[node]) / exact(node) - 1.0).abs() < 1e-7);
+        let ratio = f64::from(cube.node_volume[node]) / exact(node);
+        assert!(if cube.node_tet_count[node] == 24 { (ratio - 1.0).abs() < 1e-7 } else { ratio > 1.01 });
         assert_eq!(cube.position[node][3], 0.0);
     }
 }
@@ -161,7 +163,10 @@ fn the_surface_is_closed_and_outward() {
                 assert_eq!(most, 2, "a block has two triangles at each edge");
             }
             let volume = enclosed(built, triangles);
-            assert!((volume / summary.rest_volume - 1.0).abs() < 1e-5, "sponge {index} encloses {volume}");
+            let tets = f64::from(summary.tet_count) * f64::from(summary.edge).powi(3) / 12.0;
+            assert!((volume / tets - 1.0).abs() < 1e-5, "sponge {index} encloses {volume}");
+            // An ellipsoid touches the faces of its box in a few squares.
+            assert!(index == 0 && built.sponges.len() > 1 || tets < 0.95 * summary.rest_volume);
 
             assert!(open_edges(&triangles[1..]).0 > 0, "the control has a hole");
             let mut turned = triangles.to_vec();

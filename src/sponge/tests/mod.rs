@@ -6,6 +6,7 @@ mod errors;
 mod geometry;
 mod layout;
 mod masks;
+mod pits;
 
 use glam::{DVec3, Vec3};
 

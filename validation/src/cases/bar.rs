@@ -36,11 +36,6 @@ impl Bar {
         self.cells.as_dvec3() * EDGE
     }
 
-    /// Side of the square that the tets fill: the pits of the faces are a sixth of an edge deep on average \[m\].
-    pub(super) fn side(&self) -> f64 {
-        self.size().y - EDGE / 3.0
-    }
-
     /// The scene, with a grip that holds the nodes of the left end.
     pub(super) fn scene(&self, name: &str, setting: &Setting) -> Result<Scene, Failure> {
         let sponge = Sponge { edge: EDGE as f32, cells: self.cells, ..Sponge::new("bar", Vec3::ZERO) };

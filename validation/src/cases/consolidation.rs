@@ -34,7 +34,7 @@ const MATERIAL: Material = Material { young: 2e4, poisson: 0.2, density: (1.0 - 
 const POROSITY: f64 = 0.9;
 const GRAVITY: f64 = 9.81;
 const WATER: f64 = 1000.0;
-/// Time in which water fills the pits at the walls \[s\].
+/// Time in which the water comes to rest \[s\].
 const FILLS: f64 = 4.0;
 /// Strain in the end, and the share of the duration over which the top moves.
 const STRAIN: f64 = 0.04;
@@ -62,8 +62,7 @@ impl Vessel {
         let edge = EDGE * f64::from(CELLS.0) / f64::from(across);
         let along = across * CELLS.1 / CELLS.0;
         let still = Layer {
-            // The pits of the ends are a sixth of an edge deep on average.
-            height: (f64::from(along) - 1.0 / 3.0) * edge,
+            height: f64::from(along) * edge,
             modulus: MATERIAL.confined(),
             permeability,
             viscosity: 1e-3,

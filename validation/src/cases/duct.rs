@@ -51,12 +51,7 @@ impl Duct {
         Self { edge, spacing: 0.5 * edge, width, cells }
     }
 
-    /// Length of the sponge that the tets fill: the pits of its ends are a sixth of an edge deep on average \[m\].
-    pub(super) fn length(&self) -> f64 {
-        (f64::from(self.cells) - 1.0 / 3.0) * self.edge
-    }
-
-    /// Highest point of the sponge, whose lowest is 0 \[m\].
+    /// Length of the sponge, and its highest point: the lowest is 0 \[m\].
     pub(super) fn top(&self) -> f64 {
         f64::from(self.cells) * self.edge
     }

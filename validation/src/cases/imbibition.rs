@@ -55,13 +55,11 @@ fn washburn(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         let ends = (-RESERVOIR, duct.top() + duct.edge);
         let scene = duct.scene(setting, &given, -PUSH, ends, &[(-RESERVOIR, 0.0)])?;
         let mut world = setting.world(&scene)?;
-        // The pits of the lower end do not count.
-        let (start, way) = (duct.edge / 6.0, setting.pick(0.75, 0.55) * duct.length());
-        let seconds = driven.time(way);
+        let seconds = driven.time(setting.pick(0.75, 0.55) * duct.top());
         let mut curve = Vec::new();
         while world.clock().time < seconds {
             setting.advance(&mut world)?;
-            curve.push((world.clock().time, duct.surface(&world)? - start));
+            curve.push((world.clock().time, duct.surface(&world)?));
         }
         let reference: Vec<_> =
             (0..=400).map(|i| 1.2 * seconds * f64::from(i) / 400.0).map(|t| (t, driven.front(t))).collect();
@@ -110,7 +108,7 @@ fn bath(setting: &Setting) -> Result<Vec<Figure>, Failure> {
             setting.advance(&mut world)?;
             curve.push((world.clock().time, rise(&world, cells, edge)?));
         }
-        let side = (f64::from(cells.x) - 1.0 / 3.0) * edge;
+        let side = f64::from(cells.x) * edge;
         let outside = 4.0 * BATH_SIZE.0 * BATH_SIZE.0 - side * side;
         let reference = pores.bath(GRAVITY, pores.porosity * side * side / outside, seconds);
         // The part below the level starts dry as well.

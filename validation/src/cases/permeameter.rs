@@ -50,9 +50,9 @@ fn slow(setting: &Setting, duct: &Duct, permeability: f64) -> Result<f64, Failur
     let heads = heads(setting, duct, &pores, 0.0)?
         .into_iter()
         .filter(|point| (0.25 * HEAD..0.8 * HEAD).contains(&point.1));
-    let logarithms: Vec<_> = heads.map(|(time, head)| (time, libm::log(head + duct.length()))).collect();
+    let logarithms: Vec<_> = heads.map(|(time, head)| (time, libm::log(head + duct.top()))).collect();
     enough(&logarithms, permeability)?;
-    Ok(pores.from_falling_head(GRAVITY, duct.length(), -line(&logarithms).0))
+    Ok(pores.from_falling_head(GRAVITY, duct.top(), -line(&logarithms).0))
 }
 
 /// Drag over speed of fast water, at some heads.
@@ -60,7 +60,7 @@ fn fast(setting: &Setting, duct: &Duct) -> Result<Vec<Figure>, Failure> {
     let (permeability, coefficient) = FAST;
     let forchheimer = Forchheimer { pores: pores(permeability, 0.0), coefficient };
     let heads = heads(setting, duct, &forchheimer.pores, coefficient)?;
-    let length = duct.length();
+    let length = duct.top();
     let figure = |share: &f64| {
         let near = |point: &&(f64, f64)| (point.1 / HEAD - share).abs() < AROUND;
         let around: Vec<_> = heads.iter().filter(near).copied().collect();
@@ -97,9 +97,8 @@ fn heads(
     scene.time.frame_rate = 200.0;
     let mut world = setting.world(&scene)?;
     // Three times as long as without drag of fast water, or with at the mean head.
-    let flow =
-        Forchheimer { pores: *pores, coefficient: forchheimer }.flow(GRAVITY, duct.length(), 0.5 * HEAD);
-    let limit = 3.0 * (HEAD + duct.length()) / flow;
+    let flow = Forchheimer { pores: *pores, coefficient: forchheimer }.flow(GRAVITY, duct.top(), 0.5 * HEAD);
+    let limit = 3.0 * (HEAD + duct.top()) / flow;
     let particle = duct.spacing.powi(3) / duct.area();
     let mut points = Vec::new();
     while world.clock().time < limit {

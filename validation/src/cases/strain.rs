@@ -80,11 +80,11 @@ fn run(setting: &Setting, kind: Kind) -> Result<Vec<Figure>, Failure> {
     };
     let (model, reference, figure) = against_elements(&world, setting, &FOAM, &measured, hold)?;
     let load = |model: &Model, positions: &[DVec3]| load(&bar, &world, model, positions, kind);
-    let area = bar.side().powi(2);
+    let area = size.y.powi(2);
     let (what, unit, continuum) = match kind {
         Kind::Uniaxial => ("force", "N", FOAM.young * area * STRAIN),
         Kind::Confined => ("force", "N", FOAM.confined() * area * STRAIN),
-        Kind::Torsion => ("torque", "N m", torque(&FOAM, bar.side(), TURN / size.x)),
+        Kind::Torsion => ("torque", "N m", torque(&FOAM, size.y, TURN / size.x)),
     };
     // The load on the grip by the material that the simulator was given.
     let given = model.with_energy(Energy::of(&material, &setting.solvers));

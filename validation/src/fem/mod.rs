@@ -35,7 +35,7 @@ pub struct Model {
     pub held: Vec<[bool; 3]>,
     /// Gradients of the shape functions of every tet at rest \[1/m\].
     shapes: Vec<[DVec3; 4]>,
-    /// Volumes of the tets at rest \[m^3\].
+    /// Volumes that the tets stand for at rest \[m^3\].
     volumes: Vec<f64>,
 }
 
@@ -58,7 +58,14 @@ impl Model {
             .collect();
         let held = world.node_positions().iter().map(|row| [row[3] == 0.0; 3]).collect();
         let gravity = world.scene().gravity.as_dvec3();
-        Self::new(rest, tets, mass, energy, gravity, held)
+        let mut model = Self::new(rest, tets, mass, energy, gravity, held);
+        // The constraints of strain based dynamics know the tets alone.
+        if !matches!(energy, Energy::Strain { .. }) {
+            for (volume, weight) in model.volumes.iter_mut().zip(&lattice.tet_weight) {
+                *volume *= f64::from(*weight);
+            }
+        }
+        model
     }
 
     fn new(

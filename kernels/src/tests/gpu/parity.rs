@@ -203,6 +203,20 @@ fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
     }
 }
 
+/// The control of what tets stand for: a twin that does not know differs from the CPU.
+#[test]
+fn a_twin_that_forgets_weights_is_noticed() {
+    for name in oracles::WEIGHED {
+        let kernel = kernel(name).expect("there is one");
+        let before = Scene::new(FULL.suiting(kernel)).before(name, &best());
+        let expected = on_cpu(kernel, &before);
+        let found = after_on(gpu(), kernel, &oracles::without_weights(&before));
+        let errors = gpu_errors(kernel, &before, &found, &expected);
+        let is_noticed = errors.iter().any(|(_, error)| *error > 10.0 * bound(kernel));
+        assert!(is_noticed, "{name} does not notice: {errors:?}");
+    }
+}
+
 /// The control of what repeats: a twin that does not know differs from the CPU.
 #[test]
 fn a_twin_that_does_not_look_across_is_noticed() {
