@@ -79,9 +79,12 @@ fn changed(text: &str, changes: &[Change]) -> String {
 fn vague(error: &SceneError) -> Option<String> {
     match error {
         SceneError::Syntax { line, message, .. } if *line >= 1 && !message.is_empty() => None,
-        // `scene` is the key of what only serde has noticed, which names none.
+        // `scene` is the key of what only serde has noticed, which names none; but of a file that holds no table it is the place.
         SceneError::Invalid { problems, .. } if !problems.is_empty() => {
-            let nameless = |problem: &&scene::Problem| problem.key.is_empty() || problem.key == "scene";
+            let is_whole = |problem: &scene::Problem| problem.to_string().ends_with("expected a table");
+            let nameless = |problem: &&scene::Problem| {
+                problem.key.is_empty() || problem.key == "scene" && !is_whole(problem)
+            };
             problems.iter().find(nameless).map(ToString::to_string)
         }
         other => Some(other.to_string()),
@@ -208,6 +211,8 @@ fn overrides_at_random_are_taken_or_refused() {
 fn an_error_without_a_place_is_told() {
     let place = Scene::from_toml("version = ", "bad").expect_err("no value");
     assert_eq!(vague(&place), None);
+    let whole = Scene::from_json("0", "bad").expect_err("no table");
+    assert_eq!(vague(&whole), None);
     assert!(vague(&SceneError::Write { message: "no".to_owned() }).is_some());
     let text = &texts()[0];
     assert!((0..5).all(|how| changed(text, &[(0.5, how, 2)]) != *text));
