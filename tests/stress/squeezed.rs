@@ -13,7 +13,7 @@ use crate::{
 
 /// Since the tets at the faces stand for the pits as well.
 const TANGLED: &[(Check, &str)] = &[
-    (Check::Speed, "not known yet: from a 64th of its volume on a tet of the dry sponge ends tangled"),
+    (Check::Speed, "not known yet: let go from a 64th of its volume, the dry sponge ends at 0.86 of it"),
     (Check::Recovery, "the same"),
 ];
 
