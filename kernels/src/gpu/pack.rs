@@ -254,13 +254,15 @@ pub(super) const STAR_WORDS: usize = NEIGHBORS + 4;
 /// Words of what touches a node, behind the stars of all nodes for the same reason: force and stiffness.
 pub(super) const TOUCH_WORDS: usize = 9;
 
-/// Words of the weights of the tets of a node, behind all that. Most nodes have none.
-const WEIGHT_WORDS: usize = TETS;
+/// Words of every node; those of weights are behind all that, and most nodes have none.
+fn row_words(has_touch: bool) -> usize {
+    STAR_WORDS + if has_touch { TOUCH_WORDS } else { 0 }
+}
 
 /// Number of words of [`stars`].
 pub(super) fn star_words(nodes: &Nodes, rows: usize, has_touch: bool) -> usize {
     let weighted = nodes.stars.each().filter(|(_, _, weights)| is_weighted(weights)).count();
-    rows * (STAR_WORDS + if has_touch { TOUCH_WORDS } else { 0 }) + weighted * WEIGHT_WORDS
+    row_words(has_touch) * rows + weighted * TETS
 }
 
 /// Whether a tet stands for more or less than its own volume.
@@ -278,7 +280,7 @@ pub(super) fn stars(nodes: &Nodes, rows: usize, has_touch: bool) -> Vec<u32> {
             [force, along, between].iter().flat_map(|row| row[..3].iter().map(|value| value.to_bits())),
         );
     }
-    words.resize(rows * (STAR_WORDS + if has_touch { TOUCH_WORDS } else { 0 }), 0);
+    words.resize(row_words(has_touch) * rows, 0);
     for (node, neighbors, weights) in nodes.stars.each() {
         let first = node as usize * STAR_WORDS;
         words[first..first + NEIGHBORS].copy_from_slice(&neighbors);

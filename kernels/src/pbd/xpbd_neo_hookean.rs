@@ -54,8 +54,7 @@ impl Law for NeoHookean {
         let splat = |value: f32| lanes::splat(simd, value);
         let scale = splat(1.0 / sponge.edge);
         let volume = sponge.edge * sponge.edge * sponge.edge / 12.0;
-        let own = volume * step * step;
-        let own = lanes::splat(simd, own) * tet.weight;
+        let own = splat(volume * step * step) * tet.weight;
         let soft_norm = one / (splat(sponge.mu) * own);
         let soft_ratio = one / (splat(sponge.lambda) * own);
         let damping = splat(sponge.damping / step);
