@@ -149,6 +149,7 @@ pub static KERNELS: &[&Kernel] = &[
     &couple::drag_impulse::KERNEL,
     &couple::drag_target::KERNEL,
     &couple::drag_reaction::KERNEL,
+    &couple::drag_settled::KERNEL,
     &couple::drag_kick::KERNEL,
 ];
 

@@ -36,6 +36,7 @@ pub static SHADERS: &[Shader] = shaders! {
     couple::drag: smoothing drag;
     couple::drag_impulse: smoothing drag;
     couple::drag_reaction: smoothing control_group;
+    couple::drag_settled: ;
     couple::drag_target: smoothing control_group received;
     couple::exchange: smoothing control_group received;
     couple::exchange_fluid: ;
@@ -69,6 +70,7 @@ pub static SHADERS: &[Shader] = shaders! {
     pbd::guess: sponges;
     pbd::joining: ;
     pbd::momentum: sponges;
+    pbd::momentum_bodies: body surface sponges wrench;
     pbd::momentum_sums: sponges;
     pbd::normals: sponges star meeting;
     pbd::pairs: grid sponges star meeting;

@@ -173,7 +173,7 @@ pub static STEP: &[Phase] = &[
 
 /// How often the momenta of sponges are balanced: the drag answers to the rigid motion that a sponge is given, at places that lie
 /// around its nodes somehow.
-const BALANCES: u32 = 3;
+const BALANCES: u32 = 2;
 
 /// The step with sponges as porous media: pressure and suction first, then elasticity, drag and contact as one solve, so
 /// that the sponge bears what the water does to it, and drag does not weaken suction but not pressure (docs/porous.md).
@@ -233,6 +233,9 @@ pub static POROUS_STEP: &[Phase] = &[
             Run(&couple::drag_impulse::KERNEL),
         ],
     },
+    Run(&couple::drag_reaction::KERNEL),
+    Run(&couple::drag_settled::KERNEL),
+    Run(&pbd::momentum::KERNEL),
     Run(&couple::drag_kick::KERNEL),
     Run(&pbd::velocity::KERNEL),
     Run(&sph::sweep::KERNEL),

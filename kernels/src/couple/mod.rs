@@ -6,6 +6,7 @@ pub mod drag;
 pub mod drag_impulse;
 pub mod drag_kick;
 pub mod drag_reaction;
+pub mod drag_settled;
 pub mod drag_target;
 pub mod exchange;
 pub mod interior;

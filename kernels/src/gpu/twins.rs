@@ -313,7 +313,11 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
     ("pbd::reaction", &[pass("pbd::reaction", Rows::Nodes, NODES)]),
     (
         "pbd::momentum",
-        &[pass("pbd::momentum_sums", Rows::Sponges, NODES), pass("pbd::momentum", Rows::Nodes, NODES)],
+        &[
+            pass("pbd::momentum_sums", Rows::Sponges, NODES),
+            pass("pbd::momentum", Rows::Nodes, NODES),
+            pass("pbd::momentum_bodies", Rows::Nodes, NODES),
+        ],
     ),
     ("pbd::strain", &[pass("pbd::strain", Rows::Colors, NODES)]),
     ("pbd::contact", &[pass("pbd::contact", Rows::Nodes, NODES)]),
@@ -366,6 +370,7 @@ pub(super) static TWINS: &[(&str, &[Pass])] = &[
     ("couple::drag_impulse", &[pass("couple::drag_impulse", Rows::Fluid, FROM_CONTROLS)]),
     ("couple::drag_target", &[pass("couple::drag_target", Rows::Controls, FROM_FLUID)]),
     ("couple::drag_reaction", &[pass("couple::drag_reaction", Rows::Controls, FROM_FLUID)]),
+    ("couple::drag_settled", &[pass("couple::drag_settled", Rows::Nodes, FROM_FLUID)]),
     ("couple::drag_kick", &[pass("couple::exchange_fluid", Rows::Fluid, FROM_CONTROLS)]),
 ];
 

@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3};
 
 use super::{obstacles, pbd::SHAPE, row, shapes, touch, vector, wetting};
 use crate::{
-    body::Wrench,
-    columns::{Columns, Nodes},
+    body::{Body, Wrench},
+    columns::{BodyStore, Columns, Nodes},
     params::{Params, Solver},
 };
 
@@ -259,19 +259,33 @@ fn is_near(params: &Params, columns: &Columns, node: usize, point: DVec3) -> boo
         })
 }
 
-pub(super) fn reaction(params: &Params, columns: &mut Columns) {
-    let h = f64::from(params.step);
-    let incidence = incidence(&columns.nodes);
-    let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
-    let places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
-    let count = columns.bodies.states.0.len();
+/// What every body has received so far.
+fn joined_wrenches(bodies: &BodyStore) -> Vec<Wrench> {
+    let count = bodies.states.0.len();
     let mut wrenches = vec![Wrench::default(); count];
-    for chunk in columns.bodies.node_wrenches.0.chunks(count.max(1)) {
+    for chunk in bodies.node_wrenches.0.chunks(count.max(1)) {
         for (wrench, part) in wrenches.iter_mut().zip(chunk) {
             wrench.impulse += part.impulse;
             wrench.angular_impulse += part.angular_impulse;
         }
     }
+    wrenches
+}
+
+/// The body nearest to a place at the end of the step, if it is nearer than that.
+fn touched(bodies: &[Body], place: DVec3, h: f64, near: f64) -> Option<usize> {
+    let away = |body: &Body| shapes::distance(body, place - h * shapes::velocity(body, place)).0;
+    let found = bodies.iter().enumerate().filter(|(_, body)| body.touches_nodes);
+    let found = found.map(|(index, body)| (index, away(body))).filter(|(_, away)| *away < near);
+    found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+}
+
+pub(super) fn reaction(params: &Params, columns: &mut Columns) {
+    let h = f64::from(params.step);
+    let incidence = incidence(&columns.nodes);
+    let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
+    let places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
+    let mut wrenches = joined_wrenches(&columns.bodies);
     let mut reaction = vec![[0.0; 4]; columns.nodes.position.len()];
     for node in 0..columns.rows.nodes {
         if !descends(params, &columns.nodes, node) {
@@ -304,7 +318,9 @@ pub(super) fn reaction(params: &Params, columns: &mut Columns) {
 }
 
 pub(super) fn momentum(params: &Params, columns: &mut Columns) {
-    let (nodes, h) = (&mut columns.nodes, f64::from(params.step));
+    let h = f64::from(params.step);
+    let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
+    let mut wrenches = joined_wrenches(&columns.bodies);
     let joined = touch::joined(nodes, params.sponges.len());
     for (index, sponge) in params.sponges.iter().enumerate() {
         if sponge.solver != Solver::Vbd || joined[index][0] != index {
@@ -336,12 +352,22 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
         for node in own {
             let (x, y, v) = (nodes.position[node], nodes.predicted[node], nodes.velocity[node]);
             let w = f64::from(y[3]);
+            let change = lacking / mass + turn.cross(vector(x) - centre);
+            let resists = -f64::from(nodes.reaction[node][3]);
+            if resists > 0.0 {
+                nodes.reaction[node] = row(vector(nodes.reaction[node]) - resists * change, -resists);
+            }
             if w <= 0.0 {
                 continue;
             }
             let mut place = vector(y);
-            if nodes.reaction[node][3] > 0.0 {
-                place += h * (lacking / mass + turn.cross(vector(x) - centre));
+            if resists > 0.0 {
+                let near = 1.0e-2 * f64::from(params.sponges[nodes.sponge[node] as usize].edge);
+                if let Some(body) = touched(bodies, place, h, near) {
+                    wrenches[body].add(resists * change, vector(x) - bodies[body].state.position.as_dvec3());
+                }
+            } else {
+                place += h * change;
                 if let Some((low, high)) = params.walls {
                     place = place.max(low.as_dvec3()).min(high.as_dvec3());
                 }
@@ -352,4 +378,5 @@ pub(super) fn momentum(params: &Params, columns: &mut Columns) {
             nodes.velocity[node][3] = (gained.dot(a) / (h * a.length_squared())).clamp(0.0, 1.0) as f32;
         }
     }
+    columns.bodies.node_wrenches.0 = wrenches;
 }

@@ -88,6 +88,7 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "couple::drag_impulse" => porous::drag_impulse,
         "couple::drag_target" => porous::drag_target,
         "couple::drag_reaction" => porous::drag_reaction,
+        "couple::drag_settled" => porous::drag_settled,
         "couple::drag_kick" => porous::drag_kick,
         _ => return None,
     };

@@ -182,6 +182,12 @@ pub(super) fn drag_reaction(params: &Params, columns: &mut Columns) {
     }
 }
 
+pub(super) fn drag_settled(_params: &Params, columns: &mut Columns) {
+    for drag in &mut columns.nodes.drag {
+        drag[3] = 0.0;
+    }
+}
+
 pub(super) fn drag_kick(params: &Params, columns: &mut Columns) {
     super::couple::kick(params, columns);
 }

@@ -11,23 +11,30 @@
 //!
 //! with the impulses J from outside and D of the fluid's drag, whose moments about the nodes are M. Moments are taken at the places x of the beginning of the step, at which
 //! `sum x x m v` is the angular momentum of the new velocities whatever the new places are. Nodes that touch something or
-//! are held do not take part; M, I and the centre c count them with the mass `h^2 k` that resists like their stiffness k,
-//! so that a sponge that stands on something is not shaken. Free nodes move with the mass of the fluid that their drag
-//! takes along. A free sponge keeps both momenta to rounding. No node is moved through a wall of the container.
+//! are held stay where they are; M, I and the centre c count them with the mass `h^2 k` that resists like their stiffness k,
+//! so that a sponge that stands on something is not shaken, and what they touch takes their part of the momentum:
+//!
+//! ```text
+//! J -= h^2 k (u + w x (x - c))
+//! ```
+//!
+//! The body that is nearest receives the opposite, if it is as near as what touches. Free nodes move with the mass of the fluid that their drag
+//! takes along. Sponges and bodies keep both momenta to rounding. No node is moved through a wall of the container.
 //!
 //! Sponges that touch each other (`touch.rs`) lack momentum together: what they give to each other need not be told, as that between the
 //! nodes of one sponge, and both momenta of all of them are kept.
 //!
 //! The share of the external acceleration that a node followed is kept for the next `pbd::guess`.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use crate::{
+    body::{Body, BodyState, Wrench},
     columns::{Column::*, Columns, Nodes},
-    cpu::Cpu,
+    cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
     params::{Params, Solver},
-    pbd::stars::Piece,
+    pbd::{reaction::MARGIN, stars::Piece},
 };
 
 /// `pbd::momentum`.
@@ -47,8 +54,10 @@ pub static KERNEL: Kernel = Kernel {
         NodeDragMoment,
         NodeTouch,
         NodeTouchStiffness,
+        BodyStates,
+        BodyNodeWrenches,
     ],
-    writes: &[NodeVelocity, NodePredicted],
+    writes: &[NodeVelocity, NodePredicted, NodeReaction, BodyNodeWrenches],
     cpu,
 };
 
@@ -84,27 +93,90 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         totals[piece.sponge as usize].join(sum);
     }
     let motions = motions(&totals, &joined(sponge, [touch, touch_stiffness], totals.len()));
-    let step = params.step;
-    cpu.for_chunks((&mut predicted[..], &mut velocity[..]), |first, (predicted, velocity)| {
+    let bodies = &columns.bodies.states.0;
+    let task = Task { params, bodies, position, acceleration, sponge, motions: &motions };
+    let chunks = predicted.len().div_ceil(CHUNK);
+    let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
+        0 => (0..chunks).map(|_| &mut [][..]).collect(),
+        count => columns.bodies.node_wrenches.0.chunks_exact_mut(count).take(chunks).collect(),
+    };
+    let rows = (&mut predicted[..], &mut velocity[..], &mut reaction[..], PerChunk(&mut wrenches));
+    cpu.for_chunks(rows, |first, (predicted, velocity, reaction, wrenches)| {
         if params.asleep.has_all(first..first + predicted.len()) {
             return;
         }
-        for (row, (y, v)) in predicted.iter_mut().zip(velocity).enumerate() {
-            let node = first + row;
-            if y[3] <= 0.0 || params.solver(sponge[node]) != Some(Solver::Vbd) {
-                continue;
-            }
-            let x = position[node];
-            if reaction[node][3] > 0.0 {
-                let change = motions[sponge[node] as usize].at(x);
+        let rows = predicted.iter_mut().zip(velocity).zip(reaction);
+        for (row, ((y, v), reaction)) in rows.enumerate() {
+            task.node(first + row, y, v, reaction, wrenches.0[0]);
+        }
+    });
+}
+
+struct Task<'a> {
+    params: &'a Params,
+    bodies: &'a [Body],
+    position: &'a [[f32; 4]],
+    acceleration: &'a [[f32; 4]],
+    sponge: &'a [u32],
+    motions: &'a [Motion],
+}
+
+impl Task<'_> {
+    /// Gives a node, or what it touches, its part of the motion.
+    fn node(
+        &self,
+        node: usize,
+        y: &mut [f32; 4],
+        v: &mut [f32; 4],
+        reaction: &mut [f32; 4],
+        wrenches: &mut [Wrench],
+    ) {
+        let (x, step) = (self.position[node], self.params.step);
+        // There are no sponges for the padding of the rows.
+        let Some(own) = self.sponge.get(node).copied() else { return };
+        if self.params.solver(own) != Some(Solver::Vbd) {
+            return;
+        }
+        let mass = reaction[3];
+        if mass != 0.0 {
+            let change = self.motions[own as usize].at(x);
+            if mass < 0.0 {
+                (0..3).for_each(|axis| reaction[axis] += mass * change[axis]);
+            } else {
                 (0..3).for_each(|axis| y[axis] += step * change[axis]);
-                if let Some((low, high)) = params.walls {
+                if let Some((low, high)) = self.params.walls {
                     (0..3).for_each(|axis| y[axis] = inside(y[axis], [low[axis], high[axis]]));
                 }
             }
-            v[3] = followed(x, *y, *v, acceleration[node], step);
+            if mass < 0.0 && y[3] > 0.0 {
+                let margin = MARGIN * self.params.sponges[own as usize].edge;
+                if let Some(body) = self.touched(Vec3::new(y[0], y[1], y[2]), margin) {
+                    let impulse = Vec3::from(change).as_dvec3() * -f64::from(mass);
+                    let arm =
+                        Vec3::new(x[0], x[1], x[2]).as_dvec3() - self.bodies[body].state.position.as_dvec3();
+                    wrenches[body].add(impulse, arm);
+                }
+            }
         }
-    });
+        if y[3] > 0.0 {
+            v[3] = followed(x, *y, *v, self.acceleration[node], step);
+        }
+    }
+
+    /// The nearest body at the end of the step, if it is that near.
+    fn touched(&self, point: Vec3, margin: f32) -> Option<usize> {
+        let mut found = (None, margin);
+        for (index, body) in self.bodies.iter().enumerate().filter(|(_, body)| body.touches_nodes) {
+            let BodyState { position, linear_velocity, angular_velocity, .. } = body.state;
+            let velocity = linear_velocity + angular_velocity.cross(point - position);
+            // The body stands where it began the step: so does the point, in the body's frame.
+            let distance = body.distance(point - velocity * self.params.step);
+            if distance < found.1 {
+                found = (Some(index), distance);
+            }
+        }
+        found.0
+    }
 }
 
 /// For every sponge, the first of those that it touches, directly or through others, or itself.

@@ -23,7 +23,7 @@ use crate::{
 };
 
 /// How close to an obstacle, in edges, a node is looked at.
-const MARGIN: f32 = 1.0e-2;
+pub(super) const MARGIN: f32 = 1.0e-2;
 
 /// `pbd::reaction`.
 pub static KERNEL: Kernel = Kernel {

@@ -79,6 +79,7 @@ const BOUNDS: &[(&str, f64)] = &[
     ("couple::drag_impulse", 4e-6),
     ("couple::drag_target", 1.5e-4),
     ("couple::drag_reaction", 2e-5),
+    ("couple::drag_settled", 1e-12),
     ("couple::drag_kick", 4e-6),
 ];
 

@@ -84,6 +84,7 @@ pub(super) const CHAIN: &[&str] = &[
     "pbd::touch",
     "pbd::reaction",
     "pbd::momentum",
+    "couple::drag_settled",
     "couple::drag_kick",
     "pbd::velocity",
     "couple::control_velocity",

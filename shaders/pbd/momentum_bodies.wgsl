@@ -1,0 +1,71 @@
+// What walls, bodies and grips give to the nodes that stay where they are while their sponge receives the motion that it lacks;
+// `momentum.rs` has the formulas.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(6) var<storage, read> motions: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> bodies: array<Body>;
+@group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> reaction: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> wrenches: array<vec4<f32>>;
+
+const MARGIN: f32 = 1.0e-2;
+
+// The nearest body at the end of the step, if it is that near; else a row beyond all bodies.
+fn touched(point: vec3<f32>, margin: f32) -> u32 {
+    var found = params.body_rows;
+    var least = margin;
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        let body = bodies[index];
+        // The body stands where it began the step: so does the point, in the body's frame.
+        let distance = body_surface(body, point - body_velocity(body, point) * clock.step).distance;
+        if (body.info.w != 0u && distance < least) {
+            found = index;
+            least = distance;
+        }
+    }
+    return found;
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    var body = params.body_rows;
+    var impulse = vec3<f32>(0.0);
+    var old = vec3<f32>(0.0);
+    if (row < params.node_rows) {
+        let sponge = node_sponge[row];
+        let before = reaction[row];
+        if (before.w < 0.0 && sponges.all[sponge].solver == VBD) {
+            old = position[row].xyz;
+            let turn = cross(motions[sponge * 3u + 2u].xyz, old - motions[sponge * 3u].xyz);
+            impulse = (motions[sponge * 3u + 1u].xyz + turn) * -before.w;
+            reaction[row] = vec4<f32>(before.xyz - impulse, before.w);
+            if (predicted[row].w > 0.0) {
+                body = touched(predicted[row].xyz, sponges.all[sponge].edge * MARGIN);
+            }
+        }
+    }
+    for (var index = 0u; index < params.body_rows; index += 1u) {
+        if (group_touches(lane, body == index)) {
+            let own = select(vec3<f32>(0.0), impulse, body == index);
+            let all = group_sum(lane, Wrench(own, cross(old - bodies[index].position.xyz, own)));
+            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            if (lane == 0u) {
+                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+            }
+        }
+    }
+}
