@@ -12,7 +12,7 @@ struct Local {
 }
 
 struct Quadratic {
-    point: vec3<f32>,
+    way: vec3<f32>,
     stiffness: mat3x3<f32>,
     inverse: mat3x3<f32>,
 }
@@ -171,12 +171,12 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     return Local(force, stiffness, strain);
 }
 
-// Where the energy is least without obstacles.
+// The way to where the energy is least without obstacles.
 fn least(local: Local, x: vec3<f32>, goal: vec4<f32>, step: f32) -> Quadratic {
     let inertia = goal.w / (step * step);
     let stiffness = local.stiffness + diagonal(inertia);
     let inverse = inverse_of(stiffness);
-    return Quadratic(x + inverse * (local.force + (goal.xyz - x) * inertia), stiffness, inverse);
+    return Quadratic(inverse * (local.force + (goal.xyz - x) * inertia), stiffness, inverse);
 }
 
 fn react(quadratic: Quadratic, depth: f32, normal: vec3<f32>, slide: vec3<f32>, friction: f32) -> Reaction {

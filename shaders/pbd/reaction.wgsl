@@ -57,7 +57,7 @@ fn main(
     let free = x.w > 0.0;
     let near = counts && free && is_near(x.xyz, old, sponge.edge * MARGIN);
     var local = Local(vec3<f32>(0.0), diagonal(1.0), 0.0);
-    var quadratic = Quadratic(x.xyz, diagonal(1.0), diagonal(1.0));
+    var quadratic = Quadratic(vec3<f32>(0.0), diagonal(1.0), diagonal(1.0));
     if (near || (counts && !free)) {
         local = local_energy(row, x.xyz, old, sponge, clock.step);
     }
@@ -67,7 +67,7 @@ fn main(
     let low = params.wall_low.xyz;
     let high = params.wall_high.xyz;
     let meets_walls = near && params.wall_low.w > 0.0;
-    var point = quadratic.point;
+    var point = x.xyz + quadratic.way;
     var force = vec3<f32>(0.0);
     if (meets_walls) {
         let pushed = push_by_walls(low, high, quadratic, point, old, sponge.friction);

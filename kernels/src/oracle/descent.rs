@@ -214,7 +214,7 @@ fn relaxation(
     };
     let strain = tets.iter().map(|tet| (volume(tet) - 1.0).abs()).fold(0.0, f64::max);
     let short = (0.01 - way.length_squared() / f64::from(sponge.edge).powi(2)) / 0.0075;
-    1.0 + 0.25 * ((0.5 - strain) / 0.3).min(short).clamp(0.0, 1.0)
+    1.0 + 0.3 * ((0.5 - strain) / 0.3).min(short).clamp(0.0, 1.0)
 }
 
 pub(super) fn vbd(params: &Params, columns: &mut Columns) {

@@ -55,7 +55,7 @@ use crate::{
 pub(super) const SOLID: f32 = 0.2;
 
 /// How far `pbd::vbd` goes beyond the least energy, over the way there, in steps of more than one sweep \[1\].
-pub(super) const RELAXATION: f32 = 0.25;
+pub(super) const RELAXATION: f32 = 0.3;
 
 /// A symmetric matrix of three rows: xx, yy, zz, xy, xz, yz.
 pub(super) type Symmetric<S> = [f32x8<S>; 6];

@@ -14,17 +14,19 @@
 use glam::{DVec3, Vec3};
 
 use crate::{
-    body::{Body, Placed, Wrench},
+    body::{Body, BodyState, Placed, Wrench},
     cpu::Cpu,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
     pbd::descent::{Material, Symmetric, product},
     sweep::met,
-    vector::{Vec3x8, dot, minus, plus, times},
+    vector::{Vec3x8, dot, minus, plus, splat, times},
 };
 
 /// Distance that nodes keep from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
 pub(super) const CLEARANCE: f32 = 1.0e-3;
+/// What is left of the distance of a node from a body after rounding, at least \[1\].
+const SPARE: f32 = 0.999;
 /// Smallest part of the compliance along the normal that friction may leave.
 const LEAST_COMPLIANCE: f32 = 0.1;
 
@@ -42,6 +44,34 @@ pub(super) struct Obstacles<'a> {
     /// Axis, direction of the normal along it, and place of every wall.
     walls: Vec<(usize, f32, f32)>,
     bodies: &'a [Body],
+    spheres: Vec<Sphere>,
+}
+
+/// What a body may reach within a step.
+#[derive(Clone, Copy, Debug)]
+struct Sphere {
+    centre: Vec3,
+    /// Of the body and the way of its centre; infinite for planes \[m\].
+    radius: f32,
+    /// Angle by which it turns.
+    turn: f32,
+}
+
+impl Sphere {
+    fn of(body: &Body, step: f32) -> Self {
+        let BodyState { position, linear_velocity, angular_velocity, .. } = body.state;
+        let radius = body.shape.bounding_radius() + step * linear_velocity.length();
+        Self { centre: position, radius, turn: step * angular_velocity.length() }
+    }
+
+    /// Whether none of eight nodes can have come closer than `margin` to the body on the way from `old`.
+    #[inline(always)]
+    fn is_far<S: Simd>(&self, simd: S, [point, old]: [Vec3x8<S>; 2], margin: f32x8<S>) -> bool {
+        let (way, away) = (minus(point, old), minus(old, splat(simd, self.centre.to_array())));
+        // In the frame of the body its turn adds to the way of a node, by as much as the node is away.
+        let nearest = dot(away, away).sqrt() * (SPARE - self.turn) - dot(way, way).sqrt() * (1.0 + self.turn);
+        nearest.simd_gt(margin + self.radius).all_true()
+    }
 }
 
 /// Eight nodes in their quadratic energies.
@@ -65,7 +95,8 @@ pub(super) struct Contact {
 
 impl<'a> Obstacles<'a> {
     pub(super) fn new(cpu: &'a Cpu, params: &Params, bodies: &'a [Body]) -> Self {
-        Self { cpu, step: params.step, walls: params.walls.map_or_else(Vec::new, walls), bodies }
+        let spheres = bodies.iter().map(|body| Sphere::of(body, params.step)).collect();
+        Self { cpu, step: params.step, walls: params.walls.map_or_else(Vec::new, walls), bodies, spheres }
     }
 
     /// 1 for points that may have come closer than `margin` to an obstacle on the way from `old`, else 0.
@@ -88,7 +119,11 @@ impl<'a> Obstacles<'a> {
         for (axis, sign, wall) in &self.walls {
             near = select(((point[*axis] - *wall) * *sign).simd_lt(margin), one, near);
         }
-        for body in self.bodies.iter().filter(|body| body.touches_nodes) {
+        let bodies = self.bodies.iter().zip(&self.spheres).filter(|(body, _)| body.touches_nodes);
+        for (body, sphere) in bodies {
+            if sphere.is_far(simd, [point, old], margin) {
+                continue;
+            }
             let placed = Placed::new(simd, body);
             let drift = times(placed.velocity(point), lanes::splat(simd, self.step));
             let way = minus(minus(point, drift), old);
@@ -127,8 +162,8 @@ impl<'a> Obstacles<'a> {
             let body = index.checked_sub(walls).filter(|_| !is_again);
             let mut drift = [zero; 3];
             let (distance, normal, friction);
-            if let Some(body) = body.map(|body| &self.bodies[body]) {
-                if !body.touches_nodes {
+            if let Some((body, sphere)) = body.map(|body| (&self.bodies[body], &self.spheres[body])) {
+                if !body.touches_nodes || sphere.is_far(simd, [point, old], clearance) {
                     continue;
                 }
                 let placed = Placed::new(simd, body);

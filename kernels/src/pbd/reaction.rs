@@ -19,7 +19,7 @@ use crate::{
         vbd::least,
         wetted::Wet,
     },
-    vector::{choose, dot, negative, times},
+    vector::{choose, dot, negative, plus, times},
 };
 
 /// How close to an obstacle, in edges, a node is looked at.
@@ -156,7 +156,8 @@ impl Task<'_> {
         let mut energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
         self.touch.add(simd, &group.own, &mut energy);
         let (elastic, stiffness) = (energy.force, energy.stiffness);
-        let (point, quadratic) = least(simd, energy, (x, target, drawn), step);
+        let (way, quadratic) = least(simd, energy, (x, target, drawn), step);
+        let point = plus(x, way);
         let mut contact = quadratic.contact((point, old), material, near);
         let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));
         let force = choose(free, pushed, times(negative(elastic), counts));
