@@ -174,7 +174,7 @@ impl Steps {
         if let Some(water) = scene.fluid.as_ref().filter(|_| has_fluid) {
             let h = fluid.smoothing.support_radius;
             // Along the line between particles the central form is as stiff as five times the other.
-            let viscosity = (fluid.viscosity + 2.0 * fluid.central_viscosity) / fluid.rest_density;
+            let viscosity = (fluid.viscosity + 5.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
             if let Some(implicit) = &fluid.implicit_viscosity {
                 let viscosity = implicit.viscosity + implicit.central_viscosity;
