@@ -145,6 +145,20 @@ fn with_a_dynamic_ball_momentum_is_kept_too() {
     }
 }
 
+/// A ball that is slowed by a dry sponge: what few sweeps leave of its momentum must not be lost between them.
+#[test]
+fn a_dry_sponge_takes_what_a_ball_gives() {
+    let mut scene = with_ball(FluidSolver::Dfsph);
+    (scene.fluid, scene.sponges[0].saturation) = (None, 0.0);
+    let (world, balance) = of(&scene);
+    let after = world.bodies()[0].state.linear_velocity.y;
+    let mut claims = Claims::default();
+    claims.claim(after < 0.55, format!("the ball was not slowed down: {after} m/s"));
+    claims.claim(balance.linear < LINEAR, format!("linear momentum: {:.2e} of the scale", balance.linear));
+    claims.claim(balance.angular < LINEAR, format!("angular momentum: {:.2e} of the scale", balance.angular));
+    claims.hold();
+}
+
 #[test]
 fn without_the_reaction_of_the_suction_momentum_is_lost() {
     let mut scene = free(FluidSolver::Dfsph);

@@ -171,7 +171,7 @@ pub static STEP: &[Phase] = &[
     Host(&RIGID),
 ];
 
-/// How often the momenta of sponges are balanced: the drag answers to the rigid motion that a sponge is given, at places that lie
+/// How often the momenta of sponges are balanced before the drag is settled: it answers to the rigid motion that a sponge is given, at places that lie
 /// around its nodes somehow.
 const BALANCES: u32 = 2;
 

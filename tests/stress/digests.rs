@@ -7,11 +7,17 @@ use crate::{
     scenes::{crushed, dry, wet, with_ball},
 };
 
+/// After so many seconds; from half of them on in a copy of the world.
 fn digest(scene: &Scene, seconds: f64, threads: usize, simd: SimdLevel) -> u64 {
     let options = Options { threads: Some(threads), simd: Some(simd), ..Options::default() };
     let mut world = World::with_options(scene, &options).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(world.cpu().threads(), threads, "too few rows for threads to matter");
     let particles = world.particle_ids().len();
+    while world.clock().time < 0.5 * seconds {
+        common::steps(&mut world, 1);
+    }
+    // One thread goes on, more continue from what was saved.
+    let mut world = if threads == 1 { world } else { world.clone() };
     while world.clock().time < seconds {
         common::steps(&mut world, 1);
     }

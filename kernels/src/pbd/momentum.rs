@@ -142,24 +142,28 @@ impl Task<'_> {
             let change = self.motions[own as usize].at(x);
             if mass < 0.0 {
                 (0..3).for_each(|axis| reaction[axis] += mass * change[axis]);
+                if y[3] > 0.0 {
+                    self.give(node, y, change, mass, wrenches);
+                }
             } else {
                 (0..3).for_each(|axis| y[axis] += step * change[axis]);
                 if let Some((low, high)) = self.params.walls {
                     (0..3).for_each(|axis| y[axis] = inside(y[axis], [low[axis], high[axis]]));
                 }
             }
-            if mass < 0.0 && y[3] > 0.0 {
-                let margin = MARGIN * self.params.sponges[own as usize].edge;
-                if let Some(body) = self.touched(Vec3::new(y[0], y[1], y[2]), margin) {
-                    let impulse = Vec3::from(change).as_dvec3() * -f64::from(mass);
-                    let arm =
-                        Vec3::new(x[0], x[1], x[2]).as_dvec3() - self.bodies[body].state.position.as_dvec3();
-                    wrenches[body].add(impulse, arm);
-                }
-            }
         }
         if y[3] > 0.0 {
             v[3] = followed(x, *y, *v, self.acceleration[node], step);
+        }
+    }
+
+    /// Gives the body that a node touches the momentum that the node would take as a mass below zero.
+    fn give(&self, node: usize, y: &[f32; 4], change: [f32; 3], mass: f32, wrenches: &mut [Wrench]) {
+        let vector = |row: &[f32]| Vec3::new(row[0], row[1], row[2]);
+        let edge = self.params.sponges[self.sponge[node] as usize].edge;
+        if let Some(body) = self.touched(vector(y), MARGIN * edge) {
+            let arm = vector(&self.position[node]).as_dvec3() - self.bodies[body].state.position.as_dvec3();
+            wrenches[body].add(Vec3::from(change).as_dvec3() * -f64::from(mass), arm);
         }
     }
 
