@@ -111,6 +111,14 @@ impl Wrench {
     }
 }
 
+/// What every chunk of rows gives to every body; chunks beyond those that are asked for are left out.
+pub(crate) fn by_chunk(wrenches: &mut [Wrench], chunks: usize, bodies: usize) -> Vec<&mut [Wrench]> {
+    match bodies {
+        0 => (0..chunks).map(|_| &mut [][..]).collect(),
+        count => wrenches.chunks_exact_mut(count).take(chunks).collect(),
+    }
+}
+
 /// One body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {

@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::{
-    body::{Body, Placed, Wrench},
+    body::{Body, Placed, Wrench, by_chunk},
     columns::{Column::*, Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
@@ -32,10 +32,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let bodies = &columns.bodies.states.0;
     let some_descend = params.sponges.iter().any(|sponge| sponge.solver == Solver::Vbd);
     let chunks = predicted.len().div_ceil(CHUNK);
-    let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
-        0 => (0..chunks).map(|_| &mut [][..]).collect(),
-        count => columns.bodies.node_wrenches.0.chunks_exact_mut(count).collect(),
-    };
+    let mut wrenches = by_chunk(&mut columns.bodies.node_wrenches.0, chunks, bodies.len());
     cpu.for_chunks((&mut predicted[..], PerChunk(&mut wrenches)), |first, (predicted, wrenches)| {
         let task = Task { params, bodies, position, sponge, some_descend };
         with_lanes!(cpu, simd => task.chunk(simd, first, predicted, wrenches.0[0]));

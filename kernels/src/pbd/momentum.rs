@@ -29,7 +29,7 @@
 use glam::{DMat3, DVec3, Vec3};
 
 use crate::{
-    body::{Body, BodyState, Wrench},
+    body::{Body, BodyState, Wrench, by_chunk},
     columns::{Column::*, Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
@@ -96,10 +96,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let bodies = &columns.bodies.states.0;
     let task = Task { params, bodies, position, acceleration, sponge, motions: &motions };
     let chunks = predicted.len().div_ceil(CHUNK);
-    let mut wrenches: Vec<&mut [Wrench]> = match bodies.len() {
-        0 => (0..chunks).map(|_| &mut [][..]).collect(),
-        count => columns.bodies.node_wrenches.0.chunks_exact_mut(count).take(chunks).collect(),
-    };
+    let mut wrenches = by_chunk(&mut columns.bodies.node_wrenches.0, chunks, bodies.len());
     let rows = (&mut predicted[..], &mut velocity[..], &mut reaction[..], PerChunk(&mut wrenches));
     cpu.for_chunks(rows, |first, (predicted, velocity, reaction, wrenches)| {
         if params.asleep.has_all(first..first + predicted.len()) {

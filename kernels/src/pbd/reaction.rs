@@ -5,7 +5,7 @@
 //! node. Bodies receive the opposite. The fourth value is what the node weighs in `pbd::momentum`.
 
 use crate::{
-    body::{Body, Wrench},
+    body::{Body, Wrench, by_chunk},
     columns::{Column::*, Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
@@ -72,11 +72,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
-        let mut by_chunk: Vec<&mut [Wrench]> = match bodies.len() {
-            0 => (0..chunks).map(|_| &mut [][..]).collect(),
-            count => own.chunks_exact_mut(count).collect(),
-        };
-        cpu.for_chunks((&mut reaction[rows], PerChunk(&mut by_chunk)), |first, (reaction, wrenches)| {
+        let mut of_chunks = by_chunk(&mut own, chunks, bodies.len());
+        cpu.for_chunks((&mut reaction[rows], PerChunk(&mut of_chunks)), |first, (reaction, wrenches)| {
             with_lanes!(cpu, simd => task.chunk(simd, color, first, reaction, wrenches.0[0]));
         });
         wrenches.extend_from_slice(&own);

@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use crate::{
-    body::{Body, Placed, Wrench},
+    body::{Body, Placed, Wrench, by_chunk},
     columns::{Column::*, Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::{Kernel, Need},
@@ -35,10 +35,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let chunks = acceleration.len().div_ceil(CHUNK);
     wrenches.clear();
     wrenches.resize(chunks * bodies.len(), Wrench::default());
-    let mut per_chunk: Vec<&mut [Wrench]> = match bodies.len() {
-        0 => (0..chunks).map(|_| &mut [][..]).collect(),
-        count => wrenches.chunks_exact_mut(count).collect(),
-    };
+    let mut per_chunk = by_chunk(wrenches, chunks, bodies.len());
     let rows = (&mut acceleration[..], PerChunk(&mut per_chunk));
     cpu.for_chunks(rows, |first, (acceleration, wrenches)| {
         let task = Task { params, bodies, position, velocity, count };
