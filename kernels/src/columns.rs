@@ -169,7 +169,7 @@ columns! {
         FluidDensity = density: Vec<f32>, "kg/m^3", Scratch;
         /// Acceleration by all forces of this step; w: compression that is allowed, see `sph::forces`.
         FluidAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
-        /// Share of its neighbourhood that a particle near the surface lacks.
+        /// Weight of the share of its neighbourhood that a particle near the surface lacks, see `sph::deficit`.
         FluidDeficit = deficit: Vec<f32>, "1", Scratch;
         /// For every particle, the control rows within the suction radius.
         FluidControls = controls: Neighbors, "1", Scratch;

@@ -132,7 +132,7 @@ pub struct ImplicitViscosity {
 /// An energy of the surface of the fluid (`sph::deficit`, `sph::cohesion`).
 #[derive(Clone, Debug)]
 pub struct Cohesion {
-    /// Energy density per squared deficit \[Pa\].
+    /// Energy density per energy of a deficit \[Pa\].
     pub stiffness: f32,
     /// What deficits are measured with: twice as wide as that between particles.
     pub smoothing: Wendland,

@@ -1,6 +1,6 @@
 // Surface tension: what an energy of the surface does to the particles.
 //
-//     E = k / 2 sum_i V e_i^2,   a_i = k V^2 / m sum_j (e_i + e_j) grad W_ij
+//     E = k sum_i V f(e_i),   a_i = k V^2 / m sum_j (w_i + w_j) grad W_ij   with w = f'
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -21,7 +21,7 @@ fn main(
         return;
     }
     let point = position[row].xyz;
-    let lacks = deficit[row];
+    let weight = deficit[row];
     let end = list[row];
     var slot = row;
     var sum = vec3<f32>(0.0);
@@ -30,7 +30,7 @@ fn main(
         let other = list[slot];
         let apart = apart_from(point, position[other].xyz);
         let u = closeness(params.cohesion, dot(apart, apart));
-        sum += apart * (u * u * u * (lacks + deficit[other]));
+        sum += apart * (u * u * u * (weight + deficit[other]));
     }
     let volume = params.cohesion_volume;
     let factor = params.cohesion_stiffness * volume * (volume / params.particle_mass);

@@ -1,6 +1,6 @@
 // What particles near the surface of the fluid are short of neighbours.
 //
-//     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i)
+//     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -31,6 +31,12 @@ fn share_at(point: vec3<f32>) -> f32 {
     return share;
 }
 
+// FALL and LEAST, as in `deficit.rs`.
+fn weight(lacks: f32) -> f32 {
+    let falling = lacks * (1.0 - 2.5 * lacks);
+    return select(falling, max(falling, 0.01), lacks > 0.2);
+}
+
 @compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -52,5 +58,5 @@ fn main(
         sum += shape(closeness(params.cohesion, dot(apart, apart)));
     }
     let there = sum * (params.cohesion.value * params.cohesion_volume);
-    deficit[row] = max(0.98 - there - share_at(point), 0.0);
+    deficit[row] = weight(max(0.98 - there - share_at(point), 0.0));
 }

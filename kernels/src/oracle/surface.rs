@@ -16,7 +16,7 @@ pub(super) fn deficit(params: &Params, columns: &mut Columns) {
         let volume_at = |other: &DVec3| volume * smoothing(radius, apart(params, x[i], *other).length());
         let there: f64 = x.iter().map(volume_at).sum();
         let share = incompressible::share(params, &columns.bodies.states.0, profile, x[i]);
-        fluid.deficit[i] = (f64::from(deficit::FULL) - there - share).max(0.0) as f32;
+        fluid.deficit[i] = deficit::weight((f64::from(deficit::FULL) - there - share).max(0.0)) as f32;
     }
 }
 
@@ -24,12 +24,12 @@ pub(super) fn cohesion(params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let x = vectors(&fluid.position, count);
-    let lacks = |row: usize| f64::from(fluid.deficit[row]);
+    let weight = |row: usize| f64::from(fluid.deficit[row]);
     let (volume, mass) = (f64::from(cohesion.volume), f64::from(params.fluid.particle_mass));
     let factor = f64::from(cohesion.stiffness) * volume * volume / mass;
     for i in 0..count {
         let radius = cohesion.smoothing.support_radius;
-        let pull = |j: usize| (lacks(i) + lacks(j)) * gradient(radius, apart(params, x[i], x[j]));
+        let pull = |j: usize| (weight(i) + weight(j)) * gradient(radius, apart(params, x[i], x[j]));
         let sum: DVec3 = (0..count).map(pull).sum();
         let allowed = f64::from(fluid.acceleration[i][3]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) + factor * sum, allowed);

@@ -1,11 +1,11 @@
 //! Surface tension: what an energy of the surface does to the particles.
 //!
 //! ```text
-//! E = k / 2 sum_i V e_i^2
-//! a_i = -dE/dx_i / m = k V^2 / m sum_j (e_i + e_j) grad W_ij
+//! E = k sum_i V f(e_i),   f' = w
+//! a_i = -dE/dx_i / m = k V^2 / m sum_j (w_i + w_j) grad W_ij
 //! ```
 //!
-//! with the deficits e of `sph::deficit`. As the fluid keeps its volume, this energy grows with its surface alone. Forces are equal
+//! with the deficits e of `sph::deficit` and their weights w. As the fluid keeps its volume, this energy grows with its surface alone. Forces are equal
 //! and opposite and act along the line between particles, which keeps momentum and angular momentum; deep inside there are
 //! none, so that the fluid stays a fluid there.
 
@@ -53,13 +53,13 @@ fn chunk<S: Simd>(
     let scale = kernel.gradient_scale() * (cohesion.stiffness * cohesion.volume * (cohesion.volume / mass));
     for row in (0..acceleration.len()).step_by(LANES) {
         let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
-        let lacks = lanes::load(simd, deficit, first + row);
+        let weight = lanes::load(simd, deficit, first + row);
         let mut sum = [lanes::splat(simd, 0.0); 3];
         for entry in lists.group(row) {
             let [xj, yj, zj, _] = lanes::gather_rows(simd, position, entry);
             let apart = space.apart([x, y, z], [xj, yj, zj]);
             let u = kernel.closeness(dot(apart, apart));
-            let both = lacks + lanes::gather(simd, deficit, entry);
+            let both = weight + lanes::gather(simd, deficit, entry);
             sum = plus(sum, times(apart, u * u * u * both));
         }
         let pull = times(sum, scale);

@@ -1,11 +1,14 @@
 //! What particles near the surface of the fluid are short of neighbours, within twice the support radius.
 //!
 //! ```text
-//! e_i = max(0, 0.98 - sum_j V W_ij - lambda_i)
+//! e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 //! ```
 //!
 //! with a kernel of its own, and with the share of walls and bodies in it (`sph::boundary`), so that they are no surface. The noise
-//! of particles deep inside stays below the two per cent.
+//! of particles deep inside stays below the two per cent. What is written is w, the derivative of the energy density of
+//! `sph::cohesion` by the deficit. With a plain square (w = e) the layers below a surface pull together much harder than
+//! the surface is tense; with this w the energy changes little when they come closer, so that it is that of the surface
+//! alone (docs/pressure-solve.md).
 
 use crate::{
     body::Body,
@@ -13,7 +16,7 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::{Kernel, Need},
-    lanes::{self, LANES, Simd},
+    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
     params::{Cohesion, Params},
     periodic::{Space, with_space},
     smoothing::Wendland,
@@ -34,9 +37,31 @@ pub static KERNEL: Kernel = Kernel {
 /// Share of the neighbourhood above which nothing lacks.
 pub(crate) const FULL: f32 = 0.98;
 
-/// Surface tension over the energy of the layers of a lattice that ends in a plane: particles at a surface find better places
-/// than those. Measured on drops of 16 and 20 particles across, for which it is 0.85 and 0.70 (`sorb validate drop`).
-const RELAXED: f64 = 0.76;
+/// How fast the weight of a deficit falls: with 2.4 the layers below a flat surface pull together least in the continuum, and
+/// 2.5 spreads the periods of drops least.
+const FALL: f64 = 2.5;
+
+/// Weight of what lacks nearly everything, such as a particle alone: positive, so that it is drawn to others.
+const LEAST: f64 = 0.01;
+
+/// Surface tension of drops that have settled, over that of the layers of a lattice that ends in a plane: measured on eight drops
+/// of 16 to 19 particles across.
+const SETTLED: f64 = 0.97;
+
+/// Weight of a deficit: the derivative of `energy`.
+#[must_use]
+pub fn weight(deficit: f64) -> f64 {
+    let falling = deficit * (1.0 - FALL * deficit);
+    if deficit > 0.5 / FALL { falling.max(LEAST) } else { falling }
+}
+
+/// Energy density of a deficit over the stiffness \[1\].
+fn energy(deficit: f64) -> f64 {
+    // Where the weight has fallen to the least.
+    let end = (1.0 + (1.0 - 4.0 * FALL * LEAST).sqrt()) / (2.0 * FALL);
+    let e = deficit.min(end);
+    e * e * (0.5 - FALL / 3.0 * e) + LEAST * (deficit - e)
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
@@ -87,18 +112,26 @@ impl Task<'_> {
                 share += profile.body(simd, &self.bodies[*body], [x, y, z])[3];
             }
             let lacks = lanes::splat(simd, FULL) - sum * value - share;
-            lanes::store(deficit, row, lanes::positive(simd, lacks));
+            lanes::store(deficit, row, weights(simd, lanes::positive(simd, lacks)));
         }
     }
 }
 
-/// Energy density per squared deficit \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\].
+/// `weight` in every lane.
+#[inline(always)]
+fn weights<S: Simd>(simd: S, deficit: f32x8<S>) -> f32x8<S> {
+    let falling = deficit * (lanes::splat(simd, 1.0) - deficit * lanes::splat(simd, FALL as f32));
+    let least = falling.max(lanes::splat(simd, LEAST as f32));
+    select(deficit.simd_gt(lanes::splat(simd, (0.5 / FALL) as f32)), least, falling)
+}
+
+/// Energy density per energy of a deficit \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\].
 #[must_use]
 pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f32 {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
     let reach = (radius / d).ceil() as i32;
     let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
-    let mut squares = 0.0;
+    let mut energies = 0.0;
     for layer in 0..reach {
         // What lies beyond the outermost layer, and is missing.
         let mut missing = 0.0;
@@ -108,7 +141,7 @@ pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f
             let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
             missing += volume * Wendland::value_f64(radius, distance);
         }
-        squares += (missing + f64::from(FULL) - 1.0).max(0.0).powi(2);
+        energies += energy((missing + f64::from(FULL) - 1.0).max(0.0));
     }
-    (2.0 * f64::from(tension) * d * d / (RELAXED * volume * squares)) as f32
+    (f64::from(tension) * d * d / (SETTLED * volume * energies)) as f32
 }

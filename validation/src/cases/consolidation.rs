@@ -24,9 +24,9 @@ pub(super) static CASE: Case = Case {
     run,
 };
 
-/// Cells across the vessel and along the sponge at full resolution, and their edge there \[m\].
-const CELLS: (u32, u32) = (4, 6);
-const EDGE: f64 = 0.01;
+/// Width of the vessel \[m\], and cells across it at full resolution and in a quick run; the sponge is half as high again.
+const WIDTH: f64 = 0.04;
+const ACROSS: (u32, u32) = (6, 4);
 /// Depth of the water above the sponge \[m\].
 const ABOVE: f64 = 0.04;
 /// As heavy as water, so that it rests without strain.
@@ -58,9 +58,9 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 
 impl Vessel {
     fn new(setting: &Setting, permeability: f64) -> Self {
-        let across = (setting.count(CELLS.0) / 2 * 2).max(2);
-        let edge = EDGE * f64::from(CELLS.0) / f64::from(across);
-        let along = across * CELLS.1 / CELLS.0;
+        let across = (setting.count(setting.pick(ACROSS.0, ACROSS.1)) / 2 * 2).max(2);
+        let edge = WIDTH / f64::from(across);
+        let along = across + across / 2;
         let still = Layer {
             height: f64::from(along) * edge,
             modulus: MATERIAL.confined(),

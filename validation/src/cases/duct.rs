@@ -14,10 +14,8 @@ use crate::{
     solver::Material,
 };
 
-/// Width of the duct in lattice cells.
-const WIDTH: u32 = 4;
-/// Edge of a lattice cell at full resolution \[m\]; particles are half as far apart.
-const EDGE: f64 = 0.01;
+/// Width of the duct \[m\].
+const WIDTH: f64 = 0.04;
 /// The sponge hardly gives way, and weighs enough for steps that the water sets.
 pub(super) const STIFF: Material = Material { young: 5e5, poisson: 0.2, density: 2000.0 };
 
@@ -40,11 +38,11 @@ pub(super) struct Duct {
 }
 
 impl Duct {
-    /// A sponge that is some cells of full resolution long.
-    pub(super) fn new(setting: &Setting, cells: u32) -> Self {
-        let width = (setting.count(WIDTH) / 2 * 2).max(2);
-        let edge = EDGE * f64::from(WIDTH) / f64::from(width);
-        let along = f64::from(cells) * EDGE / edge;
+    /// A sponge of a length \[m\], with some cells across the duct at full resolution.
+    pub(super) fn new(setting: &Setting, length: f64, across: u32) -> Self {
+        let width = (setting.count(across) / 2 * 2).max(2);
+        let edge = WIDTH / f64::from(width);
+        let along = length / edge;
         #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
         #[expect(clippy::cast_sign_loss, reason = "a small whole number")]
         let cells = along.round() as u32;
@@ -68,8 +66,8 @@ impl Duct {
 
     /// A vertical duct with the sponge across it.
     ///
-    /// The sponge is wider than the duct, and the walls hold the nodes inside them: no water passes between sponge and
-    /// wall. The container below is wider than the duct.
+    /// The sponge is two cells wider than the duct on each side, which is how far a node reaches, and the walls hold the nodes
+    /// inside them: no water passes between sponge and wall. The container below is wider than the duct.
     pub(super) fn scene(
         &self,
         setting: &Setting,
@@ -79,16 +77,16 @@ impl Duct {
         water: &[(f64, f64)],
     ) -> Result<Scene, Failure> {
         let (half, edge) = (self.half(), self.edge);
-        let outer = half + 2.0 * edge;
+        let outer = half + 3.0 * edge;
         let sponge = Sponge {
             edge: edge as f32,
-            cells: UVec3::new(self.width + 2, self.cells, self.width + 2),
+            cells: UVec3::new(self.width + 4, self.cells, self.width + 4),
             permeability: pores.permeability as f32,
             porosity: pores.porosity as f32,
             entry_pressure: pores.entry_pressure as f32,
             // The reference has one capillary pressure, whatever the saturation.
             saturation_gain: 0.0,
-            ..Sponge::new("plug", DVec3::new(-half - edge, 0.0, -half - edge).as_vec3())
+            ..Sponge::new("plug", DVec3::new(-half - 2.0 * edge, 0.0, -half - 2.0 * edge).as_vec3())
         };
         let block = |(from, to): &(f64, f64)| {
             FluidBlock::new(DVec3::new(-half, *from, -half).as_vec3(), DVec3::new(half, *to, half).as_vec3())
@@ -116,7 +114,7 @@ impl Duct {
 
     /// Four plates, which hold the nodes inside them.
     fn walls(&self, low: f64, high: f64) -> [Body; 4] {
-        let (half, thick) = (self.half(), 0.75 * self.edge);
+        let (half, thick) = (self.half(), 1.25 * self.edge);
         let (middle, tall) = (0.5 * (low + high), 0.5 * (high - low));
         let plate = |name: &str, x: f64, z: f64| {
             let along = half + 2.0 * thick;

@@ -41,11 +41,12 @@ pub(super) static BATH: Case = Case {
 const PUSH: f64 = 1.0;
 /// Depth of the reservoir \[m\].
 const RESERVOIR: f64 = 0.07;
-/// Length of the sponge of the duct in cells of full resolution.
-const CELLS: u32 = 8;
+/// Length of the sponge of the duct \[m\], and cells across it at full resolution.
+const LENGTH: f64 = 0.08;
+const ACROSS: u32 = 4;
 
 fn washburn(setting: &Setting) -> Result<Vec<Figure>, Failure> {
-    let duct = Duct::new(setting, CELLS);
+    let duct = Duct::new(setting, LENGTH, ACROSS);
     let mut figures = Vec::new();
     for permeability in setting.pick(&[2e-9, 5e-10][..], &[2e-9][..]) {
         let pores = pores(*permeability, 500.0);

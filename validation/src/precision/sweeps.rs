@@ -113,10 +113,10 @@ pub(super) const SWEEPS: &[Sweep] = &[
         error: "permeability that the falling head shows, root mean square over three permeabilities",
         figures: &[("permeability for", 1.0)],
         variants: &[
-            ("dfsph+vbd", &[1.0], POROUS),
-            ("dfsph+vbd", &[1.5], POROUS_FINE),
-            ("dfsph+vbd", &[2.0], &[""]),
-            ("wcsph+sbd", &[1.0], &[""]),
+            ("dfsph+vbd", &[0.4], POROUS),
+            ("dfsph+vbd", &[0.6], POROUS_FINE),
+            ("dfsph+vbd", &[0.8, 1.0], &[""]),
+            ("wcsph+sbd", &[0.4], &[""]),
         ],
     },
     Sweep {
@@ -133,6 +133,6 @@ pub(super) const SWEEPS: &[Sweep] = &[
         case: "consolidation",
         error: "way down of the middle of the sponge, L2 over the largest, root mean square over two permeabilities",
         figures: &[("way down", 1.0)],
-        variants: &[("dfsph+vbd", &[1.0], POROUS), ("dfsph+vbd", &[1.5], &[""])],
+        variants: &[("dfsph+vbd", &[0.67], POROUS), ("dfsph+vbd", &[1.0], &[""])],
     },
 ];
