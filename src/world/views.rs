@@ -104,8 +104,9 @@ impl World {
     /// Pressures of the particles as the last step found them \[Pa\], in the order of the positions; zero at time zero.
     ///
     /// With `wcsph` that of the equation of state. The solve of `dfsph` knows multipliers; what is given here is the stress
-    /// that pairs of neighbours carry by them, see [`pressure_moments`](sorb_kernels::sph::boundary::pressure_moments). Inside sponges
-    /// that is the pressure in the pores.
+    /// that pairs of neighbours carry by them where water fills the space, see
+    /// [`pressure_moments`](sorb_kernels::sph::boundary::pressure_moments). Inside sponges neighbours fill the pores alone: the pressure
+    /// in the pores is this times the porosity, `1 - (1 - phi) / J` where the sponge has J of its volume at rest.
     #[must_use]
     pub fn particle_pressures(&self) -> Vec<f32> {
         let (fluid, count) = (&self.columns().fluid, self.stores.host.rows.fluid);

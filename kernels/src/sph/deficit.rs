@@ -145,3 +145,57 @@ pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f
     }
     (f64::from(tension) * d * d / (SETTLED * volume * energies)) as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points over the radius of the energy.
+    const POINTS: u32 = 200;
+
+    #[test]
+    fn the_weight_is_the_derivative_of_the_energy() {
+        for index in 1..98 {
+            let e = 0.01 * f64::from(index);
+            let slope = (energy(e + 1e-6) - energy(e - 1e-6)) / 2e-6;
+            assert!((slope - weight(e)).abs() < 1e-6, "{e}: {slope}, {}", weight(e));
+            // The control: a plain square.
+            assert!((slope - e).abs() > 1e-4, "{e}");
+        }
+    }
+
+    /// Steepest slope of the pressure that a flat surface needs, over the tension and the square of the radius, with an energy
+    /// and its derivative: `p(z) = integral f'(e(z')) W(z - z') dz' - f(e(z))`, `integral f(e(z)) dz = 1`.
+    fn steepest(energy: fn(f64) -> f64, derivative: fn(f64) -> f64) -> f64 {
+        let step = 1.0 / f64::from(POINTS);
+        // The kernel over planes, and over all that lies beyond a depth.
+        let depths: Vec<f64> = (0..2 * POINTS).map(|index| (f64::from(index) + 0.5) * step).collect();
+        let plane = |z: f64| {
+            let rings = depths.iter().filter(|r| **r > z.abs());
+            rings.map(|r| std::f64::consts::TAU * r * step * Wendland::value_f64(1.0, *r)).sum::<f64>()
+        };
+        let planes: Vec<f64> = depths.iter().map(|z| plane(*z - 0.5 * step)).collect();
+        let mut beyond = 0.0;
+        let mut deficits = vec![0.0; depths.len()];
+        for (deficit, plane) in deficits.iter_mut().zip(&planes).rev() {
+            *deficit = beyond + 0.5 * step * plane;
+            beyond += step * plane;
+        }
+        let tension: f64 = deficits.iter().map(|e| energy(*e) * step).sum();
+        let pressure = |z: usize| {
+            let pulls = deficits.iter().zip(0_usize..);
+            let pull = pulls.map(|(e, other)| derivative(*e) * planes[z.abs_diff(other)] * step);
+            (pull.sum::<f64>() - energy(deficits[z])) / tension
+        };
+        let pressures: Vec<f64> = (0..depths.len()).map(pressure).collect();
+        pressures.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn layers_below_a_surface_pull_less_than_with_a_square() {
+        let square = steepest(|e| 0.5 * e * e, |e| e);
+        let weighed = steepest(energy, weight);
+        assert!((55.0..70.0).contains(&square), "{square}");
+        assert!((20.0..32.0).contains(&weighed), "{weighed}");
+    }
+}
