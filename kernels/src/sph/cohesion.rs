@@ -5,9 +5,9 @@
 //! a_i = -dE/dx_i / m = k V^2 / m sum_j (w_i + w_j) grad W_ij
 //! ```
 //!
-//! with the deficits e of `sph::deficit` and their weights w. As the fluid keeps its volume, this energy grows with its surface alone. Forces are equal
-//! and opposite and act along the line between particles, which keeps momentum and angular momentum; deep inside there are
-//! none, so that the fluid stays a fluid there.
+//! with the deficits e of `sph::deficit` and their weights w. As the fluid keeps its volume, this energy grows with its
+//! surface alone. Forces are equal and opposite and act along the line between particles, which keeps momentum and angular
+//! momentum; deep inside there are none, so that the fluid stays a fluid there.
 
 use crate::{
     columns::{Column::*, Columns, Fluid},
