@@ -1,14 +1,15 @@
 //! What a part of a scene costs asleep, over what it costs awake, while another part moves.
 //!
 //! Three worlds are stepped in turns: one in which the part sleeps, one in which it may not, and one without it. What is left of the time of
-//! a step without that of the third is the cost of the part. `cargo bench --bench sleep`
+//! a step without that of the third is the cost of the part. `cargo bench --bench sleep`, on a GPU
+//! `cargo bench --features gpu --bench sleep -- --gpu`.
 
 #![expect(clippy::print_stdout, reason = "the figures are what it is for")]
 
 use std::time::Instant;
 
 use sorb::{
-    World,
+    Offload, Options, World,
     glam::{UVec3, Vec3},
     scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
 };
@@ -53,10 +54,17 @@ fn stirred(scene: Scene) -> Scene {
     scene.with_fluid(pool(0.1, 0.4)).with_body(paddle)
 }
 
-/// A world that has been stepped for two seconds.
+fn is_asked(flag: &str) -> bool {
+    std::env::args().any(|argument| argument == flag)
+}
+
+/// A world that has been stepped for three seconds.
 fn settled(mut scene: Scene, sleep_after: f32) -> World {
     scene.time.sleep_after = sleep_after;
-    let mut world = World::new(&scene).expect("the scene is valid");
+    let offload = if is_asked("--gpu") { Offload::Gpu } else { Offload::Cpu };
+    let options = Options { offload, ..Options::default() };
+    let mut world =
+        World::with_options(&scene, &options).expect("the scene is valid, and there is a GPU if asked for");
     while world.clock().time < 3.0 {
         world.advance_frame().expect("the scene is stable");
     }
@@ -86,7 +94,7 @@ fn compare(name: &str, with: &Scene, without: &Scene, is_asleep: impl Fn(&World)
         "{name}: {awake:.4} ms a step, {asleep:.4} ms with it asleep, {rest:.4} ms without it: {:.1} % of its cost awake",
         100.0 * (asleep - rest) / (awake - rest)
     );
-    if std::env::args().any(|argument| argument == "--phases") {
+    if is_asked("--phases") {
         for time in worlds[0].phase_times() {
             let of = |world: &World| {
                 let found = world.phase_times().iter().find(|other| other.name == time.name);

@@ -254,6 +254,7 @@ impl Steps {
             courant: self.time.courant,
             pressure_courant: PRESSURE_COURANT,
             edge: self.edge,
+            has_fluid: self.has_fluid,
             minimum: self.time.minimum_step,
             constant: self.constant.0,
             constant_bound: Bound::ALL.iter().position(|bound| *bound == self.constant.1).unwrap_or(0) as u32,

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-/// Rows of nodes that are asleep. Shaders do not know of them: on a device a scene sleeps as a whole.
+/// Rows of nodes that are asleep: on a device those of whole sponges, whose parameters say so.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Asleep {
     /// In order, without a gap of nothing between two.

@@ -178,7 +178,8 @@ columns! {
         /// How far inside a sponge the particle is: sum of node volume times kernel, 0 outside, 1 inside.
         FluidInterior = interior: Vec<f32>, "1", Scratch;
         /// Rate at which drag takes the particle to the velocity of the sponge, and what its speed beside the sponge adds to
-        /// that \[1/m\]; z, w: unused.
+        /// that \[1/m\]; z: root of how far the material there gives way to the pressure, over the water, see `couple::solid_yield` \[1\];
+        /// w: unused.
         FluidDragRate = drag_rate: Vec<[f32; 4]>, "1/s", Scratch;
         /// Impulse that the particle loses to the sponge, over its interior value; w: unused.
         FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
@@ -198,6 +199,9 @@ columns! {
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
         FluidCorrection = correction: Vec<[f32; 4]>, "m/s^2", Scratch;
+        /// Compression that sponges take by giving way to the change of the pressure, over the square of the step, see
+        /// `couple::solid_yield`. Empty where there are none.
+        FluidYield = solid_yield: Vec<f32>, "1/s^2", Scratch;
         /// Where the pressure solve stands.
         FluidPressureSolve = pressure_solve: PressureSolve, "1", Scratch;
         /// Rate at which walls and bodies slow a particle down, along the axes: xx, yy, zz; w: unused.

@@ -144,6 +144,7 @@ pub static KERNELS: &[&Kernel] = &[
     &couple::exchange::KERNEL,
     &couple::solid_pressure::KERNEL,
     &couple::solid_share::KERNEL,
+    &couple::solid_yield::KERNEL,
     &couple::solid_reaction::KERNEL,
     &couple::node_velocity::KERNEL,
     &couple::drag_impulse::KERNEL,

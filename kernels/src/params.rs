@@ -26,7 +26,7 @@ pub struct Params {
     pub fluid: FluidParams,
     /// The sponges, in the order of the scene.
     pub sponges: Vec<SpongeParams>,
-    /// Nodes that stay as they are, because their sponges are asleep; on the CPU only.
+    /// Nodes that stay as they are, because their sponges are asleep.
     pub asleep: Asleep,
     /// Smoothing between nodes and particles; its support is the suction radius.
     pub coupling: Wendland,

@@ -33,7 +33,7 @@ fn choose_step() {
     clock.step = params.constant_step;
     clock.bound = params.constant_bound;
     let radius = params.smoothing.radius;
-    if (params.particle_mass > 0.0) {
+    if (params.has_moving_fluid == 1u) {
         let speed = select(params.sound_speed, 0.0, params.incompressible == 1u) + clock.fluid_speed;
         if (speed > 0.0) {
             offer(params.courant * radius / speed, COURANT);
@@ -47,7 +47,7 @@ fn choose_step() {
     }
     if (clock.body_speed > 0.0) {
         // No shorter than ten of the shortest: what is faster is swept.
-        let reach = min(select(0.25 * params.edge, params.courant * radius, params.particle_mass > 0.0), 0.25 * params.edge);
+        let reach = min(select(0.25 * params.edge, params.courant * radius, params.has_moving_fluid == 1u), 0.25 * params.edge);
         offer(max(reach / clock.body_speed, 10.0 * params.minimum_step), BODY_SPEED);
     }
     if (clock.node_speed > 0.0) {

@@ -89,9 +89,10 @@ struct Params {
     half_periods: vec4<f32>,
     // How far apart nodes that touch can be; 0 where nothing can.
     pair_radius: f32,
+    // 1 where there is fluid that is not asleep.
+    has_moving_fluid: u32,
     unused_0: u32,
     unused_1: u32,
-    unused_2: u32,
 }
 
 // Time on the device. Everything that a step needs to know, and what the host wants to know of the steps of a batch.

@@ -33,6 +33,12 @@ struct Sponge {
 const SBD: u32 = 0u;
 const VBD: u32 = 1u;
 const XPBD_NEO_HOOKEAN: u32 = 2u;
+// Beside the solver of a sponge that is asleep: none of them moves it. Nothing that is awake is within its reach.
+const ASLEEP: u32 = 4u;
+
+fn is_asleep(sponge: Sponge) -> bool {
+    return (sponge.solver & ASLEEP) != 0u;
+}
 
 struct Sponges {
     all: array<Sponge, 256>,

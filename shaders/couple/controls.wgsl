@@ -39,6 +39,9 @@ fn main(
         let size = 1.0 + swelling * node_wetting[node].x;
         volume *= size * size * size;
     }
+    if (is_asleep(sponges.all[node_sponge[node]])) {
+        volume = 0.0;
+    }
     control_position[row] = vec4<f32>(point, volume);
     control_node[row] = node;
 }

@@ -1,6 +1,8 @@
 // How far inside a sponge every particle is, and how drag acts there.
 //
 //     chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
+//
+// and how far the material follows the pressure, as `solid_yield.rs` has it.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -12,6 +14,13 @@
 @group(0) @binding(7) var<storage, read_write> interior: array<f32>;
 @group(0) @binding(8) var<storage, read_write> drag_rate: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read> node_wetting: array<vec4<f32>>;
+
+const FOLLOWING: f32 = 0.7;
+const MOST: f32 = 1.0;
+
+fn following(porosity: f32) -> f32 {
+    return sqrt(min(FOLLOWING * (1.0 - porosity) / porosity, MOST));
+}
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -30,6 +39,7 @@ fn main(
     var sum = 0.0;
     var rate = vec2<f32>(0.0);
     var mobile = 0.0;
+    var follows = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = list[slot];
@@ -38,7 +48,9 @@ fn main(
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight;
         let node = control_node[other];
-        rate += weight * node_pores[node].yz;
+        let pores = node_pores[node];
+        rate += weight * pores.yz;
+        follows += weight * pores.x * following(pores.w);
         if (params.has_wetting != 0u) {
             mobile += weight * node_wetting[node].w;
         }
@@ -48,5 +60,5 @@ fn main(
         rate *= vec2<f32>(slower, sqrt(slower));
     }
     interior[row] = sum;
-    drag_rate[row] = vec4<f32>(rate, 0.0, 0.0);
+    drag_rate[row] = vec4<f32>(rate, follows, 0.0);
 }

@@ -72,10 +72,12 @@ fn main(
     }
     let row = group_of(group, groups) * 8u + lane / 32u;
     let is_row = row < params.node_rows;
-    let point = queries[min(row, params.node_rows - 1u)].xyz;
+    let query = queries[min(row, params.node_rows - 1u)];
+    let point = query.xyz;
     let sub = lane & 31u;
     var own = 0u;
-    if (is_row) {
+    // A node of a sponge that is asleep has no volume, and no particle near it.
+    if (is_row && query.w > 0.0) {
         own = visit(point, sub, 1u, 0u);
     }
     found[lane] = own;

@@ -22,6 +22,9 @@ fn main(
     }
     let base = row * STAR;
     let sponge = sponges.all[stars[base + SPONGE]];
+    if (is_asleep(sponge)) {
+        return;
+    }
     if (sponge.pores_close == 0u) {
         pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity);
         return;

@@ -22,6 +22,7 @@ fn main(
     var own = no_sums();
     if (row < params.tet_rows) {
         var sponge = sponges.all[tet_sponge[row]];
+        let solver = sponge.solver & ~ASLEEP;
         let tet = tets[row];
         if (sponge.softening > 0.0 || sponge.swelling > 0.0) {
             // As `wetted.rs` has it.
@@ -46,7 +47,7 @@ fn main(
         var energy = sponge.stretch_modulus * dot(lengths, lengths)
             + sponge.shear_modulus * dot(shears, shears)
             + sponge.volume_modulus * (ratio - 1.0) * (ratio - 1.0);
-        if (sponge.solver == VBD) {
+        if (solver == VBD) {
             // mu (|F|^2 - 3 - 2 ln J) + (lambda - mu) (J - 1)^2, in differences from rest.
             let least = max(ratio, SOLID);
             let beyond = ratio / least - 1.0;
@@ -54,7 +55,7 @@ fn main(
             let first_order = lengths.x + lengths.y + lengths.z - logarithm;
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
                 + (sponge.lambda - sponge.mu) * (ratio - 1.0) * (ratio - 1.0);
-        } else if (sponge.solver == XPBD_NEO_HOOKEAN) {
+        } else if (solver == XPBD_NEO_HOOKEAN) {
             // mu (|F|^2 - 3) + lambda ((J - alpha)^2 - (1 - alpha)^2), in differences from rest.
             let first_order = lengths.x + lengths.y + lengths.z - (ratio - 1.0);
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
@@ -62,7 +63,7 @@ fn main(
         }
         let weight = tet_weight[row];
         // The constraints of strain based dynamics know the tets alone.
-        let strained = select(1.0, weight, sponge.solver == VBD || sponge.solver == XPBD_NEO_HOOKEAN);
+        let strained = select(1.0, weight, solver == VBD || solver == XPBD_NEO_HOOKEAN);
         own.a = vec4<f32>(volume * weight * ratio, 0.5 * volume * strained * energy, 0.0, 0.0);
     }
     write_sums(group_of(group, groups), lane, group_sums(lane, own));

@@ -54,14 +54,15 @@ fn main(
     var old = vec3<f32>(0.0);
     var w = 0.0;
     var clearance = 0.0;
-    // Held nodes, and those that meet obstacles in their own solver, stay where they are.
+    // Held nodes, those that are asleep, and those that meet obstacles in their own solver, stay where they are.
     var moves = false;
     if (is_row) {
         point = predicted[row].xyz;
         w = predicted[row].w;
         old = position[row].xyz;
         clearance = sponges.all[node_sponge[row]].edge * CLEARANCE;
-        moves = w > 0.0 && sponges.all[node_sponge[row]].solver != VBD;
+        let sponge = sponges.all[node_sponge[row]];
+        moves = w > 0.0 && sponge.solver != VBD && !is_asleep(sponge);
     }
     let meets_walls = is_row && moves && params.wall_low.w > 0.0;
     if (meets_walls) {

@@ -1,12 +1,14 @@
 // Velocity from the corrected positions: v = (y - x) / h, x <- y; the largest speed, and the first row that is not
-// finite.
+// finite. Sponges that are asleep stay as they are.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> velocity: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> extremes: array<atomic<u32>>;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> position: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> largest: atomic<u32>;
 
@@ -24,7 +26,11 @@ fn main(
         atomicStore(&largest, 0u);
     }
     workgroupBarrier();
+    var moves = false;
     if (row < params.node_rows) {
+        moves = !is_asleep(sponges.all[node_sponge[row]]);
+    }
+    if (moves) {
         let y = predicted[row];
         let v = (y.xyz - position[row].xyz) * clock.inverse_step;
         velocity[row] = vec4<f32>(v, velocity[row].w);

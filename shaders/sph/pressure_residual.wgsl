@@ -1,6 +1,6 @@
 // One round of a pressure solve: the compression that is left, and the sums that `solve_round.wgsl` adds up.
 //
-//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + b e sum_j c_ij (dP_j - dP_i)
+//     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i + y_i) + b e sum_j c_ij (dP_j - dP_i)
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -10,6 +10,7 @@
 @group(0) @binding(5) var<storage, read> factors: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> pressure_rows: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> solve_sums: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> solid_yield: array<f32>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -47,7 +48,7 @@ fn main(
         let factor = factors[row];
         let square = clock.step * clock.step;
         let away = dot(correction[row].xyz, factor.xyz) + pairs * own.w * (prompt_roughness() / square);
-        let left = factor.w + (sum - away) * square;
+        let left = factor.w + (sum - away + solid_yield[row]) * square;
         let before = pressure_rows[row];
         let response = before.w - left;
         var error = left;

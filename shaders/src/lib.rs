@@ -50,6 +50,7 @@ pub static SHADERS: &[Shader] = shaders! {
     couple::solid_pressure: smoothing;
     couple::solid_reaction: smoothing control_group;
     couple::solid_share: smoothing;
+    couple::solid_yield: smoothing;
     couple::suction: smoothing;
     couple::velocity_filter: smoothing control_group received;
     couple::wetting: sponges star;
@@ -80,7 +81,7 @@ pub static SHADERS: &[Shader] = shaders! {
     pbd::touch: sponges star meeting;
     pbd::touching: ;
     pbd::vbd: body surface sweep sponges star descent;
-    pbd::velocity: ;
+    pbd::velocity: sponges;
     pbd::xpbd_neo_hookean: sponges;
     sph::advect: ;
     sph::body_wrenches: wrench;

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use sorb_kernels::{
+    asleep::Asleep,
     columns::{Column, Columns, Life},
     couple::weights::weigh,
     cpu::Cpu,
@@ -37,6 +38,11 @@ pub(crate) struct Device {
     gpu: Arc<Gpu>,
     limits: StepLimits,
     shares: Shares,
+    /// Stages of the steps that there are while parts are asleep, see [`Content::lesser`](crate::schedule::Content); none where the device
+    /// does not have all of a step.
+    lesser: Vec<Vec<Stage>>,
+    /// Which of them the next steps have; 0 for the whole one.
+    lesser_plan: usize,
     /// What is read back when the host looks.
     looked_at: Vec<Column>,
     wants_times: bool,
@@ -64,6 +70,8 @@ struct On {
     resident: Resident,
     /// One for every share that the device has, in order.
     programs: Vec<Program>,
+    /// One for every lesser plan that there was a step of.
+    lesser: Vec<Option<Program>>,
     profile: Option<Profile>,
 }
 
@@ -71,6 +79,7 @@ impl Device {
     pub(crate) fn new(
         gpu: Arc<Gpu>,
         plan: &Plan,
+        lesser: &[Plan],
         limits: StepLimits,
         observed: &[Column],
         wants_times: bool,
@@ -84,10 +93,17 @@ impl Device {
                 && !is_internal(*column)
         };
         let looked_at = Column::ALL.iter().copied().filter(wanted).collect();
+        let stages = |plan: &Plan| {
+            let segments = plan.shares(&[]).segments;
+            segments.into_iter().flat_map(|segment| segment.stages).collect()
+        };
+        let lesser = if shares.are_all_on_gpu() { lesser.iter().map(stages).collect() } else { Vec::new() };
         Self {
             gpu,
             limits,
             shares,
+            lesser,
+            lesser_plan: 0,
             looked_at,
             wants_times,
             resident: None,
@@ -105,6 +121,8 @@ impl Device {
             gpu: Arc::clone(&self.gpu),
             limits: self.limits,
             shares: self.shares.clone(),
+            lesser: self.lesser.clone(),
+            lesser_plan: self.lesser_plan,
             looked_at: self.looked_at.clone(),
             wants_times: self.wants_times,
             resident: None,
@@ -190,13 +208,28 @@ impl Device {
         let programs =
             shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
-        self.resident = Some(On { resident, programs, profile });
+        let lesser = self.lesser.iter().map(|_| None).collect();
+        self.resident = Some(On { resident, programs, lesser, profile });
         if self.has_all() {
             forget_lists(host);
         } else {
             Column::ALL.iter().for_each(|column| make_room(host, *column));
         }
         Ok(())
+    }
+
+    /// Makes the next steps go on without what is asleep, by one of the lesser plans. The time has to be set anew.
+    pub(crate) fn set_asleep(
+        &mut self,
+        asleep: &Asleep,
+        limits: StepLimits,
+        is_outside: bool,
+        lesser_plan: usize,
+    ) {
+        (self.limits, self.lesser_plan) = (limits, lesser_plan);
+        if let Some(on) = &mut self.resident {
+            on.resident.set_asleep(asleep, limits, is_outside);
+        }
     }
 
     /// Sets the time that the next steps are to fill.
@@ -217,8 +250,14 @@ impl Device {
     pub(crate) fn advance(&mut self, host: &mut Columns, steps: u32) -> Result<Answer, GpuError> {
         self.leave(host);
         let refused = || GpuError::Refused { reason: "no state was uploaded".to_owned() };
-        let On { resident, programs, profile } = self.resident.as_mut().ok_or_else(refused)?;
-        let program = programs.first_mut().ok_or_else(refused)?;
+        let On { resident, programs, lesser, profile } = self.resident.as_mut().ok_or_else(refused)?;
+        let program = match self.lesser.get(self.lesser_plan).zip(lesser.get_mut(self.lesser_plan)) {
+            Some((stages, program)) if self.lesser_plan > 0 => match program {
+                Some(program) => program,
+                None => program.insert(resident.program_of(stages.clone())?),
+            },
+            _ => programs.first_mut().ok_or_else(refused)?,
+        };
         resident.upload_bodies(&host.bodies.states.0);
         let steps = if profile.is_some() { steps.min(Profile::steps(program.passes())) } else { steps };
         resident.advance(program, steps, profile.as_mut())

@@ -2,7 +2,7 @@
 
 use std::{sync::Arc, time::Instant};
 
-use sorb_kernels::gpu::{Answer, Gpu, GpuError, Outcome, Start};
+use sorb_kernels::gpu::{Answer, BOUNDS, Gpu, GpuError, Outcome, Start};
 
 use super::{device::Kept, place::placed};
 use crate::{
@@ -36,46 +36,64 @@ impl World {
         })
     }
 
-    /// As many steps as fill a frame: all of them in one or two submissions, if there are no bodies to move in between.
+    /// As many steps as fill a frame: all of them in one or two submissions, if there are no bodies to move in between, and nothing that
+    /// sleeps to be woken.
     pub(crate) fn frame_on_device(&mut self) -> Result<FrameReport, StepError> {
-        let (start, first) = (self.clock.time, self.clock.steps);
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
-        let whole = end - start;
         let mut report = FrameReport {
-            time: start,
+            time: self.clock.time,
             steps: 0,
             shortest_step: f32::INFINITY,
             bound: Bound::Frame,
             maximum_speed: 0.0,
         };
-        if whole > 1e-9 {
-            self.begin_on_device(whole as f32)?;
-        }
-        while end - self.clock.time > 1e-9 {
-            let before = (self.clock.steps - first) as u32;
-            let answer = self.advance_on_device(self.steps_to(end), before)?;
-            let taken = answer.steps - before;
-            self.clock.steps = first + u64::from(answer.steps);
-            // The end is reached exactly: the last step is what is left.
-            let is_over = answer.left <= 1e-9;
-            self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
-            self.take_over(&answer, taken)?;
-            report.steps = answer.steps;
-            report.shortest_step = answer.shortest;
-            report.maximum_speed = answer.maximum_speed;
-            let most =
-                (0..answer.bounds.len() as u32).rev().max_by_key(|bound| answer.bounds[*bound as usize]);
-            report.bound = Bound::from_index(most.unwrap_or(answer.last_bound));
+        let mut bounds = [0; BOUNDS];
+        while end - self.clock.time > 1e-9 && !self.sleep_until(end) {
+            self.fill_on_device(end, &mut report, &mut bounds)?;
+            let most = (0..BOUNDS).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
+            report.bound = Bound::from_index(most as u32);
         }
         self.clock.frames += 1;
         report.time = self.clock.time;
         Ok(report)
     }
 
+    /// Steps to the end of a frame, or until parts fall asleep or wake: then the device begins anew. Counts what bounds the steps.
+    fn fill_on_device(
+        &mut self,
+        end: f64,
+        report: &mut FrameReport,
+        bounds: &mut [u32; BOUNDS],
+    ) -> Result<(), StepError> {
+        self.begin_on_device((end - self.clock.time) as f32)?;
+        let (first, before) = (self.clock.steps, *bounds);
+        loop {
+            let taken_before = (self.clock.steps - first) as u32;
+            let answer = self.advance_on_device(self.steps_to(end), taken_before)?;
+            let taken = answer.steps - taken_before;
+            self.clock.steps = first + u64::from(answer.steps);
+            // The end is reached exactly: the last step is what is left.
+            let is_over = answer.left <= 1e-9;
+            self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
+            self.take_over(&answer, taken)?;
+            report.steps += taken;
+            report.shortest_step = report.shortest_step.min(answer.shortest);
+            report.maximum_speed = report.maximum_speed.max(answer.maximum_speed);
+            for (index, bound) in bounds.iter_mut().enumerate() {
+                *bound = before[index] + answer.bounds[index];
+            }
+            if self.watch() || is_over {
+                return Ok(());
+            }
+        }
+    }
+
     /// Steps that are likely to be left of a frame.
     fn steps_to(&self, end: f64) -> u32 {
         // Bodies that never move need nobody.
-        if (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed) {
+        let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
+        // What is awake may come near what is not in any step.
+        if is_moved || self.sleep.has_any() {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);
@@ -83,12 +101,21 @@ impl World {
         (((end - self.clock.time) / step).ceil() as u32).saturating_add(1).min(BATCH)
     }
 
+    /// Tells the device what sleeps; what is awake of the fluid is outside of all sponges if they sleep.
+    pub(crate) fn apply_sleep_on_device(&mut self, is_outside: bool) {
+        let (limits, lesser_plan) = (self.steps.limits(), self.lesser_plan());
+        if let Some(device) = &mut self.stores.device {
+            device.set_asleep(&self.params.asleep, limits, is_outside, lesser_plan);
+        }
+    }
+
     fn begin_on_device(&mut self, left: f32) -> Result<(), StepError> {
         let start = Start {
             left,
             fluid_speed: self.clock.fluid_speed,
             fluid_acceleration: self.clock.fluid_acceleration,
-            node_speed: self.clock.node_speed,
+            // Speeds of what sleeps bound nothing.
+            node_speed: if self.has_moving_nodes() { self.clock.node_speed } else { 0.0 },
             fluid_pressure: self.clock.fluid_pressure,
         };
         let Stores { host, device } = &mut self.stores;
@@ -134,7 +161,6 @@ impl World {
     pub fn move_to(&mut self, gpu: Option<&Arc<Gpu>>) -> Result<(), WorldError> {
         // Reads back what the host does not have yet, if it can.
         self.stores.view();
-        self.wake_all();
         if let Some(device) = &mut self.stores.device
             && let Some(kept) = device.give_up(&mut self.stores.host)
         {
@@ -146,6 +172,7 @@ impl World {
             self.engine = kept.engine;
             self.params.step = kept.step;
         }
+        self.wake_all();
         if matches!(self.failed, Some(StepError::Gpu(_))) {
             self.failed = None;
         }
@@ -160,22 +187,37 @@ impl World {
             ..self.options.clone()
         };
         let rows = self.stores.host.rows;
-        let (plan, device) = placed(self.plan.clone(), rows, &self.params, &self.steps, &options)?;
-        self.plan = plan;
+        let plans = (self.plan.clone(), self.lesser_plans.clone());
+        let ((plan, lesser), device) = placed(plans, rows, &self.params, &self.steps, &options)?;
+        (self.plan, self.lesser_plans) = (plan, lesser);
         self.stores.device = device;
         Ok(())
+    }
+
+    /// Whether there are nodes of sponges that are awake.
+    fn has_moving_nodes(&self) -> bool {
+        let sponges = self.scene.sponges.len();
+        (0..sponges).any(|sponge| !self.is_sponge_asleep(sponge))
     }
 
     /// Takes over what the device found, moves the bodies, and refuses what is not finite.
     fn take_over(&mut self, answer: &Answer, taken: u32) -> Result<(), StepError> {
         let (step, time) = (self.clock.steps, self.clock.time);
-        self.clock.fluid_speed = answer.fluid_speed;
-        self.clock.fluid_acceleration = answer.fluid_acceleration;
-        self.clock.node_speed = answer.node_speed;
-        self.clock.fluid_pressure = answer.fluid_pressure;
+        // What sleeps goes on as it was.
+        if !self.is_fluid_asleep() {
+            self.clock.fluid_speed = answer.fluid_speed;
+            self.clock.fluid_acceleration = answer.fluid_acceleration;
+            self.clock.fluid_pressure = answer.fluid_pressure;
+        }
+        if self.has_moving_nodes() {
+            self.clock.node_speed = answer.node_speed;
+        }
         if taken > 0 {
             self.params.step = answer.last_step;
-            if !answer.wrenches.is_empty() {
+            let began = time - f64::from(answer.last_step);
+            if self.sleep.are_bodies_still(began, answer.last_step) {
+                self.engine.wait(f64::from(answer.last_step));
+            } else if !answer.wrenches.is_empty() {
                 let bodies = &mut self.stores.host.bodies;
                 move_bodies(self.engine.as_mut(), &self.light, bodies, &answer.wrenches, answer.last_step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;

@@ -26,24 +26,35 @@ struct Request<'a> {
     options: &'a Options,
 }
 
-/// A plan with its place, and the device if it is one.
+/// The plan of a whole step, and those of steps while parts are asleep.
+pub(crate) type Plans = (Plan, Vec<Plan>);
+
+/// Plans with their place, and the device if it is one.
 ///
 /// # Errors
 /// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
 pub(crate) fn placed(
-    plan: Plan,
+    (plan, lesser): Plans,
     rows: RowCounts,
     params: &Params,
     steps: &Steps,
     options: &Options,
-) -> Result<(Plan, Option<Device>), WorldError> {
+) -> Result<(Plans, Option<Device>), WorldError> {
     if options.offload == Offload::Cpu {
-        return Ok((plan.unplaced(), None));
+        let lesser = lesser.into_iter().map(Plan::unplaced).collect();
+        return Ok(((plan.unplaced(), lesser), None));
     }
     let (placement, gpu) = Request { plan: &plan, rows, params, options }.place()?;
-    let plan = plan.placed(placement);
-    let device = gpu.map(|gpu| Device::new(gpu, &plan, steps.limits(), &options.observed, options.gpu_times));
-    Ok((plan, device))
+    let place = |plan: Plan| {
+        let request = Request { plan: &plan, rows, params, options };
+        let transfers = request.transfers(&placement.on_gpu);
+        plan.placed(Placement { transfers, ..placement.clone() })
+    };
+    let lesser: Vec<Plan> = lesser.into_iter().map(place).collect();
+    let plan = plan.placed(placement.clone());
+    let device =
+        gpu.map(|gpu| Device::new(gpu, &plan, &lesser, steps.limits(), &options.observed, options.gpu_times));
+    Ok(((plan, lesser), device))
 }
 
 type Placed = (Placement, Option<Arc<Gpu>>);

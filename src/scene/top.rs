@@ -146,7 +146,7 @@ pub struct Time {
     /// Time in which the water, a sponge or a body, and all that it can touch, may not move before they sleep, and cost next to nothing
     /// until something comes near or a script moves a body beside them. Range 0 to 1000 s; default 0: never.
     ///
-    /// On a GPU the scene sleeps as a whole or not at all. For what is played, 1 s. For what is measured, never: water that rises by less than `sleep_speed` stops.
+    /// For what is played, 1 s. For what is measured, never: water that rises by less than `sleep_speed` stops.
     pub sleep_after: f32,
     /// Mean speed of particles, of nodes and of every body, from where they were to where they are, up to which nothing moves. Range 0 to
     /// 1 m/s; default 0.001.

@@ -88,6 +88,7 @@ static SOLVE: &[Phase] = &[
         phases: &[
             Run(&sph::pressure_update::KERNEL),
             Run(&sph::pressure_acceleration::KERNEL),
+            Run(&couple::solid_yield::KERNEL),
             Run(&sph::pressure_residual::KERNEL),
         ],
     },

@@ -103,11 +103,11 @@ pub struct World {
     pub(crate) light: LightBodies,
     pub(crate) plan: Plan,
     /// The same while parts are asleep, see [`Content::lesser`](crate::schedule::Content).
-    lesser_plans: Vec<Plan>,
+    pub(crate) lesser_plans: Vec<Plan>,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
-    sleep: sleep::Sleep,
+    pub(crate) sleep: sleep::Sleep,
     pub(crate) failed: Option<StepError>,
     #[cfg(feature = "gpu")]
     pub(crate) options: Options,
@@ -158,7 +158,8 @@ impl World {
             return Err(WorldError::NeedsGpu(options.offload.clone()));
         }
         #[cfg(feature = "gpu")]
-        let (plan, device) = crate::gpu::placed(plan, columns.rows, &params, &steps, options)?;
+        let ((plan, lesser_plans), device) =
+            crate::gpu::placed((plan, lesser_plans), columns.rows, &params, &steps, options)?;
         let stores = Stores {
             host: columns,
             #[cfg(feature = "gpu")]
@@ -218,9 +219,7 @@ impl World {
         let is_over = self.sleep_until(end);
         #[cfg(feature = "gpu")]
         if self.is_on_device() && !is_over {
-            let report = self.going_on(Self::frame_on_device)?;
-            self.watch();
-            return Ok(report);
+            return self.going_on(Self::frame_on_device);
         }
         let mut report = FrameReport {
             time: self.clock.time,

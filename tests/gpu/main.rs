@@ -4,6 +4,7 @@
 mod common;
 
 mod alike;
+mod asleep;
 mod pictures;
 mod placement;
 mod state;

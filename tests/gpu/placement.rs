@@ -52,7 +52,7 @@ fn everything(name: &str, keys: &[&str]) -> Scene {
 /// Kernels that run at one place: those that go through the cells, and those that are repeated until they have converged.
 const TOGETHER: [&[&str]; 3] = [
     &["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"],
-    &["sph::pressure_update", "sph::pressure_acceleration", "sph::pressure_residual"],
+    &["sph::pressure_update", "sph::pressure_acceleration", "couple::solid_yield", "sph::pressure_residual"],
     &["sph::viscosity_product", "sph::viscosity_update"],
 ];
 
@@ -64,7 +64,8 @@ fn placed_alone(world: &World) -> Vec<Vec<&'static str>> {
     let alone = |name: &&'static str| TOGETHER.iter().all(|group| !group.contains(name));
     let names = KERNELS.iter().map(|kernel| kernel.name).filter(|name| runs(name));
     let mut all: Vec<Vec<_>> = names.filter(alone).map(|name| vec![name]).collect();
-    all.extend(TOGETHER.iter().filter(|group| runs(group[0])).map(|group| group.to_vec()));
+    let groups = TOGETHER.iter().map(|group| group.iter().copied().filter(|name| runs(name)).collect());
+    all.extend(groups.filter(|group: &Vec<_>| !group.is_empty()));
     all
 }
 

@@ -6,7 +6,10 @@ use sorb::{
     scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
 };
 
-use crate::{common, frame, positions};
+use crate::{
+    common::{self, resting::positions},
+    frame,
+};
 
 /// Time at which the plate begins to move \[s\].
 const START: f32 = 6.0;
@@ -44,6 +47,8 @@ fn a_pool_at_rest_sleeps_until_a_plate_moves() {
         frame(&mut world);
     }
     assert!(world.is_asleep(), "after {} s", world.clock().time);
+    let absorbed = world.measures().absorbed_mass;
+    assert!(absorbed > 1e-3, "what is in the sponge stays in it: {absorbed} kg");
     // Asleep it takes no steps, and nothing changes.
     let (before, places) = (world.clock().steps, positions(&world));
     let report = frame(&mut world);

@@ -4,11 +4,12 @@
 //! chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //! ```
 //!
-//! chi is 1 deep inside and 0 outside; beta and gamma are those of `couple::pores`. Where pores are partly filled, water moves as
+//! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. chi is 1 deep inside and 0 outside; beta and gamma are those of `couple::pores`. Where pores are partly filled, water moves as
 //! in a medium whose permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i` (`couple::wetting`): `beta_i / m_i` and
 //! `gamma_i / sqrt(m_i)`. The mean is that of what conducts side by side, so that dry pores ahead of a front do not hold the
 //! water behind it.
 
+use super::solid_yield::following;
 use crate::{
     columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
     cpu::Cpu,
@@ -35,6 +36,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let mut pores = vec![[0.0; 4]; controls.len()];
     for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
         *pores = columns.nodes.pores[*node as usize];
+        pores[0] *= following(pores[3]);
     }
     let has_wetting = !columns.nodes.wetting.is_empty();
     if has_wetting {
@@ -53,6 +55,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let zero = lanes::splat(simd, 0.0);
                 let (mut sum, mut linear, mut inertial, mut mobile) = (zero, zero, zero, zero);
+                let mut follows = zero;
                 for (entry, stored) in lists.group(row).iter().zip(&mut weights[lists.range(row)]) {
                     let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
                     let (dx, dy, dz) = (x - xa, y - ya, z - za);
@@ -60,7 +63,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     let weight = volume * kernel.value_scale() * shape;
                     lanes::store(stored, 0, weight);
                     sum += weight;
-                    let [_, rate, per_speed, mobility] = lanes::gather_rows(simd, &pores, entry);
+                    let [following, rate, per_speed, mobility] = lanes::gather_rows(simd, &pores, entry);
+                    follows += weight * following;
                     linear += weight * rate;
                     inertial += weight * per_speed;
                     if has_wetting {
@@ -75,7 +79,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     inertial *= slower.sqrt();
                 }
                 lanes::store(interior, row, sum);
-                lanes::store_rows(drag_rate, row, [linear, inertial, zero, zero]);
+                lanes::store_rows(drag_rate, row, [linear, inertial, follows, zero]);
             }
         });
     });

@@ -16,6 +16,7 @@ pub mod saturation;
 pub mod solid_pressure;
 pub mod solid_reaction;
 pub mod solid_share;
+pub mod solid_yield;
 pub mod suction;
 pub mod velocity_filter;
 #[cfg(feature = "gpu")]

@@ -22,6 +22,9 @@ pub enum Outcome {
     TooSmall(f32, u32),
 }
 
+/// Bounds of a step that a device can count.
+pub const BOUNDS: usize = 12;
+
 /// What the device says after a batch of steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
@@ -48,7 +51,7 @@ pub struct Answer {
     /// Root of the mean square of the pressure over rest density in the last step, where it is solved for \[m^2/s^2\].
     pub fluid_pressure: f32,
     /// How many steps each bound limited.
-    pub bounds: [u32; 12],
+    pub bounds: [u32; BOUNDS],
     /// What the last step gave to every body, by fluid and by sponges.
     pub wrenches: Vec<(Wrench, Wrench)>,
     /// Rounds of repetitions that end when they have converged, of all steps since the time was set.

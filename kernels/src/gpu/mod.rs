@@ -31,7 +31,7 @@ mod sums;
 mod transfer;
 mod twins;
 
-pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
+pub use answer::{Answer, BOUNDS, CLOCK_BYTES, Outcome, Start};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
 pub use error::GpuError;
 pub use pack::StepLimits;

@@ -6,7 +6,7 @@ use crate::{
     body::{Body, Shape},
     columns::{Nodes, RowCounts},
     grid::cells::Domain,
-    params::{Cohesion, EquationOfState, Params, Solver, SpongeParams},
+    params::{Cohesion, EquationOfState, Params, Solver},
     pbd::{
         lattice::{COLORS, Topology},
         momentum::joined,
@@ -34,8 +34,10 @@ pub struct StepLimits {
     pub courant: f32,
     /// Step over the time in which pressure moves a particle by a spacing, where pressure is solved for \[1\].
     pub pressure_courant: f32,
-    /// Smallest lattice constant of the sponges \[m\]; infinite without sponges.
+    /// Smallest lattice constant of the sponges that are awake \[m\]; infinite without any.
     pub edge: f32,
+    /// Whether there is fluid, and it is awake.
+    pub has_fluid: bool,
     /// Shortest step that is allowed \[s\].
     pub minimum: f32,
     /// Smallest of the bounds that do not change \[s\].
@@ -133,7 +135,7 @@ pub(super) fn params(
         }
         None => bytes.words(&[0; 16]),
     };
-    bytes.floats(&[pair_radius(params)]).words(&[0; 3]);
+    bytes.floats(&[pair_radius(params)]).words(&[u32::from(limits.has_fluid), 0, 0]);
     bytes.0
 }
 
@@ -142,9 +144,13 @@ fn smoothing_factors(smoothing: &Wendland) -> [f32; 8] {
     [smoothing.support_radius, inverse_radius, value, gradient, laplacian, viscosity, 0.0, 0.0]
 }
 
-pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
+/// Beside the solver of a sponge that is asleep.
+const ASLEEP: u32 = 4;
+
+/// Sponges, of whose nodes `first` has the first of each.
+pub(super) fn sponges(params: &Params, first: &[usize]) -> Vec<u8> {
     let mut bytes = Bytes::default();
-    for sponge in sponges {
+    for (sponge, first) in params.sponges.iter().zip(first) {
         bytes.floats(&[
             sponge.edge,
             sponge.stretch_modulus,
@@ -165,7 +171,7 @@ pub(super) fn sponges(sponges: &[SpongeParams]) -> Vec<u8> {
             Solver::XpbdNeoHookean => 2,
         };
         bytes
-            .words(&[solver])
+            .words(&[if params.asleep.has(*first) { solver | ASLEEP } else { solver }])
             .floats(&[sponge.mu, sponge.lambda, sponge.damping, sponge.inertial_drag])
             .words(&[u32::from(sponge.pores_close), sponge.wetting.exponent])
             .floats(&[sponge.wetting.softening, sponge.wetting.swelling])

@@ -15,6 +15,7 @@ use super::{
     sums::{SUM_BYTES, sum_groups},
 };
 use crate::{
+    asleep::Asleep,
     body::Body,
     columns::{Columns, RowCounts},
     params::Params,
@@ -44,6 +45,8 @@ pub struct Resident {
     pub(super) limits: StepLimits,
     pub(super) params: Params,
     pub(super) grids: [Grid; 3],
+    /// First node of every sponge.
+    first_nodes: Vec<usize>,
     /// First row and rows of every batch.
     pub(super) batches: [[u32; 2]; BATCHES],
     /// Whether particles are where `sph::advect` leaves them (false) or where `grid::sort_fluid` does (true).
@@ -105,6 +108,7 @@ impl Resident {
             limits,
             params: params.clone(),
             grids,
+            first_nodes: first_nodes(columns, params),
             batches,
             sorted: false,
             steps: 0,
@@ -193,6 +197,7 @@ impl Resident {
             ("fluid_factors", solved * 16, plain),
             ("fluid_pressure_rows", solved * 16, plain),
             ("fluid_correction", solved * 16, plain),
+            ("fluid_yield", solved * 4, plain),
             ("solve", SOLVE_BYTES, plain),
             ("solve_sums", most_groups(solved) * 32, plain),
             ("fluid_friction", thick * 16, plain),
@@ -296,7 +301,7 @@ impl Resident {
 
     fn fill_constants(&self, columns: &Columns, tet_sponge: &[u32]) {
         let nodes = &columns.nodes;
-        self.write("sponges", &pack::sponges(&self.params.sponges));
+        self.write("sponges", &pack::sponges(&self.params, &self.first_nodes));
         self.write("fluid_grid", &self.grids[0].bytes(self.rows.fluid));
         self.write("control_grid", &self.grids[1].bytes(self.rows.nodes));
         self.write("pair_grid", &self.grids[2].bytes(self.rows.nodes));
@@ -354,6 +359,24 @@ impl Resident {
         }
     }
 
+    /// Goes on without sponges whose nodes are asleep, and with those that are no longer; `limits` are those of what is awake. The
+    /// fluid `is_outside` of all sponges if they sleep and it does not. The time has to be set anew.
+    pub fn set_asleep(&mut self, asleep: &Asleep, limits: StepLimits, is_outside: bool) {
+        self.params.asleep = asleep.clone();
+        self.limits = limits;
+        self.has_begun = false;
+        self.write("sponges", &pack::sponges(&self.params, &self.first_nodes));
+        self.fill_params();
+        // Nobody renews what was given by those whose phases are left out.
+        let mut stale = vec!["fluid_wrenches", "node_wrenches"];
+        if is_outside {
+            stale.extend(["fluid_interior", "fluid_yield"]);
+        }
+        for name in stale {
+            self.write(name, &vec![0; self.buffer(name).size() as usize]);
+        }
+    }
+
     /// Makes lists longer, with a quarter to spare; `longest` is 0 for those that fit.
     pub(super) fn lengthen(&mut self, longest: Capacities) -> Result<(), GpuError> {
         let names = ["fluid_neighbors", "fluid_controls", "control_fluid", "node_pairs"];
@@ -370,6 +393,13 @@ impl Resident {
         self.fill_params();
         Ok(())
     }
+}
+
+/// The first node of every sponge; beyond all nodes for one without any.
+fn first_nodes(columns: &Columns, params: &Params) -> Vec<usize> {
+    let sponges = &columns.nodes.sponge[..columns.rows.nodes];
+    let first = |sponge| sponges.iter().position(|own| *own as usize == sponge).unwrap_or(sponges.len());
+    (0..params.sponges.len()).map(first).collect()
 }
 
 /// Nodes that a node may touch: those of a flat surface within reach, and half as many again.

@@ -62,6 +62,7 @@ fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
         courant: 0.25,
         pressure_courant: 0.4,
         edge: f32::INFINITY,
+        has_fluid: true,
         minimum: 1e-9,
         constant: 1.0,
         constant_bound: 0,

@@ -54,6 +54,7 @@ fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'stati
         Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
         Column::FluidPredicted => ("fluid_predicted", Rows(&mut fluid.predicted, FAR_ROW)),
         Column::FluidBoundary => ("fluid_boundary", Rows(&mut fluid.boundary, zero)),
+        Column::FluidYield => ("fluid_yield", Values(&mut fluid.solid_yield)),
         Column::FluidDeficit => ("fluid_deficit", Values(&mut fluid.deficit)),
         Column::FluidFactors => ("fluid_factors", Rows(&mut fluid.factors, zero)),
         // Padding rows have a diagonal, by which they are divided.

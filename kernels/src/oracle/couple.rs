@@ -129,12 +129,14 @@ pub(super) fn interior(params: &Params, columns: &mut Columns) {
     columns.fluid.interior = vec![0.0; columns.fluid.position.len()];
     columns.fluid.drag_rate = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
-        let (mut chi, mut linear, mut inertial, mut mobile) = (0.0, 0.0, 0.0, 0.0);
+        let (mut chi, mut linear, mut inertial, mut mobile, mut follows) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for control in 0..columns.rows.nodes {
             let weight = pairs.weight(particle, control);
             chi += weight;
             let node = columns.controls.node[control] as usize;
             let pores = columns.nodes.pores[node];
+            let porosity = f64::from(pores[3]);
+            follows += weight * f64::from(pores[0]) * (0.7 * (1.0 - porosity) / porosity).min(1.0).sqrt();
             linear += weight * f64::from(pores[1]);
             inertial += weight * f64::from(pores[2]);
             mobile += weight * columns.nodes.wetting.get(node).map_or(1.0, |row| f64::from(row[3]));
@@ -142,7 +144,7 @@ pub(super) fn interior(params: &Params, columns: &mut Columns) {
         let slower = if mobile > 0.0 { chi / mobile } else { 1.0 };
         (linear, inertial) = (linear * slower, inertial * slower.sqrt());
         columns.fluid.interior[particle] = chi as f32;
-        columns.fluid.drag_rate[particle] = [linear as f32, inertial as f32, 0.0, 0.0];
+        columns.fluid.drag_rate[particle] = [linear as f32, inertial as f32, follows as f32, 0.0];
     }
 }
 

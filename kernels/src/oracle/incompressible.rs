@@ -160,6 +160,7 @@ pub(super) fn factors(params: &Params, columns: &mut Columns) {
     let (step, spacing) = (f64::from(params.step), f64::from(params.fluid.spacing));
     let density = f64::from(params.fluid.rest_density);
     let volume = f64::from(params.fluid.particle_mass) / density;
+    fluid.solid_yield.clear();
     fluid.factors.resize(fluid.position.len(), [0.0; 4]);
     fluid.pressure_rows.resize(fluid.position.len(), [0.0; 4]);
     let mut squares = 0.0;
@@ -229,6 +230,18 @@ pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     }
 }
 
+pub(super) fn solid_yield(params: &Params, columns: &mut Columns) {
+    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
+    let near = pairs(params, fluid, count);
+    fluid.solid_yield.resize(fluid.position.len(), 0.0);
+    let follows = |row: usize| f64::from(fluid.drag_rate[row][2]);
+    let change = |row: usize| f64::from(fluid.predicted[row][3]);
+    for (i, near) in near.iter().enumerate() {
+        let sum: f64 = near.iter().map(|(j, c)| c * follows(*j) * (change(*j) - change(i))).sum();
+        fluid.solid_yield[i] = (2.0 * follows(i) * sum) as f32;
+    }
+}
+
 pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let Some(solve) = &params.fluid.incompressible else { return };
@@ -244,6 +257,7 @@ pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
             smoother += *c * (f64::from(fluid.predicted[*j][3]) - f64::from(fluid.predicted[i][3]));
         }
         let allowed = prompt_roughness(params) * smoother;
+        change += fluid.solid_yield.get(i).map_or(0.0, |yields| f64::from(*yields));
         let left = f64::from(fluid.factors[i][3]) + square * change + allowed;
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;

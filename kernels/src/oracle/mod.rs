@@ -83,6 +83,7 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         "couple::pores" => porous::pores,
         "couple::solid_pressure" => porous::solid_pressure,
         "couple::solid_share" => porous::solid_share,
+        "couple::solid_yield" => incompressible::solid_yield,
         "couple::solid_reaction" => porous::solid_reaction,
         "couple::node_velocity" => porous::node_velocity,
         "couple::drag_impulse" => porous::drag_impulse,

@@ -38,7 +38,7 @@ pub static KERNEL: Kernel = Kernel {
     name: "sph::factors",
     needs: &[Need::Fluid, Need::Incompressible],
     reads: &[FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary, FluidAcceleration],
-    writes: &[FluidFactors, FluidPairs, FluidPressureRows, FluidPressureSolve],
+    writes: &[FluidFactors, FluidPairs, FluidPressureRows, FluidYield, FluidPressureSolve],
     cpu,
 };
 
@@ -56,10 +56,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         factors,
         pairs,
         pressure_rows,
+        solid_yield,
         pressure_solve,
         ..
     } = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
+    // Where there are sponges, every round of the solve says how far they yield.
+    solid_yield.clear();
     factors.resize(predicted.len(), [0.0; 4]);
     pressure_rows.resize(predicted.len(), [0.0; 4]);
     let displacements = pressure_solve.displacements(predicted.len());

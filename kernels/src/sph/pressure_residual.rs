@@ -1,8 +1,10 @@
 //! One round of a pressure solve: the compression that is left, and how far to go in the next round.
 //!
 //! ```text
-//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i) + b e sum_j c_ij (dP_j - dP_i)
+//! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i + y_i) + b e sum_j c_ij (dP_j - dP_i)
 //! ```
+//!
+//! with what sponges yield, `couple::solid_yield`.
 //!
 //! The length of the next step is that of Barzilai and Borwein \[BB88\] in the norm of the diagonal, see
 //! `pressure_solve`.
@@ -31,6 +33,7 @@ pub static KERNEL: Kernel = Kernel {
         FluidPairs,
         FluidFactors,
         FluidPressureRows,
+        FluidYield,
         FluidPressureSolve,
     ],
     writes: &[FluidPressureRows, FluidPressureSolve],
@@ -40,14 +43,27 @@ pub static KERNEL: Kernel = Kernel {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(incompressible) = &params.fluid.incompressible else { return };
     let count = columns.rows.fluid;
-    let Fluid { predicted, correction, neighbors, pairs, factors, pressure_rows, pressure_solve, .. } =
-        &mut columns.fluid;
+    let Fluid {
+        predicted,
+        correction,
+        neighbors,
+        pairs,
+        factors,
+        pressure_rows,
+        solid_yield,
+        pressure_solve,
+        ..
+    } = &mut columns.fluid;
+    let square = params.step * params.step;
     let rows = (&mut pressure_rows[..], pressure_solve.sums(predicted.len()));
     cpu.for_chunks(rows, |first, (rows, sums)| {
         let (lists, pairs) = (neighbors.chunk(first), pairs.chunk(first));
         let mut left = [0.0; crate::cpu::CHUNK];
         with_space!(cpu, params, simd, space =>
             chunk((simd, space), params, first, [predicted, correction, factors], lists, pairs, &mut left[..rows.len()]));
+        if let Some(solid_yield) = solid_yield.get(first..first + rows.len()) {
+            left.iter_mut().zip(solid_yield).for_each(|(left, yields)| *left += yields * square);
+        }
         let used = count.saturating_sub(first).min(rows.len());
         sums.0[0] = Sums::of(&mut rows[..used], &left);
     });

@@ -125,6 +125,8 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::FluidAcceleration => rows(&fluid.acceleration, &by_id),
         Column::FluidPredicted => rows(&fluid.predicted, &by_id),
         Column::FluidBoundary => rows(&fluid.boundary, &by_id),
+        Column::FluidYield if fluid.solid_yield.is_empty() => Content::Numbers(Vec::new()),
+        Column::FluidYield => values(&fluid.solid_yield, &by_id),
         Column::FluidDeficit => values(&fluid.deficit, &by_id),
         Column::FluidFactors => rows(&fluid.factors, &by_id),
         Column::FluidCorrection => rows(&fluid.correction, &by_id),

@@ -75,6 +75,7 @@ const BOUNDS: &[(&str, f64)] = &[
     ("couple::exchange", 2e-6),
     ("couple::solid_pressure", 2e-5),
     ("couple::solid_share", 5e-5),
+    ("couple::solid_yield", 4e-6),
     ("couple::solid_reaction", 4e-6),
     ("couple::node_velocity", 4e-6),
     ("couple::drag_impulse", 4e-6),
@@ -193,6 +194,7 @@ fn scale_values(columns: &mut Columns, column: Column, factor: f32) -> bool {
     let values = match column {
         Column::FluidDensity => &mut columns.fluid.density,
         Column::FluidInterior => &mut columns.fluid.interior,
+        Column::FluidYield if !columns.fluid.solid_yield.is_empty() => &mut columns.fluid.solid_yield,
         Column::FluidDeficit => &mut columns.fluid.deficit,
         Column::NodeVolume => &mut columns.nodes.volume,
         Column::NodeSuction => &mut columns.nodes.suction,

@@ -62,9 +62,11 @@ pub(super) const CHAIN: &[&str] = &[
     "sph::factors",
     "sph::pressure_update",
     "sph::pressure_acceleration",
+    "couple::solid_yield",
     "sph::pressure_residual",
     "sph::pressure_update",
     "sph::pressure_acceleration",
+    "couple::solid_yield",
     "sph::pressure_residual",
     "couple::solid_reaction",
     "sph::pressure_kick",
@@ -151,7 +153,8 @@ impl Options {
     /// The same, with the pressure that the kernel is there for.
     pub(super) fn suiting(self, kernel: &Kernel) -> Self {
         // What fluid does to vertex block descent, it does with sponges as porous media.
-        let of_fluid = |column: &Column| matches!(column, Column::NodeFree | Column::NodeTarget);
+        let of_fluid =
+            |column: &Column| matches!(column, Column::NodeFree | Column::NodeTarget | Column::FluidYield);
         let touched = || kernel.reads.iter().chain(kernel.writes).any(of_fluid);
         let porous = kernel.needs.contains(&Need::Porous) || touched();
         // Walls and bodies are part of the surface where pressure is solved for.

@@ -7,7 +7,7 @@
 //! as they were, so that the step after waking is the step that would have come next.
 //!
 //! While all parts sleep and no script moves a body, the scene sleeps as a whole, and takes no steps. Otherwise steps go on without
-//! the parts that sleep (`waking.rs`). On a device there is only the whole.
+//! the parts that sleep (`waking.rs`). Where kernels are placed on either side, there is only the whole.
 
 mod bounds;
 mod parts;
@@ -95,6 +95,12 @@ impl Sleep {
         dormant
     }
 
+    /// Whether anything sleeps.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn has_any(&self) -> bool {
+        self.parts.iter().any(|part| part.is_asleep)
+    }
+
     /// Whether a part sleeps; false for what is no part.
     fn has(&self, kind: Kind) -> bool {
         self.parts.iter().any(|part| part.kind == kind && part.is_asleep)
@@ -106,7 +112,7 @@ impl Sleep {
     }
 
     /// Whether no body moves in a step that begins now, nor has a velocity that it must lose.
-    pub(super) fn are_bodies_still(&self, time: f64, step: f32) -> bool {
+    pub(crate) fn are_bodies_still(&self, time: f64, step: f32) -> bool {
         let is_dynamic = |part: &Part| matches!(part.kind, Kind::Body(_));
         let touches = |(_, motion): &(usize, Motion)| {
             let (start, end) = interval(motion);
@@ -191,7 +197,7 @@ impl World {
     }
 
     /// Sleeps until a time \[s\], or until a script moves a body, if the scene is asleep; whether the time is reached.
-    pub(super) fn sleep_until(&mut self, end: f64) -> bool {
+    pub(crate) fn sleep_until(&mut self, end: f64) -> bool {
         let slept = self.sleep_within(end - self.clock.time);
         slept.is_some() && end - self.clock.time <= 1e-9
     }
@@ -212,25 +218,27 @@ impl World {
         Some(time)
     }
 
-    /// Wakes what something that moves comes near, and looks, once in `sleep_after`, what has come to rest.
-    pub(super) fn watch(&mut self) {
+    /// Wakes what something that moves comes near, and looks, once in `sleep_after`, what has come to rest; whether other parts sleep now.
+    pub(crate) fn watch(&mut self) -> bool {
         if self.sleep.after == 0.0 {
-            return;
+            return false;
         }
-        self.wake_what_is_reached();
+        let has_woken = self.wake_what_is_reached();
         let time = self.clock.time;
         let since = self.sleep.before.as_ref().map_or(f64::INFINITY, |before| time - before.time);
         let next = BETWEEN.get(self.sleep.between.len());
         if since >= self.sleep.after {
-            self.look_for_rest();
-        } else if next.is_some_and(|part| since >= part * self.sleep.after) {
+            return self.look_for_rest() || has_woken;
+        }
+        if next.is_some_and(|part| since >= part * self.sleep.after) {
             let places = self.places();
             self.sleep.between.push(places);
         }
+        has_woken
     }
 
-    /// Lets islands fall asleep whose parts have not moved since the last look.
-    fn look_for_rest(&mut self) {
+    /// Lets islands fall asleep whose parts have not moved since the last look; whether there are any.
+    fn look_for_rest(&mut self) -> bool {
         let now = self.places();
         if self.sleep.before.is_none() {
             self.sleep.parts = self.parts();
@@ -242,6 +250,7 @@ impl World {
         if has_changed {
             self.apply_sleep();
         }
+        has_changed
     }
 
     /// Decides who falls asleep; whether that is anyone.

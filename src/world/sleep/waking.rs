@@ -27,13 +27,13 @@ const FLUID_REACH: f32 = 1.5;
 const BODY_REACH: f32 = 0.1;
 
 impl World {
-    /// Whether parts cannot sleep on their own, because steps run on a device.
+    /// Whether parts cannot sleep on their own, because steps run on a device and the CPU by turns.
     pub(super) fn sleeps_as_a_whole(&self) -> bool {
         #[cfg(feature = "gpu")]
-        let has_device = self.stores.device.is_some();
+        let is_shared = self.stores.device.as_ref().is_some_and(|device| !device.has_all());
         #[cfg(not(feature = "gpu"))]
-        let has_device = false;
-        has_device
+        let is_shared = false;
+        is_shared
     }
 
     /// All parts, awake, with boxes that were never taken.
@@ -106,20 +106,21 @@ impl World {
         bodies.iter().enumerate().filter_map(mover).collect()
     }
 
-    /// Wakes the islands of parts that something awake has come near.
-    pub(super) fn wake_what_is_reached(&mut self) {
+    /// Wakes the islands of parts that something awake has come near; whether there are any.
+    pub(super) fn wake_what_is_reached(&mut self) -> bool {
         let passed = (self.clock.time - self.sleep.watched) as f32;
         self.sleep.watched = self.clock.time;
         let speeds = [self.clock.fluid_speed, self.clock.node_speed];
         self.sleep.ways.iter_mut().zip(speeds).for_each(|(way, speed)| *way += SPARE * speed * passed);
         if self.sleep.parts.iter().all(|part| !part.is_asleep) {
-            return;
+            return false;
         }
         if self.sleeps_as_a_whole() {
-            if !self.sleep.is_asleep {
-                self.wake_all();
+            let wakes = !self.sleep.is_asleep;
+            if wakes {
+                self.wake(&vec![true; self.sleep.parts.len()]);
             }
-            return;
+            return wakes;
         }
         let mut reached = self.reached();
         // Boxes that have grown for a while are too large.
@@ -127,9 +128,11 @@ impl World {
             self.take_bounds();
             reached = self.reached();
         }
-        if reached.contains(&true) {
+        let has_woken = reached.contains(&true);
+        if has_woken {
             self.wake(&reached);
         }
+        has_woken
     }
 
     /// For every part whether it sleeps, and something awake has come within its reach.
@@ -162,12 +165,16 @@ impl World {
         self.apply_sleep();
     }
 
-    /// Wakes everything.
+    /// Wakes everything, and begins to look anew what has come to rest.
+    #[cfg(feature = "gpu")]
     pub(crate) fn wake_all(&mut self) {
-        let asleep: Vec<bool> = self.sleep.parts.iter().map(|part| part.is_asleep).collect();
-        if asleep.contains(&true) {
-            self.wake(&asleep);
+        if self.sleep.after == 0.0 {
+            return;
         }
+        self.sleep.parts.iter_mut().for_each(|part| part.is_asleep = false);
+        self.sleep.is_asleep = false;
+        (self.sleep.before, self.sleep.between) = (None, Vec::new());
+        self.apply_sleep();
     }
 
     /// Which of the lesser plans the next step has; 0 for the whole one.
@@ -206,11 +213,18 @@ impl World {
         if dormant.fluid {
             bodies.fluid_wrenches = Wrenches::default();
         }
-        if dormant.sponges.len() == self.scene.sponges.len() {
+        let are_sponges_asleep = dormant.sponges.len() == self.scene.sponges.len();
+        if are_sponges_asleep {
             bodies.node_wrenches = Wrenches::default();
-            self.stores.host.fluid.interior.fill(0.0);
         }
         self.steps = Steps::new(&self.scene, &self.params, &bodies.states.0, &*self.engine, &dormant);
+        // Water that is awake is in no sponge that sleeps.
+        let is_outside = are_sponges_asleep && !dormant.fluid;
+        if is_outside {
+            self.stores.host.fluid.interior.fill(0.0);
+        }
+        #[cfg(feature = "gpu")]
+        self.apply_sleep_on_device(is_outside);
     }
 }
 

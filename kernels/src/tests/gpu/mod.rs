@@ -1,5 +1,6 @@
 //! Kernels on the GPU against those on the CPU. A machine without an adapter fails here: lavapipe is one.
 
+mod asleep;
 mod device;
 mod faults;
 mod parity;
@@ -28,6 +29,7 @@ const LIMITS: StepLimits = StepLimits {
     courant: 0.25,
     pressure_courant: 0.4,
     edge: f32::INFINITY,
+    has_fluid: true,
     minimum: 1e-9,
     constant: 1.0,
     constant_bound: 0,
@@ -49,7 +51,9 @@ fn after_on_all(gpu: &Arc<Gpu>, kernels: &[&'static Kernel], before: &Scene) -> 
     let mut columns = before.columns.clone();
     let mut resident =
         Resident::new(gpu, &columns, &before.params, LIMITS).unwrap_or_else(|error| panic!("{error}"));
-    let reads: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+    let mut reads: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+    // Twins know by its sponge whether a node is asleep.
+    reads.push(Column::NodeSponge);
     let mut writes: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.writes).copied().collect();
     writes.retain(|column| !is_internal(*column));
     resident.upload(&mut columns, &reads, sorted).unwrap_or_else(|error| panic!("{error}"));

@@ -44,13 +44,13 @@ const WIDER: &[(&str, f64)] = &[
 /// Sizes around those of a vector, of a group and of two lines of groups.
 const SIZES: [usize; 7] = [0, 1, 63, 64, 65, 1000, 65_537];
 
-fn bound(kernel: &Kernel) -> f64 {
+pub(super) fn bound(kernel: &Kernel) -> f64 {
     let wider = WIDER.iter().find(|(name, _)| *name == kernel.name);
     wider.map_or_else(|| oracles::bound(kernel), |(_, bound)| *bound)
 }
 
 /// The columns after a kernel on the CPU.
-fn on_cpu(kernel: &Kernel, before: &Scene) -> Columns {
+pub(super) fn on_cpu(kernel: &Kernel, before: &Scene) -> Columns {
     let mut after = before.clone();
     after.run(&best(), &[kernel.name]);
     after.columns
@@ -96,7 +96,12 @@ fn list_error(column: Column, before: &Scene, found: &Columns, expected: &Column
 }
 
 /// Errors of everything that a kernel writes and a device holds.
-fn gpu_errors(kernel: &Kernel, before: &Scene, found: &Columns, expected: &Columns) -> Vec<(Column, f64)> {
+pub(super) fn gpu_errors(
+    kernel: &Kernel,
+    before: &Scene,
+    found: &Columns,
+    expected: &Columns,
+) -> Vec<(Column, f64)> {
     let held: Vec<_> = kernel.writes.iter().copied().filter(|column| !is_internal(*column)).collect();
     let mut all = errors_of(kernel, &held, ULPS, &before.params, &before.columns, found, expected);
     for (column, error) in &mut all {
