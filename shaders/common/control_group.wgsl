@@ -17,5 +17,8 @@ fn control_sum(lane: u32, own: vec4<f32>) -> vec4<f32> {
         }
     }
     workgroupBarrier();
-    return parts[lane & 224u];
+    let sum = parts[lane & 224u];
+    // The next sum begins where this one was read.
+    workgroupBarrier();
+    return sum;
 }

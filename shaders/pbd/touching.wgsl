@@ -17,6 +17,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if (clock.running == 0u) {
         return;
     }
+    if (lane < 8u) {
+        atomicStore(&bits[lane], 0u);
+    }
+    workgroupBarrier();
     for (var color = 0u; color < 4u; color += 1u) {
         let range = ranges[group.x * 8u + color];
         for (var row = range.x + lane; row < range.y; row += 128u) {

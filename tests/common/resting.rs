@@ -27,6 +27,13 @@ pub(crate) fn cube(name: &str, place: Vec3) -> Sponge {
     Sponge { cells: [3, 3, 3].into(), edge: 0.01, young_modulus: 3e3, ..Sponge::new(name, place) }
 }
 
+/// A sponge on the floor, and one that is thrown up beside it, far from the water and from each other.
+pub(crate) fn one_lies_one_flies() -> Scene {
+    let mut thrown = cube("thrown", Vec3::new(0.04, 0.05, -0.015));
+    thrown.velocity = Vec3::new(0.0, 1.5, 0.0);
+    basin(0.3).with_sponge(cube("cube", Vec3::new(0.13, 0.0, -0.015))).with_sponge(thrown)
+}
+
 /// A plate that slides away along z at [`START`].
 pub(crate) fn plate(place: Vec3, half: Vec3) -> Body {
     let start = START as f32;

@@ -5,7 +5,9 @@ use sorb::{Offload, World, glam::Vec3, scene::Scene};
 use super::{
     common::{
         self, frame,
-        resting::{START, basin, cube, distance, fastest, nodes, over_a_sponge, plate, positions},
+        resting::{
+            START, basin, cube, distance, fastest, nodes, one_lies_one_flies, over_a_sponge, plate, positions,
+        },
     },
     world,
 };
@@ -62,9 +64,7 @@ fn a_sponge_sleeps_beside_water_that_moves() {
 
 #[test]
 fn one_of_two_sponges_sleeps() {
-    let mut thrown = cube("thrown", Vec3::new(0.04, 0.05, -0.015));
-    thrown.velocity = Vec3::new(0.0, 1.5, 0.0);
-    let scene = basin(0.3).with_sponge(cube("cube", Vec3::new(0.13, 0.0, -0.015))).with_sponge(thrown);
+    let scene = one_lies_one_flies();
     let mut both = [Offload::Gpu, Offload::Cpu].map(|offload| on(offload, &scene, 0.1));
     let height = |world: &World| nodes(world, 1).iter().map(|(row, _)| row[1]).fold(0.0, f32::max);
     let (mut slept, mut highest) = (0, 0.0_f32);

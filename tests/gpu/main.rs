@@ -11,7 +11,7 @@ mod state;
 
 use std::sync::{Arc, OnceLock};
 
-use common::busy;
+use common::{busy, resting::one_lies_one_flies};
 use sorb::{Bound, Measures, Offload, Options, World, WorldError, gpu::Gpu, scene::Scene};
 
 /// Pressure by a solve.
@@ -67,8 +67,11 @@ fn worst(differences: &[(f64, &'static str)]) -> (f64, &'static str) {
 
 #[test]
 fn a_world_and_its_clone_end_with_the_same_bits() {
-    for name in ["water", "ball_drop", "water_paper", "ball_drop_paper"] {
-        let scene = busy::scene(name, 0.5);
+    let presets = ["water", "ball_drop", "water_paper", "ball_drop_paper"];
+    let mut scenes: Vec<_> = presets.iter().map(|name| busy::scene(name, 0.5)).collect();
+    scenes.extend([common::preset("stack", 0.5), one_lies_one_flies()]);
+    for scene in scenes {
+        let name = &scene.name;
         let mut first = world(&scene, Offload::Gpu);
         common::frame(&mut first);
         let mut copy = first.clone();
