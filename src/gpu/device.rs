@@ -201,7 +201,10 @@ impl Device {
             return Ok(());
         }
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
-        let lives = |column: &Column| column.life() != Life::Scratch && !is_internal(*column);
+        // What is looked at may be what nobody computes anew while a part sleeps.
+        let lives = |column: &Column| {
+            (column.life() != Life::Scratch || LOOKED_AT.contains(column)) && !is_internal(*column)
+        };
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);

@@ -129,6 +129,21 @@ fn a_pool_sleeps_while_a_sponge_falls_and_wakes_before_it_is_touched() {
 }
 
 #[test]
+fn a_copy_knows_what_a_sponge_that_sleeps_holds() {
+    let scene = basin(0.0)
+        .with_sponge(cube("dry", Vec3::new(0.04, 0.111, -0.015)))
+        .with_sponge(cube("wet", Vec3::new(-0.095, 0.0, -0.015)))
+        .with_body(plate(Vec3::new(0.055, 0.105, 0.0), Vec3::new(0.03, 0.005, 0.02)));
+    let mut world = on(Offload::Gpu, &scene, 0.25);
+    until(&mut world, START + 0.1);
+    assert!(world.is_fluid_asleep() && world.is_sponge_asleep(1) && !world.is_sponge_asleep(0));
+    let mut copy = world.clone();
+    [&mut world, &mut copy].into_iter().for_each(frame);
+    let [own, of_copy] = [&world, &copy].map(|world| world.measures().absorbed_mass);
+    assert!(own > 1e-3 && of_copy == own, "{of_copy} and not {own} kg");
+}
+
+#[test]
 fn a_ball_wakes_a_sponge_before_it_touches() {
     let mut both = [Offload::Gpu, Offload::Cpu].map(|offload| on(offload, &over_a_sponge(), 0.25));
     for world in &mut both {
