@@ -131,8 +131,19 @@ impl<L: Law> Task<'_, L> {
     ) -> (Vec3x8<S>, f32x8<S>) {
         let color = self.slots[slot];
         let first = nodes.first[color] as u32;
-        let [x, y, z, w] = lanes::gather_rows(simd, nodes.nodes[color], &rows[slot].map(|row| row - first));
+        let mut own = rows[slot];
+        for row in &mut own {
+            *row -= first;
+        }
+        let [x, y, z, w] = lanes::gather_rows(simd, nodes.nodes[color], &own);
         ([x, y, z], w)
+    }
+
+    /// Positions of one slot of eight tets at the beginning of the step.
+    #[inline(always)]
+    fn old<S: Simd>(&self, simd: S, rows: &[u32; LANES]) -> Vec3x8<S> {
+        let [x, y, z, _] = lanes::gather_rows(simd, self.position, rows);
+        [x, y, z]
     }
 
     #[inline(always)]
@@ -142,21 +153,27 @@ impl<L: Law> Task<'_, L> {
         let (tets, weights) = (&self.tets[own.clone()], &self.weights[own]);
         for (tets, weights) in tets.chunks(LANES).zip(weights.chunks(LANES)) {
             // A short last group repeats its last tet, and stores it once.
-            let tet = |lane: usize| &tets[lane.min(tets.len() - 1)];
-            let weight: [f32; LANES] = std::array::from_fn(|lane| weights[lane.min(weights.len() - 1)]);
-            let row = |slot: usize| std::array::from_fn(|lane| tet(lane)[slot]);
-            let rows: [[u32; LANES]; 4] = [row(0), row(1), row(2), row(3)];
+            let (mut rows, mut weight) = ([[0; LANES]; 4], [0.0; LANES]);
+            for lane in 0..LANES {
+                let at = lane.min(tets.len() - 1);
+                for slot in 0..4 {
+                    rows[slot][lane] = tets[at][slot];
+                }
+                weight[lane] = weights[at];
+            }
             let (p0, w0) = self.gather(simd, nodes, &rows, 0);
             let (p1, w1) = self.gather(simd, nodes, &rows, 1);
             let (p2, w2) = self.gather(simd, nodes, &rows, 2);
             let (p3, w3) = self.gather(simd, nodes, &rows, 3);
-            let old = |slot: usize| {
-                let [x, y, z, _] = lanes::gather_rows(simd, self.position, &rows[slot]);
-                [x, y, z]
-            };
+            let [first, second, third, fourth] = &rows;
             let mut state = TetLanes {
                 p: [p0, p1, p2, p3],
-                old: [old(0), old(1), old(2), old(3)],
+                old: [
+                    self.old(simd, first),
+                    self.old(simd, second),
+                    self.old(simd, third),
+                    self.old(simd, fourth),
+                ],
                 w: [w0, w1, w2, w3],
                 weight: lanes::load_array(simd, &weight),
             };
