@@ -6,7 +6,8 @@ use super::{
     common::{
         self, frame,
         resting::{
-            START, basin, cube, distance, fastest, nodes, one_lies_one_flies, over_a_sponge, plate, positions,
+            START, basin, cube, distance, fastest, nodes, one_lies_one_flies, over_a_sponge, plate,
+            positions, vector,
         },
     },
     world,
@@ -76,12 +77,7 @@ fn one_of_two_sponges_sleeps() {
         slept += u32::from(is_asleep && on_cpu.is_sponge_asleep(0));
         highest = highest.max(height(on_gpu));
         for sponge in 0..2 {
-            let places = |world| {
-                nodes(world, sponge)
-                    .iter()
-                    .map(|(row, _)| Vec3::new(row[0], row[1], row[2]))
-                    .collect::<Vec<_>>()
-            };
+            let places = |world| nodes(world, sponge).iter().map(|(row, _)| vector(row)).collect::<Vec<_>>();
             let apart = mean_distance(&places(on_gpu), &places(on_cpu));
             assert!(apart < 1e-4, "sponge {sponge}: {apart} m after {} s", on_gpu.clock().time);
         }
