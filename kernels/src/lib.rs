@@ -14,6 +14,7 @@ pub mod gpu;
 pub mod grid;
 pub mod kernel;
 mod lanes;
+pub mod need;
 #[cfg(any(test, feature = "oracles"))]
 pub mod oracle;
 pub mod params;
