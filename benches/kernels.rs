@@ -16,10 +16,10 @@ use std::{
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use sorb::{
-    World,
+    KERNELS, World,
     columns::Columns,
     cpu::Cpu,
-    kernel::{KERNELS, Kernel, Need},
+    kernel::{Kernel, Need},
     params::{self, Params},
     scene::{Scene, Solver},
 };

@@ -13,7 +13,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_grou
 use sorb::{
     World,
     glam::{UVec3, Vec3},
-    kernel::kernel,
+    kernel_named,
     scene::{Body, Scene, ShapeKind, Solver, Sponge, Time},
 };
 
@@ -82,7 +82,7 @@ fn sweeps(criterion: &mut Criterion) {
     ];
     for (solver, name) in solvers {
         let world = bar(solver, 1);
-        let kernel = kernel(name).expect("there is one");
+        let kernel = kernel_named(name).expect("there is one");
         let mut group = criterion.benchmark_group(name);
         group.sampling_mode(SamplingMode::Flat);
         group.throughput(Throughput::Elements(world.columns().rows.tets as u64));

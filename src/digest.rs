@@ -1,6 +1,9 @@
 //! A digest of the state: equal digests mean equal bits.
 
-use sorb_kernels::columns::{Column, Columns, Life};
+use sorb_kernels::{
+    column::Life,
+    columns::{Column, Columns},
+};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::clock::{Clock, Dormant};

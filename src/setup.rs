@@ -7,7 +7,8 @@ mod seed;
 use glam::{Quat, Vec3};
 use sorb_kernels::{
     body::{Bodies, Body},
-    columns::{Columns, FAR_ROW, RowCounts, padded},
+    column::{FAR_ROW, padded},
+    columns::{Columns, RowCounts},
     couple::interior::node_interior,
     cpu::Cpu,
     params::Params,

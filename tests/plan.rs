@@ -123,34 +123,29 @@ fn surface_tension_runs_only_where_it_is_above_zero() {
 
 fn idle(_: &Cpu, _: &Params, _: &mut sorb::columns::Columns) {}
 
-static DENSITY: Kernel = Kernel {
-    name: "test::density",
-    needs: &[Need::Fluid],
-    reads: &[Column::FluidPosition],
-    writes: &[Column::FluidDensity],
-    cpu: idle,
-};
-static ACCELERATION: Kernel = Kernel {
-    name: "test::acceleration",
-    needs: &[Need::Fluid],
-    reads: &[Column::FluidDensity],
-    writes: &[Column::FluidAcceleration],
-    cpu: idle,
-};
-static VELOCITY: Kernel = Kernel {
-    name: "test::velocity",
-    needs: &[Need::Fluid],
-    reads: &[Column::FluidAcceleration, Column::FluidVelocity],
-    writes: &[Column::FluidVelocity],
-    cpu: idle,
-};
-static SATURATION: Kernel = Kernel {
-    name: "test::saturation",
-    needs: &[Need::Fluid],
-    reads: &[Column::FluidPosition],
-    writes: &[Column::NodeSaturation],
-    cpu: idle,
-};
+static DENSITY: Kernel =
+    Kernel::bare("test::density", &[Need::Fluid], &[Column::FluidPosition], &[Column::FluidDensity], idle);
+static ACCELERATION: Kernel = Kernel::bare(
+    "test::acceleration",
+    &[Need::Fluid],
+    &[Column::FluidDensity],
+    &[Column::FluidAcceleration],
+    idle,
+);
+static VELOCITY: Kernel = Kernel::bare(
+    "test::velocity",
+    &[Need::Fluid],
+    &[Column::FluidAcceleration, Column::FluidVelocity],
+    &[Column::FluidVelocity],
+    idle,
+);
+static SATURATION: Kernel = Kernel::bare(
+    "test::saturation",
+    &[Need::Fluid],
+    &[Column::FluidPosition],
+    &[Column::NodeSaturation],
+    idle,
+);
 
 const WET: Content = Content {
     touch: false,

@@ -3,7 +3,7 @@
 use glam::{DVec3, Mat3, Quat, Vec3};
 
 use crate::{
-    columns::ColumnData,
+    column::ColumnData,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
     vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };

@@ -1,18 +1,20 @@
 //! A kernel: what it reads and writes, what it needs, and how the CPU computes it.
 
+#[cfg(feature = "gpu")]
+use crate::gpu::twins::Pass;
 use crate::{
     columns::{Column, Columns},
-    couple,
     cpu::Cpu,
-    grid,
     params::Params,
-    pbd, sph,
 };
 
 pub use crate::need::Need;
 
-/// One phase of a step: a declaration and a body. The same name is used for its path, its WGSL twin, its bench
-/// and its line in a plan.
+/// A kernel as a plain loop in f64.
+pub type Oracle = fn(&Params, &mut Columns);
+
+/// One phase of a step: a declaration and a body, by [`declare`]. The same name is used for its path, its WGSL twin, its
+/// bench and its line in a plan.
 #[derive(Debug)]
 pub struct Kernel {
     /// `family::name`.
@@ -25,72 +27,91 @@ pub struct Kernel {
     pub writes: &'static [Column],
     /// The body for the CPU.
     pub cpu: fn(&Cpu, &Params, &mut Columns),
+    /// The same as a plain loop in f64, see [`crate::oracle`].
+    #[cfg(any(test, feature = "oracles"))]
+    pub oracle: Oracle,
+    /// Largest error of a column against the oracle, over the scale of its changes.
+    ///
+    /// Rounding to f32 is 6e-8 of a value; sums of tens of terms and the Tait equation (seventh power) lose a little more.
+    /// Displacements of nodes are differences of positions that are a hundred times larger. Each bound is about four times
+    /// what was found.
+    #[cfg(test)]
+    pub(crate) bound: f64,
+    /// Largest error of the twin against the body for the CPU. As [`Self::bound`] but for sums that the two add up in another
+    /// order: the CPU adds up the 7000 particles of a node in the largest scene one after the other, a twin in thirty-two parts.
+    #[cfg(all(test, feature = "gpu"))]
+    pub(crate) twin_bound: f64,
+    /// The passes of the WGSL twin, in order.
+    #[cfg(feature = "gpu")]
+    pub(crate) twin: &'static [Pass],
 }
 
-/// Every kernel, by family.
-pub static KERNELS: &[&Kernel] = &[
-    &grid::sort_fluid::KERNEL,
-    &grid::fluid_neighbors::KERNEL,
-    &sph::density::KERNEL,
-    &sph::pressure::KERNEL,
-    &sph::forces::KERNEL,
-    &sph::surface_tension::KERNEL,
-    &sph::deficit::KERNEL,
-    &sph::cohesion::KERNEL,
-    &sph::repulsion::KERNEL,
-    &sph::boundary_pressure::KERNEL,
-    &sph::wall_friction::KERNEL,
-    &sph::kick::KERNEL,
-    &sph::viscosity_begin::KERNEL,
-    &sph::viscosity_product::KERNEL,
-    &sph::viscosity_update::KERNEL,
-    &sph::viscosity_reaction::KERNEL,
-    &sph::viscosity_kick::KERNEL,
-    &sph::predict::KERNEL,
-    &sph::boundary::KERNEL,
-    &sph::factors::KERNEL,
-    &sph::pressure_update::KERNEL,
-    &sph::pressure_acceleration::KERNEL,
-    &sph::pressure_residual::KERNEL,
-    &sph::pressure_kick::KERNEL,
-    &sph::position_correction::KERNEL,
-    &sph::boundary_reaction::KERNEL,
-    &sph::sweep::KERNEL,
-    &sph::advect::KERNEL,
-    &pbd::pairs::KERNEL,
-    &pbd::gravity::KERNEL,
-    &pbd::predict::KERNEL,
-    &pbd::guess::KERNEL,
-    &pbd::touch::KERNEL,
-    &pbd::strain::KERNEL,
-    &pbd::xpbd_neo_hookean::KERNEL,
-    &pbd::vbd::KERNEL,
-    &pbd::contact::KERNEL,
-    &pbd::reaction::KERNEL,
-    &pbd::momentum::KERNEL,
-    &pbd::velocity::KERNEL,
-    &couple::controls::KERNEL,
-    &couple::saturation::KERNEL,
-    &couple::wetting::KERNEL,
-    &couple::pores::KERNEL,
-    &couple::interior::KERNEL,
-    &couple::suction::KERNEL,
-    &couple::zero_distance::KERNEL,
-    &couple::control_velocity::KERNEL,
-    &couple::drag::KERNEL,
-    &couple::velocity_filter::KERNEL,
-    &couple::exchange::KERNEL,
-    &couple::solid_pressure::KERNEL,
-    &couple::solid_share::KERNEL,
-    &couple::solid_yield::KERNEL,
-    &couple::solid_reaction::KERNEL,
-    &couple::node_velocity::KERNEL,
-    &couple::drag_impulse::KERNEL,
-    &couple::drag_target::KERNEL,
-    &couple::drag_reaction::KERNEL,
-    &couple::drag_settled::KERNEL,
-    &couple::drag_kick::KERNEL,
-];
+impl Kernel {
+    /// A kernel with neither oracle nor twin, for tests of plans.
+    #[must_use]
+    pub const fn bare(
+        name: &'static str,
+        needs: &'static [Need],
+        reads: &'static [Column],
+        writes: &'static [Column],
+        cpu: fn(&Cpu, &Params, &mut Columns),
+    ) -> Self {
+        Self {
+            name,
+            needs,
+            reads,
+            writes,
+            cpu,
+            #[cfg(any(test, feature = "oracles"))]
+            oracle: |_, _| {},
+            #[cfg(test)]
+            bound: 0.0,
+            #[cfg(all(test, feature = "gpu"))]
+            twin_bound: 0.0,
+            #[cfg(feature = "gpu")]
+            twin: &[],
+        }
+    }
+}
+
+/// Declares the kernel of a module, `KERNEL`, with the path of the module for a name. The body is the function `cpu` of the module;
+/// `oracle` is the path of a function, `twin` a list of [`Pass`]es.
+macro_rules! declare {
+    (
+        needs: [$($need:ident$(($solver:ident))?),* $(,)?],
+        reads: [$($read:ident),* $(,)?],
+        writes: [$($write:ident),* $(,)?],
+        oracle: $oracle:path,
+        bound: $bound:literal,
+        $(twin_bound: $twin_bound:literal,)?
+        twin: [$($pass:expr),* $(,)?] $(,)?
+    ) => {
+        /// Path of the module within the package.
+        const NAME: &str = module_path!().split_at("sorb_kernels::".len()).1;
+
+        /// The declaration.
+        pub static KERNEL: $crate::kernel::Kernel = $crate::kernel::Kernel {
+            name: NAME,
+            needs: &[$($crate::kernel::Need::$need$(($crate::params::Solver::$solver))?),*],
+            reads: &[$($crate::columns::Column::$read),*],
+            writes: &[$($crate::columns::Column::$write),*],
+            cpu,
+            #[cfg(any(test, feature = "oracles"))]
+            oracle: $oracle,
+            #[cfg(test)]
+            bound: $bound,
+            #[cfg(all(test, feature = "gpu"))]
+            twin_bound: $crate::kernel::declare!(@first $($twin_bound,)? $bound),
+            #[cfg(feature = "gpu")]
+            twin: {
+                use $crate::gpu::twins::{Rows::*, *};
+                &[$($pass),*]
+            },
+        };
+    };
+    (@first $first:literal $(, $rest:literal)?) => { $first };
+}
+pub(crate) use declare;
 
 /// Whether the solves that a kernel writes to have converged.
 #[must_use]
@@ -100,10 +121,4 @@ pub fn has_converged(kernel: &Kernel, columns: &Columns) -> bool {
         Column::FluidViscositySolve => columns.fluid.viscosity_solve.is_converged(),
         _ => true,
     })
-}
-
-/// The kernel of that name.
-#[must_use]
-pub fn kernel(name: &str) -> Option<&'static Kernel> {
-    KERNELS.iter().copied().find(|kernel| kernel.name == name)
 }

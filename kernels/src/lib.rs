@@ -6,23 +6,20 @@
 
 pub mod asleep;
 pub mod body;
+pub mod column;
 pub mod columns;
-pub mod couple;
 pub mod cpu;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-pub mod grid;
 pub mod kernel;
 mod lanes;
 pub mod need;
 #[cfg(any(test, feature = "oracles"))]
 pub mod oracle;
 pub mod params;
-pub mod pbd;
 pub mod periodic;
 pub mod reduce;
 pub mod smoothing;
-pub mod sph;
 mod sweep;
 #[cfg(test)]
 mod testing;
@@ -30,4 +27,63 @@ mod testing;
 mod tests;
 mod vector;
 
+/// Declares the modules of all families, and the table of all kernels. Modules that several kernels share come after them.
+macro_rules! kernels {
+    ($(
+        $(#[$doc:meta])*
+        $family:ident { $($kernel:ident),* $(,)? } shared { $($(#[$cfg:meta])* $visibility:vis $shared:ident),* $(,)? }
+    )*) => {
+        $($(#[$doc])*
+        pub mod $family {
+            $(pub mod $kernel;)*
+            $($(#[$cfg])* $visibility mod $shared;)*
+        })*
+
+        /// Every kernel, by family.
+        pub static KERNELS: &[&Kernel] = &[$($(&$family::$kernel::KERNEL,)*)*];
+    };
+}
+
+kernels! {
+    /// Neighbour search.
+    grid {
+        sort_fluid, fluid_neighbors,
+    } shared {
+        pub cells, pub neighbors, pub(crate) scan, search, pub(crate) sort,
+    }
+    /// The fluid: smoothed particle hydrodynamics, with an equation of state (the paper, section 3.1) or with a solve for
+    /// the pressure that keeps the density \[BK17\].
+    sph {
+        density, pressure, forces, surface_tension, deficit, cohesion, repulsion, boundary_pressure,
+        wall_friction, kick, viscosity_begin, viscosity_product, viscosity_update, viscosity_reaction,
+        viscosity_kick, predict, boundary, factors, pressure_update, pressure_acceleration,
+        pressure_residual, pressure_kick, position_correction, boundary_reaction, sweep, advect,
+    } shared {
+        pub pressure_solve, pub(crate) viscosity, pub viscosity_solve,
+    }
+    /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
+    /// descent or by Neo-Hookean constraints, and contact of its nodes.
+    pbd {
+        pairs, gravity, predict, guess, touch, strain, xpbd_neo_hookean, vbd, contact, reaction, momentum,
+        velocity,
+    } shared {
+        descent, pub flatness, pub lattice, obstacles, pub stars, tets, pub wetted,
+    }
+    /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
+    couple {
+        controls, saturation, wetting, pores, interior, suction, zero_distance, control_velocity, drag,
+        velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction, node_velocity,
+        drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
+    } shared {
+        #[cfg(feature = "gpu")] pub weights,
+    }
+}
+
+/// The kernel of that name.
+#[must_use]
+pub fn kernel_named(name: &str) -> Option<&'static Kernel> {
+    KERNELS.iter().copied().find(|kernel| kernel.name == name)
+}
+
+use kernel::Kernel;
 pub use lanes::{LANES, SimdLevel};

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::{asleep::Asleep, columns::FAR, grid::cells::Domain, periodic::Periodic, smoothing::Wendland};
+use crate::{asleep::Asleep, column::FAR, grid::cells::Domain, periodic::Periodic, smoothing::Wendland};
 
 /// Distance from the origin of walls that are not there \[m\]: finite, as shaders ask for, and out of reach.
 pub const NO_WALL: f32 = FAR;

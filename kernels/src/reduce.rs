@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{body::Wrench, columns::ColumnData};
+use crate::{body::Wrench, column::ColumnData};
 
 /// What bounds the time step, over one chunk of rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,3 +1,4 @@
+// #include sponges, grid
 // Nodes as control particles: in the order of their cells, those of one cell in the order of the nodes.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

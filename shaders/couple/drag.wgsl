@@ -1,3 +1,4 @@
+// #include smoothing, drag
 // Drag of the sponge on the particles: one sweep for the impulse that each loses to it; `drag.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

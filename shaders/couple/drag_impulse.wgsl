@@ -1,3 +1,4 @@
+// #include smoothing, drag
 // Impulse that every particle loses to the sponge, at the velocities that its nodes have so far; `drag_impulse.rs` has the
 // formulas.
 

@@ -1,3 +1,4 @@
+// #include smoothing, control_group
 // What the nodes receive of the impulses that the particles lose, and its moments; `drag_reaction.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

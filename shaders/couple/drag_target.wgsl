@@ -1,3 +1,4 @@
+// #include smoothing, control_group, received
 // Where inertia and the drag of the fluid draw the nodes, for a sweep of vertex block descent; `drag_target.rs` has the
 // formulas.
 

@@ -1,3 +1,4 @@
+// #include smoothing, control_group, received
 // Applies the drag to the nodes: u_a = u0_a + sum_i w_ia J_i / m_a.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include sponges
 // First pass of `couple::solid_pressure`: where nodes are expected at the end of the step, and the volume of their material.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include smoothing
 // How far inside a sponge every particle is, and how drag acts there.
 //
 //     chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a

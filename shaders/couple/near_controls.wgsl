@@ -1,3 +1,4 @@
+// #include grid
 // For every control, the particles within the coupling radius. Thirty-two threads share a control: each takes some rows
 // of cells, and knows where its entries go once all have counted.
 

@@ -1,3 +1,4 @@
+// #include grid
 // For every particle, the controls within the coupling radius; the list has the layout of `fluid_neighbors.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

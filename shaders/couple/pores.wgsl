@@ -1,3 +1,4 @@
+// #include sponges, star
 // What compression does to the pores of a sponge; `pores.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

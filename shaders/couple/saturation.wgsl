@@ -1,3 +1,4 @@
+// #include smoothing, sponges, control_group
 // Saturation of every node, and the control pressure that follows from it.
 //
 //     S_a = sum_i V_0 W_ia / (phi chi_a)        p_a = -p_e (1 + g max(1 - S_a, 0)),  0 at surface nodes

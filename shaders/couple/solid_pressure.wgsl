@@ -1,3 +1,4 @@
+// #include smoothing
 // Pressure of the particles against the material of the sponge, at the beginning of the step.
 //
 //     a_i -= P_i grad lambda_i

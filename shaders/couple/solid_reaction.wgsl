@@ -1,3 +1,4 @@
+// #include smoothing, control_group
 // What the pressure of the particles gives to the nodes; `solid_reaction.rs` has the formula.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

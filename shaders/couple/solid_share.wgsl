@@ -1,3 +1,4 @@
+// #include smoothing
 // Share of the sponge's material in the volume around a particle, where both are expected at the end of the step.
 //
 //     lambda_i += sum_a V_s W(x*_i - x*_a)

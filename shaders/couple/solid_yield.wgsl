@@ -1,3 +1,4 @@
+// #include smoothing
 // How far the material of the sponge gives way to what a solve changes of the pressure; `solid_yield.rs` says why.
 //
 //     y_i = 2 f_i sum_j c_ij f_j (dP_j - dP_i)

@@ -1,3 +1,4 @@
+// #include smoothing
 // Suction: the pressure force with control nodes in place of particles.
 //
 //     F_i = -V_0 sum_a V_a p_a grad W_ia

@@ -1,3 +1,4 @@
+// #include sponges, star
 // How wet the material of every node is, and the suction of water that recedes; `wetting.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

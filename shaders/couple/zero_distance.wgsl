@@ -1,3 +1,4 @@
+// #include smoothing, sponges, control_group
 // Zero-distance constraints between nodes and the particles around them: the opposite of the suction.
 //
 //     F_a = sum_i k_ia (x_i - x_a),   k_ia = -r V_0 V_a p_a (210 / (pi H^5)) (1 - q_ia)^3

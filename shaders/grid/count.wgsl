@@ -1,3 +1,4 @@
+// #include grid
 // First pass of the counting sort: the cell of every point, and how many points a cell and a page of 4096 cells have.
 //
 // The slot that a point gets in its cell depends on which thread is first; `sort_fluid.wgsl` and `controls.wgsl` order

@@ -1,3 +1,4 @@
+// #include grid, smoothing
 // For every particle, the particles within the support radius, or whose images are; and, since every pair is at hand, the
 // density, which is what `sph::density` computes from the lists.
 //

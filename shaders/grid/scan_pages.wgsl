@@ -1,3 +1,4 @@
+// #include grid, scan
 // Prefix sums, last pass: where every cell begins. Leaves the counts at zero for the next step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

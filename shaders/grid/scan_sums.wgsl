@@ -1,3 +1,4 @@
+// #include grid, scan
 // Prefix sums, first pass, of grids with more than 256 pages: one group replaces the sums of the pages by the sums of all
 // pages before them. `count.wgsl` has added them up.
 

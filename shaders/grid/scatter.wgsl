@@ -1,3 +1,4 @@
+// #include grid
 // Rows grouped by cell, those of one cell in any order. Leaves the sums of the pages at zero for the next step: there are
 // no more pages than threads.
 

@@ -1,3 +1,4 @@
+// #include grid
 // Last pass of the counting sort: brings the particles into the order of their cells, those of one cell in the order
 // they had.
 

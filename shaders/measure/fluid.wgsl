@@ -1,3 +1,4 @@
+// #include sums, partial_sums
 // What measures sum up over the particles, a group at a time.
 //
 // a: momentum, twice the kinetic energy, b: angular momentum, number inside of sponges, all for a mass of one;

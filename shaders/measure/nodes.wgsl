@@ -1,3 +1,4 @@
+// #include sums, partial_sums
 // What measures sum up over the nodes, a group at a time.
 //
 // a: momentum, twice the kinetic energy; b: angular momentum, mass; c: sum of mass times position, of volume times

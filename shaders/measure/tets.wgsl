@@ -1,3 +1,4 @@
+// #include sponges, sums, partial_sums
 // What measures sum up over the tets, a group at a time. a: volume, energy of the strain as the solver of the sponge has it.
 
 @group(0) @binding(0) var<uniform> params: Params;

@@ -1,3 +1,4 @@
+// #include sums
 // The sums of all groups of one of the other passes, in a fixed order.
 
 struct Summands {

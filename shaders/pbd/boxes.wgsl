@@ -1,3 +1,4 @@
+// #include sponges
 // The box around every sponge, as wide as its nodes may reach, one group per sponge.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include body, surface, sweep, sponges, wrench
 // Contact of nodes with walls and bodies, with friction; bodies receive the opposite impulse -m dy / h, added to what
 // the iterations before gave.
 

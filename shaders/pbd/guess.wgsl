@@ -1,3 +1,4 @@
+// #include sponges
 // Where vertex block descent begins: z = y, y <- z - h^2 (1 - s) a.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

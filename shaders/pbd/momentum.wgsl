@@ -1,3 +1,4 @@
+// #include sponges
 // Gives every node its part of the rigid motion that its sponge lacks, and keeps the share of the external acceleration
 // that it followed.
 

@@ -1,3 +1,4 @@
+// #include body, surface, sponges, wrench
 // What walls, bodies and grips give to the nodes that stay where they are while their sponge receives the motion that it lacks;
 // `momentum.rs` has the formulas.
 

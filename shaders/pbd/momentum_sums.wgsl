@@ -1,3 +1,4 @@
+// #include sponges
 // The rigid motion that makes up for the momentum that a sponge lacks, with those that it touches, one group per sponge;
 // `momentum.rs` has the formulas. Moments are taken about the first node of the first of them.
 

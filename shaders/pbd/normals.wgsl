@@ -1,3 +1,4 @@
+// #include sponges, star, meeting
 // Normals of surface nodes, as long as their weights, and their areas; `pairs.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include grid, sponges, star, meeting
 // For every surface node, those that it may touch in this step, in the order of their rows; the list has the layout of
 // `fluid_neighbors.wgsl`, and `pairs.rs` has the formulas.
 

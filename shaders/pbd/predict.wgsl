@@ -1,3 +1,4 @@
+// #include body
 // Initial position change: y = x + h (v + h a). Held nodes go where their body takes them.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include body, surface, sweep, sponges, wrench, star, descent
 // What walls, bodies and grips gave to the nodes of vertex block descent; `reaction.rs` has the rules.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include sponges
 // Strain constraints of the tets of one colour; `strain.rs` has the formulas. No two tets of a colour share a node.
 
 struct Batch {

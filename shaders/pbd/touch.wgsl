@@ -1,3 +1,4 @@
+// #include sponges, star, meeting
 // What nodes of sponges that touch do to each other, with friction; `touch.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

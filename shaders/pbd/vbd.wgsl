@@ -1,3 +1,4 @@
+// #include body, surface, sweep, sponges, star, descent
 // Vertex block descent for the nodes of one vertex colour; `vbd.rs` has the formulas. Neighbours have other colours.
 
 const RELAXATION: f32 = 0.3;

@@ -1,3 +1,4 @@
+// #include sponges
 // Velocity from the corrected positions: v = (y - x) / h, x <- y; the largest speed, and the first row that is not
 // finite. Sponges that are asleep stay as they are.
 

@@ -1,3 +1,4 @@
+// #include sponges
 // Neo-Hookean constraints of the tets of one colour; `xpbd_neo_hookean.rs` has the formulas.
 
 struct Batch {

@@ -1,3 +1,4 @@
+// #include wrench
 // What fluid and sponges gave to one body a group, over all groups of particles and nodes, in a fixed order.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

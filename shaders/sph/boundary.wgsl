@@ -1,3 +1,4 @@
+// #include body, surface, profile
 // Share of walls and bodies in the volume around a particle, at the end of the step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include body, surface, wrench, profile
 // Pressure of the particles against walls and bodies, at the beginning of the step.
 //
 //     a_i -= P_i grad lambda_i,   impulse of a body = m h sum_i P_i grad lambda_ik

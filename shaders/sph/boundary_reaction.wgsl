@@ -1,3 +1,4 @@
+// #include body, surface, wrench, profile
 // What the change of the pressure gives to the bodies, where they will be at the end of the step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include smoothing, images, body, surface
 // What particles near the surface of the fluid are short of neighbours.
 //
 //     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that

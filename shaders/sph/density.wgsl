@@ -1,3 +1,4 @@
+// #include smoothing, images
 // Mass density by summation over lists that are there already.
 //
 //     rho_i = sum_j m W(|x_i - x_j|)

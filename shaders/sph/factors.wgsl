@@ -1,3 +1,4 @@
+// #include smoothing, sums, roughness, images
 // What a pressure solve needs to know of the predicted positions; `factors.rs` has the formulas. The pair factors c_ij are
 // computed where they are needed. Squared displacements are added up by `solve_begin.wgsl`.
 

@@ -1,3 +1,4 @@
+// #include smoothing, images
 // Acceleration by gravity, pressure and viscosity.
 //
 //     a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)

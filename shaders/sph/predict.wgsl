@@ -1,3 +1,4 @@
+// #include roughness
 // Where particles would be at the end of the step without a change of their pressure, kept inside the walls, and what
 // compression they are allowed, as `predict.rs` says.
 

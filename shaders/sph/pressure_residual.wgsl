@@ -1,3 +1,4 @@
+// #include smoothing, middle, sums, roughness, images
 // One round of a pressure solve: the compression that is left, and the sums that `solve_round.wgsl` adds up.
 //
 //     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i + y_i) + b e sum_j c_ij (dP_j - dP_i)

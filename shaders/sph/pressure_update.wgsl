@@ -1,3 +1,4 @@
+// #include solve
 // One round of a pressure solve: a step along the projected gradient.
 //
 //     P_i <- min(max(0, P_i + alpha r_i / M_i), (10 u)^2)

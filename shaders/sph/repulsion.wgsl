@@ -1,3 +1,4 @@
+// #include body, surface, wrench
 // Elastic repulsion of particles from walls and bodies.
 //
 //     a_i += (k (R - d) - c v_n) n   where the distance d from the surface is less than R, not pulling

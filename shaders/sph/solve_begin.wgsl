@@ -1,3 +1,4 @@
+// #include sums, solve
 // Before the first round of a pressure solve: the tolerance, which falls with the mean displacement in the step.
 
 const ERROR_PER_DISPLACEMENT: f32 = 0.02;

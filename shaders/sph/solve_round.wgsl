@@ -1,3 +1,4 @@
+// #include sums, solve
 // After a round of a pressure solve: how far to go in the next one, and whether there is one.
 
 const FIRST_LENGTH: f32 = 0.6;

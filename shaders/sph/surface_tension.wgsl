@@ -1,3 +1,4 @@
+// #include smoothing, images
 // Surface tension from the colour field.
 //
 //     n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1

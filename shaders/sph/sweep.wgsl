@@ -1,3 +1,4 @@
+// #include body, surface, wrench, sweep
 // Velocities with which no particle goes through a body in the step; bodies receive the opposite impulse.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

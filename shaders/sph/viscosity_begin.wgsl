@@ -1,3 +1,4 @@
+// #include smoothing, images, viscosity, viscosity_solve
 // Before the first round of a solve for the implicit viscosity: what pairs add to the residual, and the first direction.
 //
 //     r_i = p_i = -h D_i(v*)

@@ -1,3 +1,4 @@
+// #include sums, viscosity_solve
 // After the product of a round of a solve for the implicit viscosity: how far to go along the direction, and its share in the next.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -1,3 +1,4 @@
+// #include smoothing, images, viscosity, sums
 // One round of a solve for the implicit viscosity: the product of its matrix with the direction, and the sums that
 // `viscosity_length.wgsl` adds up.
 //

@@ -1,3 +1,4 @@
+// #include sums, viscosity_solve
 // After a round of a solve for the implicit viscosity: whether there is another one.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

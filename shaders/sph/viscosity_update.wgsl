@@ -1,3 +1,4 @@
+// #include sums, viscosity_solve
 // One round of a solve for the implicit viscosity: a step along the direction, the next direction, and the sums that
 // `viscosity_round.wgsl` adds up.
 //

@@ -1,3 +1,4 @@
+// #include body, surface, wrench, friction
 // Friction of the fluid at walls and bodies that it does not slide along.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -4,7 +4,8 @@ use std::sync::{Arc, OnceLock};
 
 use sorb_kernels::{
     asleep::Asleep,
-    columns::{Column, Columns, Life},
+    column::Life,
+    columns::{Column, Columns},
     couple::weights::weigh,
     cpu::Cpu,
     gpu::{

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sorb_kernels::{
     columns::{Column, RowCounts},
-    gpu::{CLOCK_BYTES, Gpu, GpuError, column_bytes, has_twin},
+    gpu::{CLOCK_BYTES, Gpu, GpuError, column_bytes},
     params::Params,
 };
 
@@ -72,15 +72,8 @@ impl Request<'_> {
             };
             return Ok(self.on_cpu(why));
         }
-        let lacking = on_gpu.iter().copied().find(|name| !has_twin(name));
         if *offload != Offload::Auto {
-            if let Some(kernel) = lacking {
-                return Err(GpuError::NoTwin { kernel }.into());
-            }
             return Ok(self.on_gpu(on_gpu, self.device()?));
-        }
-        if let Some(kernel) = lacking {
-            return Ok(self.on_cpu(GpuError::NoTwin { kernel }.to_string()));
         }
         let few = self.rows.fluid + self.rows.nodes;
         if few < ROWS_FOR_GPU {

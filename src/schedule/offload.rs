@@ -2,7 +2,7 @@
 
 use std::{fmt, str::FromStr};
 
-use sorb_kernels::kernel::{KERNELS, Kernel, kernel};
+use sorb_kernels::{KERNELS, kernel::Kernel, kernel_named};
 
 /// What the host wants to run on a GPU.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -57,7 +57,7 @@ impl FromStr for Offload {
             "gpu" => Some(Self::Gpu),
             "auto" => Some(Self::Auto),
             other => match other.split_once(':') {
-                Some(("from", name)) => kernel(name).map(|kernel| Self::From(kernel.name)),
+                Some(("from", name)) => kernel_named(name).map(|kernel| Self::From(kernel.name)),
                 Some(("each", entries)) => each(entries).map(Self::Each),
                 _ => None,
             },
@@ -211,7 +211,7 @@ pub(crate) const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::con
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sorb_kernels::kernel::KERNELS;
+    use sorb_kernels::KERNELS;
 
     #[test]
     fn names_round_trip_and_others_are_refused() {
@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn lists_name_kernels_families_and_all_and_the_last_entry_counts() {
         let place = |text: &str, name: &str| match text.parse() {
-            Ok(Offload::Each(list)) => kernel(name).map(|kernel| last(&list, kernel)),
+            Ok(Offload::Each(list)) => kernel_named(name).map(|kernel| last(&list, kernel)),
             other => panic!("{other:?}"),
         };
         let text = "each:all=gpu,sph=cpu, sph::kick=gpu";

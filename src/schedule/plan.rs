@@ -2,11 +2,7 @@
 
 use std::fmt;
 
-use sorb_kernels::{
-    columns::{Column, Life},
-    kernel::Kernel,
-    params::Solver,
-};
+use sorb_kernels::{column::Life, columns::Column, kernel::Kernel, params::Solver};
 
 use super::{
     offload::{Place, Placement},

@@ -1,10 +1,6 @@
 //! The shares of a step that CPU and device have, and what travels between them.
 
-use sorb_kernels::{
-    columns::{Column, Life},
-    gpu::Stage,
-    kernel::Kernel,
-};
+use sorb_kernels::{column::Life, columns::Column, gpu::Stage, kernel::Kernel};
 
 use super::{
     offload::{BESIDE_SORT, Offload, Place, PlaceError, last},
@@ -203,7 +199,7 @@ impl Plan {
                 Ok(all.into_iter().filter(stays).collect())
             }
             Offload::Each(list) => {
-                let is_known = |name: &str| sorb_kernels::kernel::kernel(name).is_some();
+                let is_known = |name: &str| sorb_kernels::kernel_named(name).is_some();
                 if let Some((name, _)) = list.iter().find(|(name, _)| !is_known(name)) {
                     return Err(PlaceError::Unknown(name));
                 }

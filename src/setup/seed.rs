@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use sorb_kernels::{
-    columns::{Columns, FAR_ROW, padded},
+    column::{FAR_ROW, padded},
+    columns::Columns,
     params::Params,
 };
 

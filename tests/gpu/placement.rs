@@ -1,9 +1,8 @@
 //! Which kernels run where, and what the plan says of it.
 
 use sorb::{
-    Offload, Options, World,
+    KERNELS, Offload, Options, World,
     glam::{UVec3, Vec3},
-    kernel::KERNELS,
     scene::{Scene, Solver, Sponge},
     schedule::{Place, Verdict},
 };

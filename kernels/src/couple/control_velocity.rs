@@ -8,22 +8,23 @@
 //! `s_a` says how many particles share a node, over its mass: `couple::drag` needs it to be stable.
 
 use crate::{
-    columns::{Column::*, Columns, Controls, padded},
+    column::padded,
+    columns::{Columns, Controls},
     couple::drag::weight_inside,
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-/// `couple::control_velocity`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::control_velocity",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidInterior, ControlNode, ControlFluid, ControlFluidWeights, NodePosition, NodeVelocity],
-    writes: &[ControlVelocity, ControlUnfiltered, FluidDrag],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [FluidInterior, ControlNode, ControlFluid, ControlFluidWeights, NodePosition, NodeVelocity],
+    writes: [ControlVelocity, ControlUnfiltered, FluidDrag],
+    oracle: crate::oracle::couple::control_velocity,
+    bound: 6e-6,
+    twin: [pass("couple::begin_drag", FluidOrNodes, FROM_FLUID), pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
     let (fluid, controls, nodes) = (&mut columns.fluid, &mut columns.controls, &columns.nodes);

@@ -1,21 +1,31 @@
 //! Nodes as control particles: sorted by cell, and who is near whom. A node of a swollen sponge stands for more volume.
 
 use crate::{
-    columns::{Column::*, Columns, FAR_ROW, padded},
+    column::{FAR_ROW, padded},
+    columns::Columns,
     cpu::Cpu,
     grid::sort::permute,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `couple::controls`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::controls",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidCells, NodePosition, NodeVolume, NodeSponge, NodeWetting],
-    writes: &[ControlNode, ControlCells, ControlPosition, FluidControls, ControlFluid],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [FluidPosition, FluidCells, NodePosition, NodeVolume, NodeSponge, NodeWetting],
+    writes: [ControlNode, ControlCells, ControlPosition, FluidControls, ControlFluid],
+    oracle: crate::oracle::couple::controls,
+    bound: 1e-6,
+    twin: [
+        pass("grid::count", Nodes, CONTROLS),
+        pass("grid::scan_sums", ControlScan, CONTROLS),
+        pass("grid::scan_pages", ControlPages, CONTROLS),
+        pass("grid::scatter", Nodes, CONTROLS),
+        pass(NAME, Nodes, CONTROLS),
+        pass("couple::near_fluid", Fluid, NEAR_FLUID),
+        pass("couple::near_controls", Controls, NEAR_CONTROLS),
+        CHECK,
+    ],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let particles = columns.rows.fluid;

@@ -15,30 +15,25 @@
 //! beta is thousands per second, and an explicit term would need steps of microseconds.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
     vector::{minus, plus, times},
 };
 
-/// `couple::drag`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::drag",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidVelocity,
-        FluidControls,
-        FluidControlWeights,
-        FluidInterior,
-        FluidDragRate,
-        FluidDrag,
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [
+        FluidVelocity, FluidControls, FluidControlWeights, FluidInterior, FluidDragRate, FluidDrag,
         ControlVelocity,
     ],
-    writes: &[FluidDrag],
-    cpu,
-};
+    writes: [FluidDrag],
+    oracle: crate::oracle::couple::drag,
+    bound: 2e-6,
+    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+}
 
 /// Interior value below which a particle feels no drag.
 const OUTSIDE: f32 = 1.0e-3;

@@ -12,9 +12,9 @@
 //! `couple::drag_target` makes of it where the nodes are taken, `couple::drag_kick` what the particles lose.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, prelude::*, with_lanes},
     params::Params,
     vector::{dot, minus, times},
@@ -22,21 +22,14 @@ use crate::{
 
 use super::drag::weight_inside;
 
-/// `couple::drag_impulse`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::drag_impulse",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[
-        FluidVelocity,
-        FluidControls,
-        FluidControlWeights,
-        FluidInterior,
-        FluidDragRate,
-        ControlVelocity,
-    ],
-    writes: &[FluidDrag],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [FluidVelocity, FluidControls, FluidControlWeights, FluidInterior, FluidDragRate, ControlVelocity],
+    writes: [FluidDrag],
+    oracle: crate::oracle::porous::drag_impulse,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { velocity, controls: lists, control_weights, interior, drag_rate, drag, .. } =

@@ -4,21 +4,16 @@
 //! v_i -= J_i / m
 //! ```
 
-use crate::{
-    columns::{Column::*, Columns},
-    cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::Params,
-};
+use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
-/// `couple::drag_kick`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::drag_kick",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[FluidVelocity, FluidInterior, FluidDrag],
-    writes: &[FluidVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [FluidVelocity, FluidInterior, FluidDrag],
+    writes: [FluidVelocity],
+    oracle: crate::oracle::porous::drag_kick,
+    bound: 4e-6,
+    twin: [pass("couple::exchange_fluid", Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     super::exchange::kick(cpu, params, &mut columns.fluid);

@@ -8,22 +8,22 @@
 //! nodes lie around that somehow. `pbd::momentum` adds what is lacking.
 
 use crate::{
-    columns::{Column::*, Columns, Controls},
+    columns::{Columns, Controls},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
     vector::{cross, minus, plus, splat, times},
 };
 
-/// `couple::drag_reaction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::drag_reaction",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[FluidPosition, FluidDrag, ControlNode, ControlPosition, ControlFluid, ControlFluidWeights],
-    writes: &[NodeDrag, NodeDragMoment],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [FluidPosition, FluidDrag, ControlNode, ControlPosition, ControlFluid, ControlFluidWeights],
+    writes: [NodeDrag, NodeDragMoment],
+    oracle: crate::oracle::porous::drag_reaction,
+    bound: 2e-5,
+    twin: [pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
     let (particles, drag) = (&columns.fluid.position, &columns.fluid.drag);

@@ -7,21 +7,16 @@
 //! While drag answers to the motion that a sponge is given, `pbd::momentum` moves the mass of the fluid as well. The last motion must leave
 //! the nodes with the impulses that the particles lose, to rounding: it moves the sponge alone, and nothing asks for the drag again.
 
-use crate::{
-    columns::{Column::*, Columns},
-    cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::{Params, Solver},
-};
+use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
-/// `couple::drag_settled`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::drag_settled",
-    needs: &[Need::Fluid, Need::Solver(Solver::Vbd), Need::Incompressible, Need::Porous],
-    reads: &[NodeDrag],
-    writes: &[NodeDrag],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Solver(Vbd), Incompressible, Porous],
+    reads: [NodeDrag],
+    writes: [NodeDrag],
+    oracle: crate::oracle::porous::drag_settled,
+    bound: 1e-12,
+    twin: [pass(NAME, Nodes, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
     cpu.for_chunks(&mut columns.nodes.drag[..], |_, drag| drag.iter_mut().for_each(|row| row[3] = 0.0));

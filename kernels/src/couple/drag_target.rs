@@ -17,29 +17,24 @@
 //! it is one mass, the node's own and that of the fluid, which is drawn to the mean of both targets.
 
 use crate::{
-    columns::{Column::*, Columns, Controls},
+    columns::{Columns, Controls},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::{Params, Solver},
+    params::Params,
 };
 
-/// `couple::drag_target`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::drag_target",
-    needs: &[Need::Fluid, Need::Solver(Solver::Vbd), Need::Incompressible, Need::Porous],
-    reads: &[
-        FluidDrag,
-        ControlNode,
-        ControlPosition,
-        ControlVelocity,
-        ControlFluid,
-        ControlFluidWeights,
-        NodeFree,
+declare! {
+    needs: [Fluid, Solver(Vbd), Incompressible, Porous],
+    reads: [
+        FluidDrag, ControlNode, ControlPosition, ControlVelocity, ControlFluid, ControlFluidWeights, NodeFree,
     ],
-    writes: &[NodeTarget],
-    cpu,
-};
+    writes: [NodeTarget],
+    oracle: crate::oracle::porous::drag_target,
+    // Few particles hardly move the target of a node.
+    bound: 1.5e-4,
+    twin: [pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let drag = &columns.fluid.drag;

@@ -7,32 +7,27 @@
 //! Both sides use the same `J_i`, so that momentum is kept at any number of sweeps of the filter.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
 use super::velocity_filter::received;
 
-/// `couple::exchange`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::exchange",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidVelocity,
-        FluidInterior,
-        FluidDrag,
-        ControlNode,
-        ControlUnfiltered,
-        ControlFluid,
-        ControlFluidWeights,
-        NodeVelocity,
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [
+        FluidVelocity, FluidInterior, FluidDrag, ControlNode, ControlUnfiltered, ControlFluid,
+        ControlFluidWeights, NodeVelocity,
     ],
-    writes: &[FluidVelocity, ControlVelocity, NodeVelocity],
-    cpu,
-};
+    writes: [FluidVelocity, ControlVelocity, NodeVelocity],
+    oracle: crate::oracle::couple::exchange,
+    bound: 2e-6,
+    twin_bound: 5e-6,
+    twin: [pass(NAME, Controls, FROM_FLUID), pass("couple::exchange_fluid", Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (fluid, controls, nodes) = (&mut columns.fluid, &mut columns.controls, &mut columns.nodes);

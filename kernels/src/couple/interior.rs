@@ -11,23 +11,24 @@
 
 use super::solid_yield::following;
 use crate::{
-    columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
+    column::{FAR_ROW, padded},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::{cells::Cells, neighbors::Neighbors, sort::permute},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, prelude::*, select, with_lanes},
     params::Params,
     smoothing::Wendland,
 };
 
-/// `couple::interior`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::interior",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidControls, ControlPosition, ControlNode, NodePores, NodeWetting],
-    writes: &[FluidControlWeights, FluidInterior, FluidDragRate],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [FluidPosition, FluidControls, ControlPosition, ControlNode, NodePores, NodeWetting],
+    writes: [FluidControlWeights, FluidInterior, FluidDragRate],
+    oracle: crate::oracle::couple::interior,
+    bound: 2e-6,
+    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, controls: lists, control_weights, interior, drag_rate, .. } = &mut columns.fluid;

@@ -4,21 +4,16 @@
 //! u_a = (y_a - x_a) / h
 //! ```
 
-use crate::{
-    columns::{Column::*, Columns, padded},
-    cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::Params,
-};
+use crate::{column::padded, columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
-/// `couple::node_velocity`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::node_velocity",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[ControlNode, NodePosition, NodePredicted],
-    writes: &[ControlVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [ControlNode, NodePosition, NodePredicted],
+    writes: [ControlVelocity],
+    oracle: crate::oracle::porous::node_velocity,
+    bound: 4e-6,
+    twin: [pass(NAME, Nodes, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (controls, nodes) = (&mut columns.controls, &columns.nodes);

@@ -13,23 +13,23 @@
 //! what is kept is over that, while the porosity is that of the volume as it is, of which the dry material takes the same part.
 
 use crate::{
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
     params::{Params, SpongeParams},
     pbd::stars::{StarGroup, StarShape},
     vector::{Vec3x8, cross, dot, minus},
 };
 
-/// `couple::pores`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::pores",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[NodePosition, NodeStars, NodeSponge, NodeWetting],
-    writes: &[NodePores],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [NodePosition, NodeStars, NodeSponge, NodeWetting],
+    writes: [NodePores],
+    oracle: crate::oracle::porous::pores,
+    bound: 1e-5,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 /// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.
 pub(crate) const LEAST_POROSITY: f32 = 0.15;

@@ -8,29 +8,22 @@
 //! `p_e` and so holds its water; a dry one sucks more strongly, by the gain g.
 
 use crate::{
-    columns::{Column::*, Columns, Controls},
+    columns::{Columns, Controls},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-/// `couple::saturation`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::saturation",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidPosition,
-        ControlNode,
-        ControlPosition,
-        ControlFluid,
-        NodeSponge,
-        NodeSuction,
-        NodeInterior,
-    ],
-    writes: &[ControlFluidWeights, ControlSaturation, ControlSuction, NodeSaturation],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [FluidPosition, ControlNode, ControlPosition, ControlFluid, NodeSponge, NodeSuction, NodeInterior],
+    writes: [ControlFluidWeights, ControlSaturation, ControlSuction, NodeSaturation],
+    oracle: crate::oracle::couple::saturation,
+    bound: 3e-6,
+    twin_bound: 1e-5,
+    twin: [pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let particles = &columns.fluid.position;

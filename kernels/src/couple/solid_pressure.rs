@@ -16,32 +16,25 @@
 //! ```
 
 use crate::{
-    columns::{Column::*, Columns, Fluid, padded},
+    column::padded,
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-/// `couple::solid_pressure`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::solid_pressure",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[
-        FluidPosition,
-        FluidControls,
-        FluidAcceleration,
-        ControlNode,
-        ControlPosition,
-        NodePosition,
-        NodeVelocity,
-        NodeAcceleration,
-        NodeSponge,
-        NodeVolume,
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [
+        FluidPosition, FluidControls, FluidAcceleration, ControlNode, ControlPosition, NodePosition,
+        NodeVelocity, NodeAcceleration, NodeSponge, NodeVolume,
     ],
-    writes: &[FluidAcceleration, ControlSolid],
-    cpu,
-};
+    writes: [FluidAcceleration, ControlSolid],
+    oracle: crate::oracle::porous::solid_pressure,
+    bound: 2e-5,
+    twin: [pass("couple::expect_solid", Nodes, FROM_FLUID), pass(NAME, Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(smoothing) = &params.solid else { return };

@@ -8,31 +8,25 @@
 //! that follows has to bear.
 
 use crate::{
-    columns::{Column::*, Columns},
+    columns::Columns,
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
     vector::times,
 };
 
-/// `couple::solid_reaction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::solid_reaction",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[
-        FluidPosition,
-        FluidPredicted,
-        ControlNode,
-        ControlPosition,
-        ControlSolid,
-        ControlFluid,
-        NodePosition,
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [
+        FluidPosition, FluidPredicted, ControlNode, ControlPosition, ControlSolid, ControlFluid, NodePosition,
         NodeAcceleration,
     ],
-    writes: &[NodeAcceleration],
-    cpu,
-};
+    writes: [NodeAcceleration],
+    oracle: crate::oracle::porous::solid_reaction,
+    bound: 4e-6,
+    twin: [pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(smoothing) = &params.solid else { return };

@@ -7,21 +7,21 @@
 //! added to the share of walls and bodies (`sph::boundary`), so that the solve for the pressure does not tell them apart.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-/// `couple::solid_share`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::solid_share",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[FluidPredicted, FluidControls, FluidBoundary, ControlSolid],
-    writes: &[FluidBoundary],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [FluidPredicted, FluidControls, FluidBoundary, ControlSolid],
+    writes: [FluidBoundary],
+    oracle: crate::oracle::porous::solid_share,
+    bound: 5e-5,
+    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(smoothing) = &params.solid else { return };

@@ -14,21 +14,21 @@
 //! At rest nothing changes, and nothing yields.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-/// `couple::solid_yield`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::solid_yield",
-    needs: &[Need::Fluid, Need::Sponge, Need::Incompressible, Need::Porous],
-    reads: &[FluidPredicted, FluidNeighbors, FluidPairs, FluidDragRate],
-    writes: &[FluidYield],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge, Incompressible, Porous],
+    reads: [FluidPredicted, FluidNeighbors, FluidPairs, FluidDragRate],
+    writes: [FluidYield],
+    oracle: crate::oracle::incompressible::solid_yield,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 /// How far the material follows, over as much water, and the most that it does over the water beside it \[1\]. Sponges of a porosity of
 /// 0.75 are calm with two thirds to twice of it (docs/porous.md).

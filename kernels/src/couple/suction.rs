@@ -7,21 +7,21 @@
 //! with the control pressure `p_a` below zero, and a smoothing radius of its own.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-/// `couple::suction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::suction",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidPosition, FluidControls, FluidAcceleration, ControlPosition, ControlSuction],
-    writes: &[FluidAcceleration],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [FluidPosition, FluidControls, FluidAcceleration, ControlPosition, ControlSuction],
+    writes: [FluidAcceleration],
+    oracle: crate::oracle::couple::suction,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, controls: lists, acceleration, .. } = &mut columns.fluid;

@@ -7,23 +7,24 @@
 //! with the impulses `J_i` that `couple::drag` has found so far.
 
 use crate::{
-    columns::{Column::*, Columns, Controls},
+    columns::{Columns, Controls},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, with_lanes},
     params::Params,
     vector::{self, Vec3x8, plus, times},
 };
 
-/// `couple::velocity_filter`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::velocity_filter",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[FluidDrag, ControlVelocity, ControlUnfiltered, ControlFluid, ControlFluidWeights],
-    writes: &[ControlVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [FluidDrag, ControlVelocity, ControlUnfiltered, ControlFluid, ControlFluidWeights],
+    writes: [ControlVelocity],
+    oracle: crate::oracle::couple::velocity_filter,
+    bound: 2e-6,
+    twin_bound: 5e-6,
+    twin: [pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
     let drag = &columns.fluid.drag;

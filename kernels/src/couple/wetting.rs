@@ -21,28 +21,22 @@
 //! water that sways within a part B of the pores stays as lively as it is.
 
 use crate::{
-    columns::{Column::*, Columns},
+    columns::Columns,
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::{Params, SpongeParams},
 };
 
-/// `couple::wetting`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::wetting",
-    needs: &[Need::Fluid, Need::Sponge, Need::Porous, Need::Wetting],
-    reads: &[
-        ControlNode,
-        ControlPosition,
-        ControlSaturation,
-        NodeSponge,
-        NodeSuction,
-        NodeInterior,
-        NodeWetting,
+declare! {
+    needs: [Fluid, Sponge, Porous, Wetting],
+    reads: [
+        ControlNode, ControlPosition, ControlSaturation, NodeSponge, NodeSuction, NodeInterior, NodeWetting,
     ],
-    writes: &[ControlSaturation, ControlSuction, NodeSaturation, NodeWetting],
-    cpu,
-};
+    writes: [ControlSaturation, ControlSuction, NodeSaturation, NodeWetting],
+    oracle: crate::oracle::wetting::wetting,
+    bound: 5e-5,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 /// Change of the saturation over which the suction goes from that of advancing water to that of receding water.
 pub const SCANNING_BAND: f32 = 0.1;

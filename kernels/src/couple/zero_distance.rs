@@ -10,31 +10,26 @@
 //! itself off the water it drinks.
 
 use crate::{
-    columns::{Column::*, Columns},
+    columns::Columns,
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
     vector::times,
 };
 
-/// `couple::zero_distance`.
-pub static KERNEL: Kernel = Kernel {
-    name: "couple::zero_distance",
-    needs: &[Need::Fluid, Need::Sponge],
-    reads: &[
-        FluidPosition,
-        ControlNode,
-        ControlPosition,
-        ControlFluid,
-        ControlSuction,
-        NodePosition,
-        NodeSponge,
+declare! {
+    needs: [Fluid, Sponge],
+    reads: [
+        FluidPosition, ControlNode, ControlPosition, ControlFluid, ControlSuction, NodePosition, NodeSponge,
         NodeAcceleration,
     ],
-    writes: &[NodeAcceleration],
-    cpu,
-};
+    writes: [NodeAcceleration],
+    oracle: crate::oracle::couple::zero_distance,
+    bound: 6e-6,
+    twin_bound: 1.5e-5,
+    twin: [pass(NAME, Controls, FROM_FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let particles = &columns.fluid.position;

@@ -41,12 +41,6 @@ pub enum GpuError {
         /// Most that there may be.
         limit: usize,
     },
-    /// A kernel has no twin.
-    #[error("{kernel} has no twin for the GPU")]
-    NoTwin {
-        /// Name of the kernel.
-        kernel: &'static str,
-    },
     /// The driver or the library refused something: a fault of sorb or of the driver.
     #[error("the GPU refused: {reason}")]
     Refused {

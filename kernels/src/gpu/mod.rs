@@ -29,7 +29,7 @@ mod run;
 mod subgroups;
 mod sums;
 mod transfer;
-mod twins;
+pub(crate) mod twins;
 
 pub use answer::{Answer, BOUNDS, CLOCK_BYTES, Outcome, Start};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
@@ -43,24 +43,15 @@ pub use sums::{FluidSums, NodeSums, Sums, TetSums};
 pub use transfer::{column_bytes, is_internal, make_room};
 pub use wgpu;
 
-/// Whether a kernel has a twin.
-#[must_use]
-pub fn has_twin(kernel: &str) -> bool {
-    twins::twin(kernel).is_some()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{KERNELS, kernel};
+    use crate::KERNELS;
 
     #[test]
-    fn every_kernel_has_a_twin_and_every_twin_a_kernel() {
+    fn every_kernel_has_passes() {
         for kernel in KERNELS {
-            assert!(has_twin(kernel.name), "{}", kernel.name);
-        }
-        for (name, passes) in twins::TWINS {
-            assert!(kernel(name).is_some() && !passes.is_empty(), "{name}");
+            assert!(!kernel.twin.is_empty(), "{}", kernel.name);
         }
     }
 
@@ -78,8 +69,7 @@ mod tests {
             twins::SUMS[2],
             twins::TOTAL,
         ];
-        let passes: Vec<_> =
-            twins::TWINS.iter().flat_map(|(_, passes)| passes.iter()).chain(&helpers).collect();
+        let passes: Vec<_> = KERNELS.iter().flat_map(|kernel| kernel.twin).chain(&helpers).collect();
         for shader in sorb_shaders::SHADERS.iter().chain(sorb_shaders::SUBGROUP_SHADERS) {
             assert!(passes.iter().any(|pass| pass.shader == shader.name), "{}", shader.name);
             let bindings = pipeline::bindings(shader.source);
@@ -105,10 +95,10 @@ mod tests {
 
     #[test]
     fn every_pass_leaves_when_nothing_is_to_be_done() {
-        for (name, passes) in twins::TWINS {
-            for pass in *passes {
+        for kernel in KERNELS {
+            for pass in kernel.twin {
                 let source = sorb_shaders::shader(pass.shader).map_or("", |shader| shader.source);
-                assert!(source.contains("clock.running == 0u"), "{name}: {}", pass.shader);
+                assert!(source.contains("clock.running == 0u"), "{}: {}", kernel.name, pass.shader);
             }
         }
     }

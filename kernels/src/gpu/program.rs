@@ -9,7 +9,7 @@ use super::{
     pack::{BATCH_STRIDE, BATCHES},
     pipeline::{Pipeline, has_any_group},
     resident::Resident,
-    twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows, twin},
+    twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows},
 };
 use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS};
 
@@ -158,7 +158,7 @@ impl Resident {
     /// Binds kernels, in the order in which they are to run.
     ///
     /// # Errors
-    /// A kernel has no twin, or a pipeline cannot be compiled.
+    /// A pipeline cannot be compiled.
     pub fn program(&self, kernels: &[&'static Kernel]) -> Result<Program, GpuError> {
         self.program_of(kernels.iter().map(|kernel| Stage::Run(kernel)).collect())
     }
@@ -176,12 +176,11 @@ impl Resident {
         for stage in &stages {
             let mut dispatches = Vec::new();
             for kernel in stage.kernels() {
-                let passes = twin(kernel.name).ok_or(GpuError::NoTwin { kernel: kernel.name })?;
                 // The search has every pair at hand and sums up the density.
                 let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
                 let is_checked_later = searches_again && kernel.name == "grid::fluid_neighbors";
                 let is_needed = |pass: &&Pass| !(is_done || is_checked_later && **pass == CHECK);
-                for pass in passes.iter().filter(is_needed) {
+                for pass in kernel.twin.iter().filter(is_needed) {
                     self.bind(kernel.name, pass, None, &mut dispatches)?;
                 }
                 before = kernel.name;

@@ -7,7 +7,8 @@ use super::{
 };
 use crate::{
     body::Wrench,
-    columns::{Column, Columns, FAR_ROW, RowCounts, padded},
+    column::{FAR_ROW, padded},
+    columns::{Column, Columns, RowCounts},
     cpu::CHUNK,
     grid::neighbors::Neighbors,
     params::Params,

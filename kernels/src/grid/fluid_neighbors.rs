@@ -1,20 +1,20 @@
 //! For every particle, the particles within the support radius, or whose images are.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `grid::fluid_neighbors`.
-pub static KERNEL: Kernel = Kernel {
-    name: "grid::fluid_neighbors",
-    needs: &[Need::Fluid],
-    reads: &[FluidPosition, FluidCells],
-    writes: &[FluidNeighbors],
-    cpu,
-};
+declare! {
+    needs: [Fluid],
+    reads: [FluidPosition, FluidCells],
+    writes: [FluidNeighbors],
+    oracle: crate::oracle::grid::fluid_neighbors,
+    bound: 0.0,
+    twin: [pass(NAME, Fluid, FLUID), CHECK],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let points = columns.rows.fluid;

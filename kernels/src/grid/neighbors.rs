@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::{cells::Cells, search::Search};
 use crate::{
-    columns::{ColumnData, FAR},
+    column::{ColumnData, FAR},
     cpu::{CHUNK, Cpu, PerChunk},
     lanes::{LANES, with_lanes},
     periodic::Periodic,
@@ -222,7 +222,7 @@ impl ColumnData for Neighbors {
 mod tests {
     use super::*;
     use crate::{
-        columns::{FAR_ROW, padded},
+        column::{FAR_ROW, padded},
         grid::cells::Domain,
         lanes::SimdLevel,
         testing::random_points,

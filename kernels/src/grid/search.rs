@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{cells::Cells, neighbors::GROUPS};
 use crate::{
-    columns::FAR,
+    column::FAR,
     lanes::{self, LANES, Simd, prelude::*, u32x8},
     periodic::Periodic,
     vector::{self, dot, minus},

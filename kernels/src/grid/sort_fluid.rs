@@ -2,20 +2,27 @@
 
 use super::{cells::Cells, sort::permute};
 use crate::{
-    columns::{Column::*, Columns, FAR_ROW, Fluid, padded},
+    column::{FAR_ROW, padded},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `grid::sort_fluid`.
-pub static KERNEL: Kernel = Kernel {
-    name: "grid::sort_fluid",
-    needs: &[Need::Fluid],
-    reads: &[FluidPosition, FluidVelocity, FluidId],
-    writes: &[FluidCells, FluidPosition, FluidVelocity, FluidId],
-    cpu,
-};
+declare! {
+    needs: [Fluid],
+    reads: [FluidPosition, FluidVelocity, FluidId],
+    writes: [FluidCells, FluidPosition, FluidVelocity, FluidId],
+    oracle: crate::oracle::grid::sort_fluid,
+    bound: 0.0,
+    twin: [
+        pass("grid::count", Fluid, SORT),
+        pass("grid::scan_sums", FluidScan, SORT),
+        pass("grid::scan_pages", FluidPages, SORT),
+        pass("grid::scatter", Fluid, SORT),
+        pass(NAME, Fluid, SORT),
+    ],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

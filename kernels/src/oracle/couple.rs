@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::{gradient, grid, row, smoothing, vector, vectors, wetting};
 use crate::{
-    columns::{Columns, FAR_ROW},
+    column::FAR_ROW,
+    columns::Columns,
     cpu::CHUNK,
     grid::neighbors::{ListValues, Neighbors},
     lanes::LANES,
@@ -79,7 +80,7 @@ fn rest_volume(params: &Params) -> f64 {
 }
 
 /// Any order of the controls is valid: this one is that of the nodes.
-pub(super) fn controls(params: &Params, columns: &mut Columns) {
+pub(crate) fn controls(params: &Params, columns: &mut Columns) {
     let rows = columns.rows;
     let (nodes, controls) = (&columns.nodes, &mut columns.controls);
     controls.node = (0..rows.nodes as u32).collect();
@@ -96,7 +97,7 @@ pub(super) fn controls(params: &Params, columns: &mut Columns) {
     columns.controls.fluid = grid::lists(params, &pairs.controls, &pairs.particles, nodes, pairs.radius);
 }
 
-pub(super) fn saturation(params: &Params, columns: &mut Columns) {
+pub(crate) fn saturation(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let rows = columns.controls.position.len();
     let counts = (columns.rows.nodes, columns.rows.fluid);
@@ -121,7 +122,7 @@ pub(super) fn saturation(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn interior(params: &Params, columns: &mut Columns) {
+pub(crate) fn interior(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let counts = (columns.rows.fluid, columns.rows.nodes);
     columns.fluid.control_weights =
@@ -148,7 +149,7 @@ pub(super) fn interior(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn suction(params: &Params, columns: &mut Columns) {
+pub(crate) fn suction(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for particle in 0..columns.rows.fluid {
         let mut force = DVec3::ZERO;
@@ -163,7 +164,7 @@ pub(super) fn suction(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn zero_distance(params: &Params, columns: &mut Columns) {
+pub(crate) fn zero_distance(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for control in 0..columns.rows.nodes {
         let node = columns.controls.node[control] as usize;
@@ -186,7 +187,7 @@ pub(super) fn weight_inside(columns: &Columns, particle: usize) -> f64 {
     if chi > 1.0e-3 { 1.0 / chi } else { 0.0 }
 }
 
-pub(super) fn control_velocity(params: &Params, columns: &mut Columns) {
+pub(crate) fn control_velocity(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     columns.controls.unfiltered = vec![[0.0; 4]; columns.nodes.position.len()];
     columns.controls.velocity = columns.controls.unfiltered.clone();
@@ -202,7 +203,7 @@ pub(super) fn control_velocity(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn drag(params: &Params, columns: &mut Columns) {
+pub(crate) fn drag(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let mass = f64::from(params.fluid.particle_mass);
     for particle in 0..columns.rows.fluid {
@@ -228,7 +229,7 @@ fn received(pairs: &Pairs, columns: &Columns, control: usize) -> DVec3 {
     (0..columns.rows.fluid).map(part).sum()
 }
 
-pub(super) fn velocity_filter(params: &Params, columns: &mut Columns) {
+pub(crate) fn velocity_filter(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for control in 0..columns.rows.nodes {
         let old = columns.controls.unfiltered[control];
@@ -237,7 +238,7 @@ pub(super) fn velocity_filter(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn exchange(params: &Params, columns: &mut Columns) {
+pub(crate) fn exchange(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for control in 0..columns.rows.nodes {
         let impulse = received(&pairs, columns, control);
@@ -251,7 +252,7 @@ pub(super) fn exchange(params: &Params, columns: &mut Columns) {
 }
 
 /// Takes the impulses of the drag from the particles.
-pub(super) fn kick(params: &Params, columns: &mut Columns) {
+pub(crate) fn kick(params: &Params, columns: &mut Columns) {
     for particle in 0..columns.rows.fluid {
         let chi = f64::from(columns.fluid.interior[particle]);
         let lost = chi * vector(columns.fluid.drag[particle]) / f64::from(params.fluid.particle_mass);

@@ -9,7 +9,7 @@ use crate::{
     params::{Params, Solver},
 };
 
-pub(super) fn guess(params: &Params, columns: &mut Columns) {
+pub(crate) fn guess(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let h = f64::from(params.step);
     nodes.target = nodes.predicted.clone();
@@ -217,7 +217,7 @@ fn relaxation(
     1.0 + 0.3 * ((0.5 - strain) / 0.3).min(short).clamp(0.0, 1.0)
 }
 
-pub(super) fn vbd(params: &Params, columns: &mut Columns) {
+pub(crate) fn vbd(params: &Params, columns: &mut Columns) {
     let incidence = incidence(&columns.nodes);
     let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
     let mut places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
@@ -280,7 +280,7 @@ fn touched(bodies: &[Body], place: DVec3, h: f64, near: f64) -> Option<usize> {
     found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
 }
 
-pub(super) fn reaction(params: &Params, columns: &mut Columns) {
+pub(crate) fn reaction(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     let incidence = incidence(&columns.nodes);
     let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
@@ -317,7 +317,7 @@ pub(super) fn reaction(params: &Params, columns: &mut Columns) {
     columns.bodies.node_wrenches.0 = wrenches;
 }
 
-pub(super) fn momentum(params: &Params, columns: &mut Columns) {
+pub(crate) fn momentum(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
     let mut wrenches = joined_wrenches(&columns.bodies);

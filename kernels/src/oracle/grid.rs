@@ -3,14 +3,10 @@
 use glam::DVec3;
 
 use super::{apart, vectors};
-use crate::{
-    columns::{Columns, FAR_ROW},
-    grid::neighbors::Neighbors,
-    params::Params,
-};
+use crate::{column::FAR_ROW, columns::Columns, grid::neighbors::Neighbors, params::Params};
 
 /// Any order of the rows is valid: this one keeps them where they are.
-pub(super) fn sort_fluid(_params: &Params, columns: &mut Columns) {
+pub(crate) fn sort_fluid(_params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let fluid = &mut columns.fluid;
     fluid.cells.order = (0..count as u32).collect();
@@ -18,7 +14,7 @@ pub(super) fn sort_fluid(_params: &Params, columns: &mut Columns) {
     fluid.velocity[count..].fill([0.0; 4]);
 }
 
-pub(super) fn fluid_neighbors(params: &Params, columns: &mut Columns) {
+pub(crate) fn fluid_neighbors(params: &Params, columns: &mut Columns) {
     let points = vectors(&columns.fluid.position, columns.rows.fluid);
     let radius = params.fluid.list_radius();
     columns.fluid.neighbors = lists(params, &points, &points, columns.fluid.position.len(), radius);

@@ -36,7 +36,7 @@ fn prompt_roughness(params: &Params) -> f64 {
     roughness.min(delayed.max(0.2 * step.powi(2)))
 }
 
-pub(super) fn predict(params: &Params, columns: &mut Columns) {
+pub(crate) fn predict(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     fluid.predicted.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..columns.rows.fluid {
@@ -102,7 +102,7 @@ fn at_end(params: &Params, columns: &Columns) -> Vec<Body> {
     columns.bodies.states.0.iter().map(moved).collect()
 }
 
-pub(super) fn boundary(params: &Params, columns: &mut Columns) {
+pub(crate) fn boundary(params: &Params, columns: &mut Columns) {
     let bodies = at_end(params, columns);
     let fluid = &mut columns.fluid;
     fluid.boundary.resize(fluid.position.len(), [0.0; 4]);
@@ -117,7 +117,7 @@ pub(super) fn boundary(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn boundary_pressure(params: &Params, columns: &mut Columns) {
+pub(crate) fn boundary_pressure(params: &Params, columns: &mut Columns) {
     let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
     let mut wrenches = vec![Wrench::default(); bodies.len()];
     let momentum = f64::from(params.fluid.particle_mass) * f64::from(params.step);
@@ -136,7 +136,7 @@ pub(super) fn boundary_pressure(params: &Params, columns: &mut Columns) {
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
 
-pub(super) fn boundary_reaction(params: &Params, columns: &mut Columns) {
+pub(crate) fn boundary_reaction(params: &Params, columns: &mut Columns) {
     let bodies = at_end(params, columns);
     let momentum = f64::from(params.fluid.particle_mass) * f64::from(params.step);
     let fluid = &columns.fluid;
@@ -152,7 +152,7 @@ pub(super) fn boundary_reaction(params: &Params, columns: &mut Columns) {
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
 
-pub(super) fn factors(params: &Params, columns: &mut Columns) {
+pub(crate) fn factors(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let Some(solve) = &params.fluid.incompressible else { return };
     let near = pairs(params, fluid, count);
@@ -198,7 +198,7 @@ fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
     });
 }
 
-pub(super) fn pressure_update(params: &Params, columns: &mut Columns) {
+pub(crate) fn pressure_update(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
     let most = 100.0 * f64::from(solve.correction_speed).powi(2);
@@ -213,7 +213,7 @@ pub(super) fn pressure_update(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
+pub(crate) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let near = pairs(params, fluid, count);
     let end = vectors(&fluid.predicted, count);
@@ -230,7 +230,7 @@ pub(super) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn solid_yield(params: &Params, columns: &mut Columns) {
+pub(crate) fn solid_yield(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let near = pairs(params, fluid, count);
     fluid.solid_yield.resize(fluid.position.len(), 0.0);
@@ -242,7 +242,7 @@ pub(super) fn solid_yield(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
+pub(crate) fn pressure_residual(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let Some(solve) = &params.fluid.incompressible else { return };
     let near = pairs(params, fluid, count);
@@ -271,7 +271,7 @@ pub(super) fn pressure_residual(params: &Params, columns: &mut Columns) {
     fluid.pressure_solve.finish_with(sums, count, solve);
 }
 
-pub(super) fn pressure_kick(params: &Params, columns: &mut Columns) {
+pub(crate) fn pressure_kick(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let density = f64::from(params.fluid.rest_density);
     for i in 0..columns.rows.fluid {
@@ -281,7 +281,7 @@ pub(super) fn pressure_kick(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn position_correction(params: &Params, columns: &mut Columns) {
+pub(crate) fn position_correction(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let step = f64::from(params.step);
     for i in 0..columns.rows.fluid {

@@ -7,94 +7,21 @@
 
 use glam::DVec3;
 
-use crate::{columns::Columns, params::Params};
+use crate::params::Params;
 
-mod couple;
-mod descent;
-mod grid;
-mod incompressible;
-mod obstacles;
-mod pbd;
-mod porous;
+pub(crate) mod couple;
+pub(crate) mod descent;
+pub(crate) mod grid;
+pub(crate) mod incompressible;
+pub(crate) mod obstacles;
+pub(crate) mod pbd;
+pub(crate) mod porous;
 mod shapes;
-mod sph;
-mod surface;
-mod touch;
-mod viscosity;
-mod wetting;
-
-/// A kernel as a plain loop in f64.
-pub type Oracle = fn(&Params, &mut Columns);
-
-/// The oracle of the kernel of that name.
-#[must_use]
-pub fn oracle(name: &str) -> Option<Oracle> {
-    let found: Oracle = match name {
-        "grid::sort_fluid" => grid::sort_fluid,
-        "grid::fluid_neighbors" => grid::fluid_neighbors,
-        "sph::density" => sph::density,
-        "sph::pressure" => sph::pressure,
-        "sph::forces" => sph::forces,
-        "sph::surface_tension" => sph::surface_tension,
-        "sph::deficit" => surface::deficit,
-        "sph::cohesion" => surface::cohesion,
-        "sph::repulsion" => sph::repulsion,
-        "sph::boundary_pressure" => incompressible::boundary_pressure,
-        "sph::wall_friction" => obstacles::wall_friction,
-        "sph::kick" => sph::kick,
-        "sph::viscosity_begin" => viscosity::begin,
-        "sph::viscosity_product" => viscosity::product,
-        "sph::viscosity_update" => viscosity::update,
-        "sph::viscosity_reaction" => viscosity::reaction,
-        "sph::viscosity_kick" => viscosity::kick,
-        "sph::predict" => incompressible::predict,
-        "sph::boundary" => incompressible::boundary,
-        "sph::factors" => incompressible::factors,
-        "sph::pressure_update" => incompressible::pressure_update,
-        "sph::pressure_acceleration" => incompressible::pressure_acceleration,
-        "sph::pressure_residual" => incompressible::pressure_residual,
-        "sph::pressure_kick" => incompressible::pressure_kick,
-        "sph::position_correction" => incompressible::position_correction,
-        "sph::boundary_reaction" => incompressible::boundary_reaction,
-        "sph::sweep" => obstacles::sweep_fluid,
-        "sph::advect" => sph::advect,
-        "pbd::gravity" => pbd::gravity,
-        "pbd::predict" => pbd::predict,
-        "pbd::guess" => descent::guess,
-        "pbd::pairs" => touch::pairs,
-        "pbd::touch" => touch::touch,
-        "pbd::strain" => pbd::strain,
-        "pbd::xpbd_neo_hookean" => pbd::xpbd_neo_hookean,
-        "pbd::vbd" => descent::vbd,
-        "pbd::reaction" => descent::reaction,
-        "pbd::momentum" => descent::momentum,
-        "pbd::contact" => pbd::contact,
-        "pbd::velocity" => pbd::velocity,
-        "couple::controls" => couple::controls,
-        "couple::saturation" => couple::saturation,
-        "couple::wetting" => wetting::wetting,
-        "couple::interior" => couple::interior,
-        "couple::suction" => couple::suction,
-        "couple::zero_distance" => couple::zero_distance,
-        "couple::control_velocity" => couple::control_velocity,
-        "couple::drag" => couple::drag,
-        "couple::velocity_filter" => couple::velocity_filter,
-        "couple::exchange" => couple::exchange,
-        "couple::pores" => porous::pores,
-        "couple::solid_pressure" => porous::solid_pressure,
-        "couple::solid_share" => porous::solid_share,
-        "couple::solid_yield" => incompressible::solid_yield,
-        "couple::solid_reaction" => porous::solid_reaction,
-        "couple::node_velocity" => porous::node_velocity,
-        "couple::drag_impulse" => porous::drag_impulse,
-        "couple::drag_target" => porous::drag_target,
-        "couple::drag_reaction" => porous::drag_reaction,
-        "couple::drag_settled" => porous::drag_settled,
-        "couple::drag_kick" => porous::drag_kick,
-        _ => return None,
-    };
-    Some(found)
-}
+pub(crate) mod sph;
+pub(crate) mod surface;
+pub(crate) mod touch;
+pub(crate) mod viscosity;
+pub(crate) mod wetting;
 
 /// The first three floats of a row.
 fn vector(row: [f32; 4]) -> DVec3 {

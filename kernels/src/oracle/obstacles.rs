@@ -62,7 +62,7 @@ fn pairs(params: &Params, columns: &Columns) -> Vec<[Body; 2]> {
     bodies.iter().map(|body| [body.clone(), body.at_end(params.step)]).collect()
 }
 
-pub(super) fn sweep_fluid(params: &Params, columns: &mut Columns) {
+pub(crate) fn sweep_fluid(params: &Params, columns: &mut Columns) {
     let pairs = pairs(params, columns);
     let mut wrenches = given(&columns.bodies.fluid_wrenches.0, pairs.len());
     let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
@@ -94,7 +94,7 @@ pub(super) fn half_space(radius: f64, distance: f64) -> f64 {
     (0..SLICES).map(slice).sum()
 }
 
-pub(super) fn wall_friction(params: &Params, columns: &mut Columns) {
+pub(crate) fn wall_friction(params: &Params, columns: &mut Columns) {
     let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
     let mut wrenches = given(&columns.bodies.fluid_wrenches.0, bodies.len());
     let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));

@@ -11,12 +11,12 @@ use crate::{
     reduce::{Extreme, Extremes},
 };
 
-pub(super) fn gravity(params: &Params, columns: &mut Columns) {
+pub(crate) fn gravity(params: &Params, columns: &mut Columns) {
     let rows = columns.nodes.position.len();
     columns.nodes.acceleration = vec![row(params.gravity.as_dvec3(), 0.0); rows];
 }
 
-pub(super) fn predict(params: &Params, columns: &mut Columns) {
+pub(crate) fn predict(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let bodies = &columns.bodies.states.0;
     let h = f64::from(params.step);
@@ -40,11 +40,11 @@ pub(super) fn predict(params: &Params, columns: &mut Columns) {
 pub(super) const SHAPE: [[f64; 3]; 4] =
     [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
 
-pub(super) fn strain(params: &Params, columns: &mut Columns) {
+pub(crate) fn strain(params: &Params, columns: &mut Columns) {
     sweep(params, columns, Solver::Sbd, Tet::solve);
 }
 
-pub(super) fn xpbd_neo_hookean(params: &Params, columns: &mut Columns) {
+pub(crate) fn xpbd_neo_hookean(params: &Params, columns: &mut Columns) {
     sweep(params, columns, Solver::XpbdNeoHookean, Tet::solve_neo_hookean);
 }
 
@@ -163,7 +163,7 @@ impl Tet {
     }
 }
 
-pub(super) fn contact(params: &Params, columns: &mut Columns) {
+pub(crate) fn contact(params: &Params, columns: &mut Columns) {
     let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
     let h = f64::from(params.step);
     // What other kernels gave before, in one chunk.
@@ -219,7 +219,7 @@ fn resolve(depth: f64, normal: DVec3, slide: DVec3, friction: f64) -> DVec3 {
     depth * normal - tangent.clamp_length_max(friction * depth)
 }
 
-pub(super) fn velocity(params: &Params, columns: &mut Columns) {
+pub(crate) fn velocity(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let mut extreme = Extreme::default();
     let mut largest = 0.0_f64;

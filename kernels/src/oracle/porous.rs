@@ -13,7 +13,7 @@ fn solid_radius(params: &Params) -> f32 {
     params.solid.map_or(1.0, |solid| solid.support_radius)
 }
 
-pub(super) fn solid_pressure(params: &Params, columns: &mut Columns) {
+pub(crate) fn solid_pressure(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     columns.controls.solid = vec![[0.0; 4]; columns.nodes.position.len()];
     for control in 0..columns.rows.nodes {
@@ -40,7 +40,7 @@ pub(super) fn solid_pressure(params: &Params, columns: &mut Columns) {
 }
 
 /// Whatever moves into reach within the step is not seen: lists are those of its beginning.
-pub(super) fn solid_share(params: &Params, columns: &mut Columns) {
+pub(crate) fn solid_share(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for particle in 0..columns.rows.fluid {
         let old = columns.fluid.boundary[particle];
@@ -55,7 +55,7 @@ pub(super) fn solid_share(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn solid_reaction(params: &Params, columns: &mut Columns) {
+pub(crate) fn solid_reaction(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let (mass, density) = (f64::from(params.fluid.particle_mass), f64::from(params.fluid.rest_density));
     for control in 0..columns.rows.nodes {
@@ -77,7 +77,7 @@ pub(super) fn solid_reaction(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn node_velocity(params: &Params, columns: &mut Columns) {
+pub(crate) fn node_velocity(params: &Params, columns: &mut Columns) {
     columns.controls.velocity = vec![[0.0; 4]; columns.nodes.position.len()];
     for control in 0..columns.rows.nodes {
         let node = columns.controls.node[control] as usize;
@@ -86,7 +86,7 @@ pub(super) fn node_velocity(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn pores(params: &Params, columns: &mut Columns) {
+pub(crate) fn pores(params: &Params, columns: &mut Columns) {
     let nodes = &mut columns.nodes;
     let mut volumes = vec![(0.0, 0.0); nodes.position.len()];
     for (tet, weight) in nodes.topology.tets.iter().zip(&nodes.topology.weights) {
@@ -115,7 +115,7 @@ pub(super) fn pores(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_impulse(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     columns.fluid.drag = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
@@ -142,7 +142,7 @@ pub(super) fn drag_impulse(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn drag_target(params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_target(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for control in 0..columns.rows.nodes {
         let (mut impulse, mut mass) = (DVec3::ZERO, 0.0);
@@ -164,7 +164,7 @@ pub(super) fn drag_target(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn drag_reaction(params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_reaction(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let none = vec![[0.0; 4]; columns.nodes.position.len()];
     (columns.nodes.drag, columns.nodes.drag_moment) = (none.clone(), none);
@@ -182,12 +182,12 @@ pub(super) fn drag_reaction(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn drag_settled(_params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_settled(_params: &Params, columns: &mut Columns) {
     for drag in &mut columns.nodes.drag {
         drag[3] = 0.0;
     }
 }
 
-pub(super) fn drag_kick(params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_kick(params: &Params, columns: &mut Columns) {
     super::couple::kick(params, columns);
 }

@@ -10,7 +10,7 @@ use crate::{
     reduce::{Extreme, Extremes},
 };
 
-pub(super) fn density(params: &Params, columns: &mut Columns) {
+pub(crate) fn density(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let x = vectors(&fluid.position, columns.rows.fluid);
     let radius = params.fluid.smoothing.support_radius;
@@ -22,7 +22,7 @@ pub(super) fn density(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn pressure(params: &Params, columns: &mut Columns) {
+pub(crate) fn pressure(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let rest = f64::from(params.fluid.rest_density);
     let square = f64::from(params.fluid.sound_speed).powi(2);
@@ -37,7 +37,7 @@ pub(super) fn pressure(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn forces(params: &Params, columns: &mut Columns) {
+pub(crate) fn forces(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let (x, v) = (vectors(&fluid.position, count), vectors(&fluid.velocity, count));
     let radius = params.fluid.smoothing.support_radius;
@@ -72,7 +72,7 @@ pub(super) fn forces(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn surface_tension(params: &Params, columns: &mut Columns) {
+pub(crate) fn surface_tension(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let x = vectors(&fluid.position, count);
     let radius = params.fluid.smoothing.support_radius;
@@ -95,7 +95,7 @@ pub(super) fn surface_tension(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn repulsion(params: &Params, columns: &mut Columns) {
+pub(crate) fn repulsion(params: &Params, columns: &mut Columns) {
     let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
     let parameters = &params.fluid;
     let range = f64::from(parameters.repulsion_range);
@@ -127,7 +127,7 @@ pub(super) fn repulsion(params: &Params, columns: &mut Columns) {
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
 
-pub(super) fn kick(params: &Params, columns: &mut Columns) {
+pub(crate) fn kick(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let mut largest = 0.0_f64;
     for i in 0..columns.rows.fluid {
@@ -139,7 +139,7 @@ pub(super) fn kick(params: &Params, columns: &mut Columns) {
     fluid.extremes = Extremes(vec![Extreme { acceleration_squared: largest as f32, ..Extreme::default() }]);
 }
 
-pub(super) fn advect(params: &Params, columns: &mut Columns) {
+pub(crate) fn advect(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let margin = DVec3::splat(f64::from(params.fluid.spacing) * 0.05);
     let mut extreme = fluid.extremes.total();

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{apart, gradient, incompressible, row, smoothing, vector, vectors};
 use crate::{columns::Columns, params::Params, sph::deficit};
 
-pub(super) fn deficit(params: &Params, columns: &mut Columns) {
+pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let x = vectors(&fluid.position, count);
@@ -20,7 +20,7 @@ pub(super) fn deficit(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(super) fn cohesion(params: &Params, columns: &mut Columns) {
+pub(crate) fn cohesion(params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let x = vectors(&fluid.position, count);

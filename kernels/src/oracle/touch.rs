@@ -51,7 +51,7 @@ fn facing(n_a: DVec3, n_b: DVec3) -> f64 {
     -n_a.normalize().dot(n_b.normalize()) - 0.1 - 0.6 * (1.0 - n_a.length().max(n_b.length()))
 }
 
-pub(super) fn pairs(params: &Params, columns: &mut Columns) {
+pub(crate) fn pairs(params: &Params, columns: &mut Columns) {
     let count = columns.rows.nodes;
     let nodes = &mut columns.nodes;
     let normals = normals(nodes, count);
@@ -103,7 +103,7 @@ pub(super) fn pairs(params: &Params, columns: &mut Columns) {
     nodes.pairs = Neighbors::from_lists(&lists, count as u32);
 }
 
-pub(super) fn touch(params: &Params, columns: &mut Columns) {
+pub(crate) fn touch(params: &Params, columns: &mut Columns) {
     let count = columns.rows.nodes;
     let nodes = &mut columns.nodes;
     let rows = nodes.position.len();

@@ -46,7 +46,7 @@ fn friction(rate: f64, normal: DVec3) -> DMat3 {
     (DMat3::IDENTITY - outer) * rate
 }
 
-pub(super) fn begin(params: &Params, columns: &mut Columns) {
+pub(crate) fn begin(params: &Params, columns: &mut Columns) {
     let Some(implicit) = &params.fluid.implicit_viscosity else { return };
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let (v, h) = (vectors(&fluid.velocity, count), f64::from(params.step));
@@ -87,7 +87,7 @@ pub(super) fn begin(params: &Params, columns: &mut Columns) {
     fluid.viscosity_solve.begin();
 }
 
-pub(super) fn product(params: &Params, columns: &mut Columns) {
+pub(crate) fn product(params: &Params, columns: &mut Columns) {
     let Some(implicit) = &params.fluid.implicit_viscosity else { return };
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let p = vectors(&fluid.viscosity_direction, count);
@@ -110,7 +110,7 @@ pub(super) fn product(params: &Params, columns: &mut Columns) {
     fluid.viscosity_solve.choose_with(sums);
 }
 
-pub(super) fn update(params: &Params, columns: &mut Columns) {
+pub(crate) fn update(params: &Params, columns: &mut Columns) {
     let Some(implicit) = &params.fluid.implicit_viscosity else { return };
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let solve = &fluid.viscosity_solve;
@@ -129,7 +129,7 @@ pub(super) fn update(params: &Params, columns: &mut Columns) {
     fluid.viscosity_solve.finish_with(sums, count, implicit);
 }
 
-pub(super) fn reaction(params: &Params, columns: &mut Columns) {
+pub(crate) fn reaction(params: &Params, columns: &mut Columns) {
     let (fluid, bodies) = (&columns.fluid, &columns.bodies.states.0);
     let mut wrenches = given(&columns.bodies.fluid_wrenches.0, bodies.len());
     let scale = f64::from(params.fluid.particle_mass) * f64::from(params.step);
@@ -145,7 +145,7 @@ pub(super) fn reaction(params: &Params, columns: &mut Columns) {
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
 
-pub(super) fn kick(_params: &Params, columns: &mut Columns) {
+pub(crate) fn kick(_params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let share = if fluid.viscosity_solve.is_solved() { 1.0 } else { 0.0 };
     for i in 0..count {

@@ -20,7 +20,7 @@ pub(super) fn of_tet(sponge: &SpongeParams, nodes: &Nodes, tet: [usize; 4]) -> (
     (1.0 + f64::from(wetting.swelling) * mean, 1.0 - f64::from(wetting.softening) * mean)
 }
 
-pub(super) fn wetting(params: &Params, columns: &mut Columns) {
+pub(crate) fn wetting(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     for control in 0..columns.rows.nodes {
         let sponge = sponge(params, columns, control);

@@ -8,9 +8,9 @@ use glam::{DVec3, Vec3};
 
 use crate::{
     body::{Body, Placed, Wrench, by_chunk},
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::{Params, Solver, SpongeParams},
     pbd::obstacles::CLEARANCE,
@@ -18,14 +18,14 @@ use crate::{
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
-/// `pbd::contact`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::contact",
-    needs: &[Need::Sponge, Need::Projection, Need::Obstacles],
-    reads: &[NodePosition, NodePredicted, NodeSponge, BodyStates, BodyNodeWrenches],
-    writes: &[NodePredicted, BodyNodeWrenches],
-    cpu,
-};
+declare! {
+    needs: [Sponge, Projection, Obstacles],
+    reads: [NodePosition, NodePredicted, NodeSponge, BodyStates, BodyNodeWrenches],
+    writes: [NodePredicted, BodyNodeWrenches],
+    oracle: crate::oracle::pbd::contact,
+    bound: 3e-5,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes { position, predicted, sponge, .. } = &mut columns.nodes;

@@ -1,15 +1,15 @@
 //! External acceleration of the nodes: gravity, to which the fluid adds its own.
 
-use crate::{
-    columns::{Column::*, Columns},
-    cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::Params,
-};
+use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
-/// `pbd::gravity`.
-pub static KERNEL: Kernel =
-    Kernel { name: "pbd::gravity", needs: &[Need::Sponge], reads: &[], writes: &[NodeAcceleration], cpu };
+declare! {
+    needs: [Sponge],
+    reads: [],
+    writes: [NodeAcceleration],
+    oracle: crate::oracle::pbd::gravity,
+    bound: 0.0,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 fn cpu(_cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let [x, y, z] = params.gravity.to_array();

@@ -11,29 +11,23 @@
 //! Fluid may draw the nodes as well: then `couple::drag_target` moves the target, by its mass. Sponges may touch: `pbd::touch`.
 
 use crate::{
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::{Params, Solver},
 };
 
-/// `pbd::guess`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::guess",
-    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[NodeVelocity, NodeAcceleration, NodeSponge, NodePredicted],
-    writes: &[
-        NodePredicted,
-        NodeFree,
-        NodeTarget,
-        NodeDrag,
-        NodeDragMoment,
-        NodeTouch,
-        NodeTouchStiffness,
+declare! {
+    needs: [Sponge, Solver(Vbd)],
+    reads: [NodeVelocity, NodeAcceleration, NodeSponge, NodePredicted],
+    writes: [
+        NodePredicted, NodeFree, NodeTarget, NodeDrag, NodeDragMoment, NodeTouch, NodeTouchStiffness,
         NodeTouchBetween,
     ],
-    cpu,
-};
+    oracle: crate::oracle::descent::guess,
+    bound: 2e-5,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::columns::ColumnData;
+use crate::column::ColumnData;
 
 /// Colours of tets: no two tets of a colour share a node.
 pub const COLORS: usize = 24;

@@ -30,36 +30,29 @@ use glam::{DMat3, DVec3, Vec3};
 
 use crate::{
     body::{Body, BodyState, Wrench, by_chunk},
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::{Params, Solver},
     pbd::{reaction::MARGIN, stars::Piece},
 };
 
-/// `pbd::momentum`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::momentum",
-    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[
-        NodePosition,
-        NodeVelocity,
-        NodeStars,
-        NodeSponge,
-        NodeFree,
-        NodeReaction,
-        NodePredicted,
-        NodeAcceleration,
-        NodeDrag,
-        NodeDragMoment,
-        NodeTouch,
-        NodeTouchStiffness,
-        BodyStates,
+declare! {
+    needs: [Sponge, Solver(Vbd)],
+    reads: [
+        NodePosition, NodeVelocity, NodeStars, NodeSponge, NodeFree, NodeReaction, NodePredicted,
+        NodeAcceleration, NodeDrag, NodeDragMoment, NodeTouch, NodeTouchStiffness, BodyStates,
         BodyNodeWrenches,
     ],
-    writes: &[NodeVelocity, NodePredicted, NodeReaction, BodyNodeWrenches],
-    cpu,
-};
+    writes: [NodeVelocity, NodePredicted, NodeReaction, BodyNodeWrenches],
+    oracle: crate::oracle::descent::momentum,
+    bound: 5e-4,
+    twin: [
+        pass("pbd::momentum_sums", Sponges, NODES),
+        pass(NAME, Nodes, NODES),
+        pass("pbd::momentum_bodies", Nodes, NODES),
+    ],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes {

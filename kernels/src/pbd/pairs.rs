@@ -26,12 +26,12 @@
 use glam::Vec3;
 
 use crate::{
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::Cpu,
     grid::cells::{Cells, Domain},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::LANES,
-    params::{Params, Solver},
+    params::Params,
     pbd::stars::{CORNERS, RINGS, StarGroup, Stars},
 };
 
@@ -51,14 +51,23 @@ const APART: f32 = 4.0;
 /// Area of a node, over the square of the edge, below which it has no normal.
 const SMALLEST: f32 = 1.0e-3;
 
-/// `pbd::pairs`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::pairs",
-    needs: &[Need::Sponge, Need::Solver(Solver::Vbd), Need::Touch],
-    reads: &[NodePosition, NodeRest, NodeSponge, NodeStars],
-    writes: &[NodeNormal, NodePairs],
-    cpu,
-};
+declare! {
+    needs: [Sponge, Solver(Vbd), Touch],
+    reads: [NodePosition, NodeRest, NodeSponge, NodeStars],
+    writes: [NodeNormal, NodePairs],
+    oracle: crate::oracle::touch::pairs,
+    bound: 2e-6,
+    twin: [
+        pass("pbd::boxes", Sponges, NODES),
+        pass("pbd::normals", Nodes, NODES),
+        pass("grid::count", Nodes, PAIRS),
+        pass("grid::scan_sums", PairScan, PAIRS),
+        pass("grid::scan_pages", PairPages, PAIRS),
+        pass("grid::scatter", Nodes, PAIRS),
+        pass(NAME, Nodes, NODES),
+        CHECK,
+    ],
+}
 
 /// A pair as both of its nodes see it.
 #[derive(Clone, Copy, Debug)]

@@ -10,20 +10,20 @@ use glam::{Mat3, Vec3};
 
 use crate::{
     body::{Body, Wrench},
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::{CHUNK, Cpu},
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `pbd::predict`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::predict",
-    needs: &[Need::Sponge],
-    reads: &[NodePosition, NodeVelocity, NodeAcceleration, NodeGrip, NodeGripOffset, BodyStates],
-    writes: &[NodePredicted, BodyNodeWrenches],
-    cpu,
-};
+declare! {
+    needs: [Sponge],
+    reads: [NodePosition, NodeVelocity, NodeAcceleration, NodeGrip, NodeGripOffset, BodyStates],
+    writes: [NodePredicted, BodyNodeWrenches],
+    oracle: crate::oracle::pbd::predict,
+    bound: 2e-5,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let bodies = &columns.bodies.states.0;

@@ -6,11 +6,11 @@
 
 use crate::{
     body::{Body, Wrench, by_chunk},
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::{Params, Solver},
+    params::Params,
     pbd::{
         descent::{Material, constants_of, local},
         obstacles::{Obstacles, array, vector},
@@ -25,26 +25,17 @@ use crate::{
 /// How close to an obstacle, in edges, a node is looked at.
 pub(super) const MARGIN: f32 = 1.0e-2;
 
-/// `pbd::reaction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::reaction",
-    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[
-        NodePosition,
-        NodePredicted,
-        NodeTarget,
-        NodeStars,
-        NodeSponge,
-        NodeWetting,
-        NodeTouch,
-        NodeTouchStiffness,
-        NodeTouchBetween,
-        BodyStates,
-        BodyNodeWrenches,
+declare! {
+    needs: [Sponge, Solver(Vbd)],
+    reads: [
+        NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, NodeWetting, NodeTouch,
+        NodeTouchStiffness, NodeTouchBetween, BodyStates, BodyNodeWrenches,
     ],
-    writes: &[NodeReaction, BodyNodeWrenches],
-    cpu,
-};
+    writes: [NodeReaction, BodyNodeWrenches],
+    oracle: crate::oracle::descent::reaction,
+    bound: 1e-3,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes {

@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use crate::{columns::ColumnData, lanes::LANES, pbd::lattice::Topology};
+use crate::{column::ColumnData, lanes::LANES, pbd::lattice::Topology};
 
 /// Directions of the neighbours of the same sublattice.
 pub const DIRECTIONS: usize = 6;

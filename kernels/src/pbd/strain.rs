@@ -24,9 +24,9 @@
 //! between 0 and 1 (compliance of \[MMC16\]), so that the sponge does not stiffen when the step shrinks.
 
 use crate::{
-    columns::{Column::*, Columns},
+    columns::Columns,
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, Simd, f32x8, prelude::*, select},
     params::{self, Params, SpongeParams},
     pbd::tets::{Law, TetLanes, sweep},
@@ -39,14 +39,15 @@ const SMALLEST_RATIO: f32 = 0.1;
 /// Compliance of that constraint over that of the volume; not zero, which would divide by zero for held nodes.
 const RIGID: f32 = 1.0e-3;
 
-/// `pbd::strain`: one sweep over all colours.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::strain",
-    needs: &[Need::Sponge, Need::Solver(params::Solver::Sbd)],
-    reads: &[NodePosition, NodePredicted, NodeTopology],
-    writes: &[NodePredicted],
-    cpu,
-};
+declare! {
+    needs: [Sponge, Solver(Sbd)],
+    reads: [NodePosition, NodePredicted, NodeTopology],
+    writes: [NodePredicted],
+    oracle: crate::oracle::pbd::strain,
+    // 6e-8 m: eight units in the last place of a position.
+    bound: 5e-4,
+    twin: [pass(NAME, Colors, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     sweep::<Strain>(cpu, params, &mut columns.nodes);

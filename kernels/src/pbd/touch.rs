@@ -23,11 +23,11 @@
 use glam::{Mat3, Vec3};
 
 use crate::{
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
-    params::{Params, Solver},
+    params::Params,
     pbd::{
         descent::Local,
         pairs::{Pair, REACH, vector},
@@ -42,14 +42,14 @@ const TURN: f32 = 0.4;
 /// Speed at which what sticks may slip \[m/s\].
 const CREEP: f32 = 2.0e-3;
 
-/// `pbd::touch`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::touch",
-    needs: &[Need::Sponge, Need::Solver(Solver::Vbd), Need::Touch],
-    reads: &[NodePosition, NodePredicted, NodeSponge, NodeNormal, NodePairs],
-    writes: &[NodeTouch, NodeTouchStiffness, NodeTouchBetween],
-    cpu,
-};
+declare! {
+    needs: [Sponge, Solver(Vbd), Touch],
+    reads: [NodePosition, NodePredicted, NodeSponge, NodeNormal, NodePairs],
+    writes: [NodeTouch, NodeTouchStiffness, NodeTouchBetween],
+    oracle: crate::oracle::touch::touch,
+    bound: 1e-4,
+    twin: [pass(NAME, Nodes, NODES), pass("pbd::touching", Sponges, NODES), pass("pbd::joining", One, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.nodes;

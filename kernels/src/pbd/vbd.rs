@@ -16,11 +16,11 @@
 
 use crate::{
     body::Body,
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
-    params::{Params, Solver},
+    params::Params,
     pbd::{
         descent::{Local, Material, constants_of, inverse, local, product},
         obstacles::{Obstacles, Quadratic, array, vector},
@@ -43,25 +43,17 @@ const FINE: f32 = 4096.0;
 /// Smallest place that chance is scaled by, so that a way over its last digit is a number \[m\].
 const LEAST: f32 = 1.0e-6;
 
-/// `pbd::vbd`: one sweep over all colours.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::vbd",
-    needs: &[Need::Sponge, Need::Solver(Solver::Vbd)],
-    reads: &[
-        NodePosition,
-        NodePredicted,
-        NodeTarget,
-        NodeStars,
-        NodeSponge,
-        NodeWetting,
-        NodeTouch,
-        NodeTouchStiffness,
-        NodeTouchBetween,
-        BodyStates,
+declare! {
+    needs: [Sponge, Solver(Vbd)],
+    reads: [
+        NodePosition, NodePredicted, NodeTarget, NodeStars, NodeSponge, NodeWetting, NodeTouch,
+        NodeTouchStiffness, NodeTouchBetween, BodyStates,
     ],
-    writes: &[NodePredicted],
-    cpu,
-};
+    writes: [NodePredicted],
+    oracle: crate::oracle::descent::vbd,
+    bound: 5e-4,
+    twin: [pass(NAME, VertexColors, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes {

@@ -5,21 +5,21 @@
 //! ```
 
 use crate::{
-    columns::{Column::*, Columns, Nodes},
+    columns::{Columns, Nodes},
     cpu::Cpu,
     grid::sort::per_chunk,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `pbd::velocity`.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::velocity",
-    needs: &[Need::Sponge],
-    reads: &[NodePosition, NodeVelocity, NodePredicted],
-    writes: &[NodePosition, NodeVelocity, NodeExtremes],
-    cpu,
-};
+declare! {
+    needs: [Sponge],
+    reads: [NodePosition, NodeVelocity, NodePredicted],
+    writes: [NodePosition, NodeVelocity, NodeExtremes],
+    oracle: crate::oracle::pbd::velocity,
+    bound: 1e-6,
+    twin: [pass(NAME, Nodes, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.nodes;

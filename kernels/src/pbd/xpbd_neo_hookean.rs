@@ -15,23 +15,23 @@
 //! `s = l_D / |F| + l_H` and `v = l_H`: products of g and a, and s, are as small as the strain.
 
 use crate::{
-    columns::{Column::*, Columns},
+    columns::Columns,
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, Simd, f32x8, prelude::*, select},
     params::{Params, Solver, SpongeParams},
     pbd::tets::{Law, TetLanes, sweep},
     vector::{Vec3x8, cross, dot, minus, negative, plus, times},
 };
 
-/// `pbd::xpbd_neo_hookean`: one sweep over all colours.
-pub static KERNEL: Kernel = Kernel {
-    name: "pbd::xpbd_neo_hookean",
-    needs: &[Need::Sponge, Need::Solver(Solver::XpbdNeoHookean)],
-    reads: &[NodePosition, NodePredicted, NodeTopology],
-    writes: &[NodePredicted],
-    cpu,
-};
+declare! {
+    needs: [Sponge, Solver(XpbdNeoHookean)],
+    reads: [NodePosition, NodePredicted, NodeTopology],
+    writes: [NodePredicted],
+    oracle: crate::oracle::pbd::xpbd_neo_hookean,
+    bound: 1.5e-4,
+    twin: [pass(NAME, Colors, NODES)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     sweep::<NeoHookean>(cpu, params, &mut columns.nodes);

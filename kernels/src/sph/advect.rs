@@ -9,20 +9,20 @@
 //! other side.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `sph::advect`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::advect",
-    needs: &[Need::Fluid],
-    reads: &[FluidPosition, FluidVelocity, FluidExtremes],
-    writes: &[FluidPosition, FluidVelocity, FluidExtremes],
-    cpu,
-};
+declare! {
+    needs: [Fluid],
+    reads: [FluidPosition, FluidVelocity, FluidExtremes],
+    writes: [FluidPosition, FluidVelocity, FluidExtremes],
+    oracle: crate::oracle::sph::advect,
+    bound: 1e-5,
+    twin: [pass(NAME, Fluid, SORT)],
+}
 
 /// Distance from the walls at which a particle is stopped, over the spacing.
 pub(super) const STOP: f32 = 0.05;

@@ -6,23 +6,23 @@
 
 use crate::{
     body::{Body, Wrench},
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, prelude::*, with_lanes},
     params::Params,
 };
 
 use super::boundary::{Profile, near};
 
-/// `sph::boundary_pressure`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::boundary_pressure",
-    needs: &[Need::Fluid, Need::Obstacles, Need::Incompressible],
-    reads: &[FluidPosition, FluidAcceleration, BodyStates],
-    writes: &[FluidAcceleration, BodyFluidWrenches],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Obstacles, Incompressible],
+    reads: [FluidPosition, FluidAcceleration, BodyStates],
+    writes: [FluidAcceleration, BodyFluidWrenches],
+    oracle: crate::oracle::incompressible::boundary_pressure,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

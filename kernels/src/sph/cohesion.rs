@@ -10,24 +10,25 @@
 //! momentum; deep inside there are none, so that the fluid stays a fluid there.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd},
     params::{Cohesion, Params},
     periodic::{Space, with_space},
     vector::{dot, plus, times},
 };
 
-/// `sph::cohesion`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::cohesion",
-    needs: &[Need::Fluid, Need::Cohesion],
-    reads: &[FluidPosition, FluidNeighbors, FluidDeficit, FluidAcceleration],
-    writes: &[FluidAcceleration],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Cohesion],
+    reads: [FluidPosition, FluidNeighbors, FluidDeficit, FluidAcceleration],
+    writes: [FluidAcceleration],
+    oracle: crate::oracle::surface::cohesion,
+    // Weights of deficits are a tenth of the sums that they are differences of.
+    bound: 1.5e-4,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };

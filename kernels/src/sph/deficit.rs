@@ -12,10 +12,10 @@
 
 use crate::{
     body::Body,
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
     params::{Cohesion, Params},
     periodic::{Space, with_space},
@@ -25,14 +25,15 @@ use crate::{
 
 use super::boundary::{Profile, near};
 
-/// `sph::deficit`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::deficit",
-    needs: &[Need::Fluid, Need::Cohesion],
-    reads: &[FluidPosition, FluidNeighbors, BodyStates],
-    writes: &[FluidDeficit],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Cohesion],
+    reads: [FluidPosition, FluidNeighbors, BodyStates],
+    writes: [FluidDeficit],
+    oracle: crate::oracle::surface::deficit,
+    // Weights of deficits are a tenth of the sums that they are differences of.
+    bound: 4e-5,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 /// Share of the neighbourhood above which nothing lacks.
 pub(crate) const FULL: f32 = 0.98;

@@ -5,24 +5,24 @@
 //! ```
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd},
     params::Params,
     periodic::{Space, with_space},
     vector::dot,
 };
 
-/// `sph::density`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::density",
-    needs: &[Need::Fluid],
-    reads: &[FluidPosition, FluidNeighbors],
-    writes: &[FluidDensity],
-    cpu,
-};
+declare! {
+    needs: [Fluid],
+    reads: [FluidPosition, FluidNeighbors],
+    writes: [FluidDensity],
+    oracle: crate::oracle::sph::density,
+    bound: 2e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, neighbors, density, .. } = &mut columns.fluid;

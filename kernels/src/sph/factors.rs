@@ -22,10 +22,10 @@
 //! An error of the density is put right at a limited speed: particles that begin on top of each other would fly apart.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, prelude::*},
     params::{Incompressible, Params},
     periodic::{Space, with_space},
@@ -33,14 +33,14 @@ use crate::{
     vector::dot,
 };
 
-/// `sph::factors`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::factors",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary, FluidAcceleration],
-    writes: &[FluidFactors, FluidPairs, FluidPressureRows, FluidYield, FluidPressureSolve],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary, FluidAcceleration],
+    writes: [FluidFactors, FluidPairs, FluidPressureRows, FluidYield, FluidPressureSolve],
+    oracle: crate::oracle::incompressible::factors,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID), pass("sph::solve_begin", One, FLUID)],
+}
 
 /// Least diagonal, over that of a lattice: a lone particle is not moved by its own pressure.
 const LEAST_DIAGONAL: f32 = 1.0 / 3.0;

@@ -17,24 +17,24 @@
 //! ```
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, prelude::*},
     params::Params,
     periodic::{Space, with_space},
     vector::{self, plus, times},
 };
 
-/// `sph::forces`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::forces",
-    needs: &[Need::Fluid],
-    reads: &[FluidPosition, FluidVelocity, FluidNeighbors],
-    writes: &[FluidAcceleration],
-    cpu,
-};
+declare! {
+    needs: [Fluid],
+    reads: [FluidPosition, FluidVelocity, FluidNeighbors],
+    writes: [FluidAcceleration],
+    oracle: crate::oracle::sph::forces,
+    bound: 2e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, velocity, neighbors, acceleration, .. } = &mut columns.fluid;

@@ -5,21 +5,21 @@
 //! ```
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::sort::per_chunk,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `sph::kick`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::kick",
-    needs: &[Need::Fluid],
-    reads: &[FluidVelocity, FluidAcceleration],
-    writes: &[FluidVelocity, FluidExtremes],
-    cpu,
-};
+declare! {
+    needs: [Fluid],
+    reads: [FluidVelocity, FluidAcceleration],
+    writes: [FluidVelocity, FluidExtremes],
+    oracle: crate::oracle::sph::kick,
+    bound: 1e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

@@ -9,20 +9,20 @@
 //! and no pressure is remembered.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `sph::position_correction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::position_correction",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPredicted, FluidVelocity, FluidCorrection],
-    writes: &[FluidPredicted, FluidVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [FluidPredicted, FluidVelocity, FluidCorrection],
+    writes: [FluidPredicted, FluidVelocity],
+    oracle: crate::oracle::incompressible::position_correction,
+    bound: 3e-5,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     if params.fluid.incompressible.is_none() {

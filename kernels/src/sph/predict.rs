@@ -17,20 +17,21 @@
 //! of which the solve knows `s + b (w - s)` from here and changes `b w` itself. At rest s is w, at any step.
 
 use crate::{
-    columns::{Column::*, Columns, FAR_ROW, Fluid},
+    column::FAR_ROW,
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::{FluidParams, Params},
 };
 
-/// `sph::predict`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::predict",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPosition, FluidVelocity, FluidAcceleration],
-    writes: &[FluidPredicted, FluidVelocity, FluidAcceleration],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [FluidPosition, FluidVelocity, FluidAcceleration],
+    writes: [FluidPredicted, FluidVelocity, FluidAcceleration],
+    oracle: crate::oracle::incompressible::predict,
+    bound: 1e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     if params.fluid.incompressible.is_none() {

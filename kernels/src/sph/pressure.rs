@@ -11,20 +11,20 @@
 //! Leaves p / rho^2 beside the position and m / rho beside the velocity, where neighbours read them.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::{EquationOfState, FluidParams, Params},
 };
 
-/// `sph::pressure`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::pressure",
-    needs: &[Need::Fluid, Need::EquationOfState],
-    reads: &[FluidPosition, FluidVelocity, FluidDensity],
-    writes: &[FluidPosition, FluidVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, EquationOfState],
+    reads: [FluidPosition, FluidVelocity, FluidDensity],
+    writes: [FluidPosition, FluidVelocity],
+    oracle: crate::oracle::sph::pressure,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

@@ -7,24 +7,24 @@
 //! and, for the residual, `w_i = a_i . x_i - b e / h^2 dP_i`. Equal and opposite for the two particles of a pair, after any number of rounds.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd},
     params::Params,
     periodic::{Space, with_space},
     vector::{self, dot, minus},
 };
 
-/// `sph::pressure_acceleration`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::pressure_acceleration",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPredicted, FluidNeighbors, FluidPairs, FluidFactors],
-    writes: &[FluidCorrection],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [FluidPredicted, FluidNeighbors, FluidPairs, FluidFactors],
+    writes: [FluidCorrection],
+    oracle: crate::oracle::incompressible::pressure_acceleration,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     if params.fluid.incompressible.is_none() {

@@ -5,20 +5,20 @@
 //! ```
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `sph::pressure_kick`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::pressure_kick",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPosition, FluidVelocity, FluidCorrection, FluidPressureRows],
-    writes: &[FluidPosition, FluidVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [FluidPosition, FluidVelocity, FluidCorrection, FluidPressureRows],
+    writes: [FluidPosition, FluidVelocity],
+    oracle: crate::oracle::incompressible::pressure_kick,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     if params.fluid.incompressible.is_none() {

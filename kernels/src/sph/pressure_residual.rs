@@ -10,10 +10,10 @@
 //! `pressure_solve`.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd},
     params::Params,
     periodic::{Space, with_space},
@@ -22,23 +22,17 @@ use crate::{
 
 use super::pressure_solve::Sums;
 
-/// `sph::pressure_residual`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::pressure_residual",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[
-        FluidPredicted,
-        FluidCorrection,
-        FluidNeighbors,
-        FluidPairs,
-        FluidFactors,
-        FluidPressureRows,
-        FluidYield,
-        FluidPressureSolve,
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [
+        FluidPredicted, FluidCorrection, FluidNeighbors, FluidPairs, FluidFactors, FluidPressureRows,
+        FluidYield, FluidPressureSolve,
     ],
-    writes: &[FluidPressureRows, FluidPressureSolve],
-    cpu,
-};
+    writes: [FluidPressureRows, FluidPressureSolve],
+    oracle: crate::oracle::incompressible::pressure_residual,
+    bound: 1e-5,
+    twin: [pass(NAME, Fluid, FLUID), pass("sph::solve_round", One, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(incompressible) = &params.fluid.incompressible else { return };

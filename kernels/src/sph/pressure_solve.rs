@@ -14,7 +14,7 @@
 //! that are longer than a few spacings are hardly damped below the tolerance: a pool would ring for ever at a speed in
 //! proportion to it.
 
-use crate::{columns::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::Incompressible};
+use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::Incompressible};
 
 /// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
 const FIRST_LENGTH: f32 = 0.6;

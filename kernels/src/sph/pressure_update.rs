@@ -11,20 +11,20 @@
 //! position, where neighbours read it.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `sph::pressure_update`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::pressure_update",
-    needs: &[Need::Fluid, Need::Incompressible],
-    reads: &[FluidPosition, FluidPredicted, FluidPressureRows, FluidPressureSolve],
-    writes: &[FluidPredicted, FluidPressureRows],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Incompressible],
+    reads: [FluidPosition, FluidPredicted, FluidPressureRows, FluidPressureSolve],
+    writes: [FluidPredicted, FluidPressureRows],
+    oracle: crate::oracle::incompressible::pressure_update,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 /// Speed of sound over the fastest speed that is expected.
 const SPEEDS: f32 = 10.0;

@@ -10,22 +10,22 @@ use glam::DVec3;
 
 use crate::{
     body::{Body, Placed, Wrench, by_chunk},
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, prelude::*, select, with_lanes},
     params::Params,
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
-/// `sph::repulsion`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::repulsion",
-    needs: &[Need::Fluid, Need::Obstacles, Need::EquationOfState],
-    reads: &[FluidPosition, FluidVelocity, FluidAcceleration, BodyStates],
-    writes: &[FluidAcceleration, BodyFluidWrenches],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Obstacles, EquationOfState],
+    reads: [FluidPosition, FluidVelocity, FluidAcceleration, BodyStates],
+    writes: [FluidAcceleration, BodyFluidWrenches],
+    oracle: crate::oracle::sph::repulsion,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
@@ -92,7 +92,7 @@ impl Task<'_> {
             return Vec::new();
         }
         let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for point in points.iter().filter(|point| point[0] < crate::columns::FAR) {
+        for point in points.iter().filter(|point| point[0] < crate::column::FAR) {
             low = [0, 1, 2].map(|axis| low[axis].min(point[axis]));
             high = [0, 1, 2].map(|axis| high[axis].max(point[axis]));
         }

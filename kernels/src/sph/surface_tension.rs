@@ -7,10 +7,10 @@
 //! Not an exchange between pairs: momentum is kept only on average.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, prelude::*, select},
     params::Params,
     periodic::{Space, with_space},
@@ -20,14 +20,14 @@ use crate::{
 /// Length of the normal times the support radius below which a particle is not at the surface.
 const THRESHOLD: f32 = 1.0;
 
-/// `sph::surface_tension`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::surface_tension",
-    needs: &[Need::Fluid, Need::SurfaceTension],
-    reads: &[FluidPosition, FluidVelocity, FluidNeighbors, FluidAcceleration],
-    writes: &[FluidAcceleration],
-    cpu,
-};
+declare! {
+    needs: [Fluid, SurfaceTension],
+    reads: [FluidPosition, FluidVelocity, FluidNeighbors, FluidAcceleration],
+    writes: [FluidAcceleration],
+    oracle: crate::oracle::sph::surface_tension,
+    bound: 1e-5,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, velocity, neighbors, acceleration, .. } = &mut columns.fluid;

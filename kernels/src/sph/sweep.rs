@@ -8,9 +8,9 @@
 
 use crate::{
     body::{Body, Wrench},
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, prelude::*, with_lanes},
     params::Params,
     sweep::Swept,
@@ -23,14 +23,14 @@ use super::{
     boundary_pressure::per_chunk,
 };
 
-/// `sph::sweep`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::sweep",
-    needs: &[Need::Fluid, Need::Bodies],
-    reads: &[FluidPosition, FluidVelocity, BodyStates, BodyFluidWrenches],
-    writes: &[FluidVelocity, BodyFluidWrenches],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Bodies],
+    reads: [FluidPosition, FluidVelocity, BodyStates, BodyFluidWrenches],
+    writes: [FluidVelocity, BodyFluidWrenches],
+    oracle: crate::oracle::obstacles::sweep_fluid,
+    bound: 2e-3,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

@@ -12,10 +12,10 @@
 
 use crate::{
     body::{Body, Placed},
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8},
     params::Params,
     periodic::{Space, with_space},
@@ -28,21 +28,17 @@ use super::{
     wall_friction::{along, friction_rate},
 };
 
-/// `sph::viscosity_begin`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::viscosity_begin",
-    needs: &[Need::Fluid, Need::ImplicitViscosity],
-    reads: &[FluidPosition, FluidVelocity, FluidNeighbors, BodyStates],
-    writes: &[
-        FluidFriction,
-        FluidFrictionBetween,
-        FluidViscosityResidual,
-        FluidViscosityDirection,
-        FluidViscosityChange,
-        FluidViscositySolve,
+declare! {
+    needs: [Fluid, ImplicitViscosity],
+    reads: [FluidPosition, FluidVelocity, FluidNeighbors, BodyStates],
+    writes: [
+        FluidFriction, FluidFrictionBetween, FluidViscosityResidual, FluidViscosityDirection,
+        FluidViscosityChange, FluidViscositySolve,
     ],
-    cpu,
-};
+    oracle: crate::oracle::viscosity::begin,
+    bound: 4e-6,
+    twin: [pass("sph::viscosity_friction", Fluid, FLUID), pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

@@ -9,20 +9,20 @@
 //! suffice, because only a residual below the tolerance is known to be harmless.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
-    kernel::{Kernel, Need},
+    kernel::declare,
     params::Params,
 };
 
-/// `sph::viscosity_kick`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::viscosity_kick",
-    needs: &[Need::Fluid, Need::ImplicitViscosity],
-    reads: &[FluidVelocity, FluidViscosityResidual, FluidViscosityChange, FluidViscositySolve],
-    writes: &[FluidVelocity],
-    cpu,
-};
+declare! {
+    needs: [Fluid, ImplicitViscosity],
+    reads: [FluidVelocity, FluidViscosityResidual, FluidViscosityChange, FluidViscositySolve],
+    writes: [FluidVelocity],
+    oracle: crate::oracle::viscosity::kick,
+    bound: 1e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

@@ -7,10 +7,10 @@
 //! with the pairs of `viscosity` and the friction of `sph::viscosity_begin`.
 
 use crate::{
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd},
     params::Params,
     periodic::{Space, with_space},
@@ -19,22 +19,19 @@ use crate::{
 
 use super::{viscosity::Pairs, viscosity_solve::Sums};
 
-/// `sph::viscosity_product`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::viscosity_product",
-    needs: &[Need::Fluid, Need::ImplicitViscosity],
-    reads: &[
-        FluidPosition,
-        FluidNeighbors,
-        FluidFriction,
-        FluidFrictionBetween,
-        FluidViscosityResidual,
-        FluidViscosityDirection,
-        FluidViscositySolve,
+declare! {
+    needs: [Fluid, ImplicitViscosity],
+    reads: [
+        FluidPosition, FluidNeighbors, FluidFriction, FluidFrictionBetween, FluidViscosityResidual,
+        FluidViscosityDirection, FluidViscositySolve,
     ],
-    writes: &[FluidViscosityProduct, FluidViscositySolve],
-    cpu,
-};
+    writes: [FluidViscosityProduct, FluidViscositySolve],
+    oracle: crate::oracle::viscosity::product,
+    bound: 1e-5,
+    // Quotients of sums of either sign: 6.0e-6.
+    twin_bound: 2e-5,
+    twin: [pass(NAME, Fluid, FLUID), pass("sph::viscosity_length", One, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

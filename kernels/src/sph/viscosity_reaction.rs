@@ -8,9 +8,9 @@
 
 use crate::{
     body::{Body, Placed, Wrench},
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, with_lanes},
     params::Params,
     vector::{minus, plus, splat, times},
@@ -22,14 +22,14 @@ use super::{
     wall_friction::{along, friction_rate},
 };
 
-/// `sph::viscosity_reaction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::viscosity_reaction",
-    needs: &[Need::Fluid, Need::Bodies, Need::NoSlip, Need::ImplicitViscosity],
-    reads: &[FluidPosition, FluidVelocity, FluidViscosityChange, BodyStates, BodyFluidWrenches],
-    writes: &[BodyFluidWrenches],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Bodies, NoSlip, ImplicitViscosity],
+    reads: [FluidPosition, FluidVelocity, FluidViscosityChange, BodyStates, BodyFluidWrenches],
+    writes: [BodyFluidWrenches],
+    oracle: crate::oracle::viscosity::reaction,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;

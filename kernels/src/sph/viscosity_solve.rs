@@ -17,7 +17,7 @@
 //! The solve stops when the residual is below the tolerance times the change, both as roots of mean squares: as every
 //! eigenvalue of `A` is at least one, the error of the velocity is no larger than the residual.
 
-use crate::{columns::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::ImplicitViscosity};
+use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::ImplicitViscosity};
 
 /// Sums over the rows of a chunk: `p.Ap, r.p, r.Ap, Ap.Ap` of a product, `r.r, y.y` of an update.
 pub(super) type Sums = [f64; 4];

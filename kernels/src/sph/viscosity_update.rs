@@ -6,29 +6,21 @@
 //!
 //! with `alpha` and `beta` from `sph::viscosity_product`.
 
-use crate::{
-    columns::{Column::*, Columns},
-    cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::Params,
-};
+use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
 use super::viscosity_solve::Sums;
 
-/// `sph::viscosity_update`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::viscosity_update",
-    needs: &[Need::Fluid, Need::ImplicitViscosity],
-    reads: &[
-        FluidViscosityResidual,
-        FluidViscosityDirection,
-        FluidViscosityProduct,
-        FluidViscosityChange,
+declare! {
+    needs: [Fluid, ImplicitViscosity],
+    reads: [
+        FluidViscosityResidual, FluidViscosityDirection, FluidViscosityProduct, FluidViscosityChange,
         FluidViscositySolve,
     ],
-    writes: &[FluidViscosityResidual, FluidViscosityDirection, FluidViscosityChange, FluidViscositySolve],
-    cpu,
-};
+    writes: [FluidViscosityResidual, FluidViscosityDirection, FluidViscosityChange, FluidViscositySolve],
+    oracle: crate::oracle::viscosity::update,
+    bound: 1e-5,
+    twin: [pass(NAME, Fluid, FLUID), pass("sph::viscosity_round", One, FLUID)],
+}
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(implicit) = &params.fluid.implicit_viscosity else { return };

@@ -15,9 +15,9 @@
 
 use crate::{
     body::{Body, Placed, Wrench},
-    columns::{Column::*, Columns, Fluid},
+    columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
-    kernel::{Kernel, Need},
+    kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
     params::{FluidParams, Params},
     vector::{Vec3x8, dot, minus, plus, splat, times},
@@ -28,14 +28,14 @@ use super::{
     boundary_pressure::per_chunk,
 };
 
-/// `sph::wall_friction`.
-pub static KERNEL: Kernel = Kernel {
-    name: "sph::wall_friction",
-    needs: &[Need::Fluid, Need::Obstacles, Need::NoSlip, Need::ExplicitViscosity],
-    reads: &[FluidPosition, FluidVelocity, FluidAcceleration, BodyStates, BodyFluidWrenches],
-    writes: &[FluidAcceleration, BodyFluidWrenches],
-    cpu,
-};
+declare! {
+    needs: [Fluid, Obstacles, NoSlip, ExplicitViscosity],
+    reads: [FluidPosition, FluidVelocity, FluidAcceleration, BodyStates, BodyFluidWrenches],
+    writes: [FluidAcceleration, BodyFluidWrenches],
+    oracle: crate::oracle::obstacles::wall_friction,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid, FLUID)],
+}
 
 /// Least distance over H.
 const NEAREST: f32 = 0.125;

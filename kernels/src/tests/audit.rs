@@ -11,9 +11,10 @@ use super::{
     scene::{CHANNEL, FULL, Options, Scene, best},
 };
 use crate::{
+    KERNELS,
     columns::{Column, Columns},
     cpu::Cpu,
-    kernel::{KERNELS, kernel},
+    kernel_named,
 };
 
 /// What is wrong with a declaration, if anything.
@@ -103,7 +104,7 @@ fn every_declared_column_is_needed() {
 
 #[test]
 fn lies_are_found() {
-    let kernel = kernel("sph::density").expect("there is one");
+    let kernel = kernel_named("sph::density").expect("there is one");
     let before = Scene::new(FULL.suiting(kernel)).before(kernel.name, &best());
     let audit = |reads: &[Column], writes: &[Column]| audit(kernel.cpu, reads, writes, &before);
     assert_eq!(audit(kernel.reads, kernel.writes), Ok(()));

@@ -2,9 +2,10 @@
 
 use super::scene::{CHANNEL, FULL, Options, Scene, TORUS, best};
 use crate::{
+    KERNELS,
     columns::{Column, Columns},
     cpu::Cpu,
-    kernel::KERNELS,
+    kernel_named,
     lanes::SimdLevel,
 };
 
@@ -86,7 +87,7 @@ fn kernels_without_work_do_no_harm() {
     for options in [empty, Options { fluid: 9, ..empty }, Options { sponges: true, ..empty }] {
         let mut scene = Scene::new(options);
         for name in super::scene::CHAIN {
-            let kernel = crate::kernel::kernel(name).expect("the chain names kernels");
+            let kernel = kernel_named(name).expect("the chain names kernels");
             (kernel.cpu)(&best(), &scene.params, &mut scene.columns);
         }
         let finite = |rows: &[[f32; 4]]| rows.iter().flatten().all(|value| value.is_finite());

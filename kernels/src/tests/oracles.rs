@@ -7,106 +7,19 @@ use super::{
     scene::{FULL, Options, Scene, all_options, best},
 };
 use crate::{
+    KERNELS,
     columns::{Column, Columns},
     grid::{cells::Domain, neighbors::ListValues},
-    kernel::{KERNELS, Kernel, kernel},
-    oracle::oracle,
+    kernel::Kernel,
+    kernel_named,
     pbd::stars::Stars,
 };
-
-/// Largest error of any column over the scale of its changes.
-///
-/// Rounding to f32 is 6e-8 of a value; sums of tens of terms and the Tait equation (seventh power) lose a little
-/// more. Displacements of nodes are differences of positions that are a hundred times larger. Each bound is about
-/// four times what was found; that of the strain is 6e-8 m, eight units in the last place of a position. Few particles hardly move
-/// the target of a node. Near the axis of a thin capsule the way out of it is known less well than the place.
-/// Weights of deficits are a tenth of the sums that they are differences of.
-const BOUNDS: &[(&str, f64)] = &[
-    ("grid::sort_fluid", 0.0),
-    ("grid::fluid_neighbors", 0.0),
-    ("sph::density", 2e-6),
-    ("sph::pressure", 4e-6),
-    ("sph::forces", 2e-6),
-    ("sph::surface_tension", 1e-5),
-    ("sph::deficit", 4e-5),
-    ("sph::cohesion", 1.5e-4),
-    ("sph::repulsion", 4e-6),
-    ("sph::boundary_pressure", 4e-6),
-    ("sph::wall_friction", 4e-6),
-    ("sph::kick", 1e-6),
-    ("sph::viscosity_begin", 4e-6),
-    ("sph::viscosity_product", 1e-5),
-    ("sph::viscosity_update", 1e-5),
-    ("sph::viscosity_reaction", 4e-6),
-    ("sph::viscosity_kick", 1e-6),
-    ("sph::predict", 1e-6),
-    ("sph::boundary", 2e-5),
-    ("sph::factors", 4e-6),
-    ("sph::pressure_update", 4e-6),
-    ("sph::pressure_acceleration", 4e-6),
-    ("sph::pressure_residual", 1e-5),
-    ("sph::pressure_kick", 4e-6),
-    ("sph::position_correction", 3e-5),
-    ("sph::boundary_reaction", 2e-5),
-    ("sph::sweep", 2e-3),
-    ("sph::advect", 1e-5),
-    ("pbd::gravity", 0.0),
-    ("pbd::predict", 2e-5),
-    ("pbd::guess", 2e-5),
-    ("pbd::pairs", 2e-6),
-    ("pbd::touch", 1e-4),
-    ("pbd::strain", 5e-4),
-    ("pbd::xpbd_neo_hookean", 1.5e-4),
-    ("pbd::vbd", 5e-4),
-    ("pbd::reaction", 1e-3),
-    ("pbd::momentum", 5e-4),
-    ("pbd::contact", 3e-5),
-    ("pbd::velocity", 1e-6),
-    ("couple::controls", 1e-6),
-    ("couple::saturation", 3e-6),
-    ("couple::wetting", 5e-5),
-    ("couple::pores", 1e-5),
-    ("couple::interior", 2e-6),
-    ("couple::suction", 4e-6),
-    ("couple::zero_distance", 6e-6),
-    ("couple::control_velocity", 6e-6),
-    ("couple::drag", 2e-6),
-    ("couple::velocity_filter", 2e-6),
-    ("couple::exchange", 2e-6),
-    ("couple::solid_pressure", 2e-5),
-    ("couple::solid_share", 5e-5),
-    ("couple::solid_yield", 4e-6),
-    ("couple::solid_reaction", 4e-6),
-    ("couple::node_velocity", 4e-6),
-    ("couple::drag_impulse", 4e-6),
-    ("couple::drag_target", 1.5e-4),
-    ("couple::drag_reaction", 2e-5),
-    ("couple::drag_settled", 1e-12),
-    ("couple::drag_kick", 4e-6),
-];
-
-/// The bound of a kernel; twins on a GPU are held to it as well.
-pub(super) fn bound(kernel: &Kernel) -> f64 {
-    let found = BOUNDS.iter().find(|(name, _)| *name == kernel.name);
-    found.unwrap_or_else(|| panic!("{} has no bound", kernel.name)).1
-}
 
 /// The columns after the oracle.
 pub(super) fn expected(kernel: &Kernel, before: &Scene) -> Columns {
     let mut columns = before.columns.clone();
-    let oracle = oracle(kernel.name).unwrap_or_else(|| panic!("{} has no oracle", kernel.name));
-    oracle(&before.params, &mut columns);
+    (kernel.oracle)(&before.params, &mut columns);
     columns
-}
-
-#[test]
-fn every_kernel_has_an_oracle_and_a_bound() {
-    for kernel in KERNELS {
-        assert!(oracle(kernel.name).is_some(), "{} has no oracle", kernel.name);
-        bound(kernel);
-    }
-    assert_eq!(BOUNDS.len(), KERNELS.len());
-    assert!(oracle("sph::no_such_kernel").is_none());
 }
 
 #[test]
@@ -122,7 +35,7 @@ fn kernels_agree_with_their_oracles() {
             let mut found = before.clone();
             found.run(&best(), &[kernel.name]);
             for (column, error) in errors(kernel, &before.params, &before.columns, &found.columns, &oracle) {
-                if error > bound(kernel) || error.is_nan() {
+                if error > kernel.bound || error.is_nan() {
                     failures.push(format!("{} {}: {error:.1e} in {options:?}", kernel.name, column.name()));
                 }
             }
@@ -136,7 +49,7 @@ fn points_outside_of_the_domain_are_found_too() {
     let mut scene = Scene::new(FULL);
     scene.params.domain = Domain::Bounded { minimum: Vec3::splat(0.018), maximum: Vec3::splat(0.025) };
     for name in ["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"] {
-        let kernel = kernel(name).expect("there is one");
+        let kernel = kernel_named(name).expect("there is one");
         let before = scene.before(name, &best());
         let oracle = expected(kernel, &before);
         let mut found = before.clone();
@@ -250,7 +163,7 @@ fn a_small_fault_in_any_column_that_a_kernel_reads_is_noticed() {
             faulty.run(&best(), &[kernel.name]);
             let errors = errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
             let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
-            assert!(worst > bound(kernel), "{} does not notice {}: {worst:.1e}", kernel.name, column.name());
+            assert!(worst > kernel.bound, "{} does not notice {}: {worst:.1e}", kernel.name, column.name());
         }
     }
 }
@@ -272,27 +185,27 @@ pub(super) fn without_weights(scene: &Scene) -> Scene {
 #[test]
 fn weights_that_are_forgotten_on_one_side_are_noticed() {
     for name in WEIGHED {
-        let kernel = kernel(name).expect("there is one");
+        let kernel = kernel_named(name).expect("there is one");
         let before = Scene::new(FULL.suiting(kernel)).before(name, &best());
         let oracle = expected(kernel, &before);
         let mut faulty = without_weights(&before);
         faulty.run(&best(), &[name]);
         let errors = errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
         let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
-        assert!(worst > 10.0 * bound(kernel), "{name} does not notice: {worst:.1e}");
+        assert!(worst > 10.0 * kernel.bound, "{name} does not notice: {worst:.1e}");
         // The control: forgotten on both sides, nothing is.
         let plain = without_weights(&before);
         let oracle = expected(kernel, &plain);
         let errors =
             super::compare::errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
-        assert!(errors.iter().all(|(_, error)| *error <= bound(kernel)), "{name}");
+        assert!(errors.iter().all(|(_, error)| *error <= kernel.bound), "{name}");
     }
 }
 
 #[test]
 fn a_small_fault_in_the_parameters_is_noticed() {
     let mut faulty = Scene::new(FULL).before("sph::density", &best());
-    let density = kernel("sph::density").expect("there is one");
+    let density = kernel_named("sph::density").expect("there is one");
     let (before, oracle) = (faulty.clone(), expected(density, &faulty));
     faulty.params.fluid.particle_mass *= 1.001;
     faulty.run(&best(), &["sph::density"]);
@@ -300,7 +213,7 @@ fn a_small_fault_in_the_parameters_is_noticed() {
     assert!(errors[0].1 > 5e-4);
 
     let mut faulty = Scene::new(FULL).before("pbd::gravity", &best());
-    let gravity = kernel("pbd::gravity").expect("there is one");
+    let gravity = kernel_named("pbd::gravity").expect("there is one");
     let (before, oracle) = (faulty.clone(), expected(gravity, &faulty));
     faulty.params.gravity.y *= 1.001;
     faulty.run(&best(), &["pbd::gravity"]);

@@ -4,10 +4,10 @@ use glam::{DVec3, Vec3};
 
 use super::{
     compare::errors,
-    oracles::{bound, expected},
+    oracles::expected,
     scene::{CHAIN, CHANNEL, Options, Scene, TORUS, best},
 };
-use crate::{columns::Columns, kernel::KERNELS, oracle::apart};
+use crate::{KERNELS, columns::Columns, oracle::apart};
 
 /// The whole block: as many particles as fill the box.
 const FILLED: Options = Options { fluid: super::scene::BLOCK, ..TORUS };
@@ -164,8 +164,8 @@ fn a_kernel_that_does_not_look_across_is_noticed() {
             errors.iter().map(|(_, error)| *error).fold(0.0, f64::max)
         };
         let (right, wrong) = (worst(before.params.periodic), worst(None));
-        assert!(right <= bound(kernel), "{} differs: {right:.1e}", kernel.name);
-        assert!(wrong > bound(kernel), "{} does not notice: {wrong:.1e}", kernel.name);
+        assert!(right <= kernel.bound, "{} differs: {right:.1e}", kernel.name);
+        assert!(wrong > kernel.bound, "{} does not notice: {wrong:.1e}", kernel.name);
     }
 }
 

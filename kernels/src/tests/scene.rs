@@ -4,11 +4,14 @@ use glam::{EulerRot, Quat, Vec3};
 
 use super::lattice::{Block, Lattice};
 use crate::{
+    KERNELS,
     body::{Body, BodyKind, BodyState, Shape},
-    columns::{Column, Columns, FAR_ROW, RowCounts, padded},
+    column::{FAR_ROW, padded},
+    columns::{Column, Columns, RowCounts},
     cpu::Cpu,
     grid::cells::Domain,
-    kernel::{KERNELS, Kernel, Need, kernel},
+    kernel::{Kernel, Need},
+    kernel_named,
     lanes::SimdLevel,
     params::{
         Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
@@ -244,7 +247,7 @@ impl Scene {
     /// solved in the way that the kernel is for.
     pub(super) fn before(&self, name: &str, cpu: &Cpu) -> Self {
         let mut scene = self.clone();
-        for need in kernel(name).map_or(&[][..], |kernel| kernel.needs) {
+        for need in kernel_named(name).map_or(&[][..], |kernel| kernel.needs) {
             if let Need::Solver(solver) = need {
                 scene.params.sponges.iter_mut().for_each(|sponge| sponge.solve_by(*solver));
             }
@@ -258,7 +261,7 @@ impl Scene {
     /// Runs kernels that have work.
     pub(super) fn run(&mut self, cpu: &Cpu, names: &[&str]) {
         for name in names {
-            let kernel = kernel(name).expect("the chain names kernels");
+            let kernel = kernel_named(name).expect("the chain names kernels");
             if self.has_work(kernel) {
                 cpu.enter(|| (kernel.cpu)(cpu, &self.params, &mut self.columns));
             }

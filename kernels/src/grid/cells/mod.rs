@@ -11,7 +11,7 @@ mod hashed;
 use glam::Vec3;
 
 use self::{dense::Dense, hashed::Hashed};
-use crate::{columns::ColumnData, cpu::Cpu};
+use crate::{column::ColumnData, cpu::Cpu};
 
 /// The part of space that points lie in.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,12 +3,13 @@
 use super::{
     super::scene::{FULL, Options, Scene, best},
     after_on, gpu,
-    parity::{bound, gpu_errors, on_cpu},
+    parity::{gpu_errors, on_cpu},
 };
 use crate::{
+    KERNELS,
     asleep::Asleep,
     columns::{Column, Columns},
-    kernel::{KERNELS, Kernel},
+    kernel::Kernel,
 };
 
 /// The sponge that sleeps.
@@ -87,7 +88,7 @@ fn twins_leave_out_what_is_asleep_as_the_cpu_does() {
         let (errors, is_kept) = found(kernel, |scene| scene.params.asleep.clone());
         assert!(is_kept, "{} moves what is asleep", kernel.name);
         for (column, error) in errors {
-            assert!(error <= bound(kernel), "{} {}: {error:.1e}", kernel.name, column.name());
+            assert!(error <= kernel.twin_bound, "{} {}: {error:.1e}", kernel.name, column.name());
         }
     }
 }
@@ -98,7 +99,7 @@ fn a_twin_that_does_not_know_what_is_asleep_is_noticed() {
     let moved: Vec<&str> = kernels()
         .filter(|kernel| {
             let (errors, is_kept) = found(kernel, |_| Asleep::default());
-            !is_kept || errors.iter().any(|(_, error)| *error > bound(kernel))
+            !is_kept || errors.iter().any(|(_, error)| *error > kernel.twin_bound)
         })
         .map(|kernel| kernel.name)
         .collect();

@@ -10,13 +10,15 @@ use super::{
     LIMITS, after_on_all, gpu,
 };
 use crate::{
-    columns::{Column, Columns, Life},
+    column::Life,
+    columns::{Column, Columns},
     gpu::{Gpu, GpuError, Outcome, Resident, Start, adapters, required_limits, wgpu},
-    kernel::{Kernel, kernel},
+    kernel::Kernel,
+    kernel_named,
 };
 
 fn chain(scene: &Scene) -> Vec<&'static Kernel> {
-    let all = CHAIN.iter().map(|name| kernel(name).expect("the chain names kernels"));
+    let all = CHAIN.iter().map(|name| kernel_named(name).expect("the chain names kernels"));
     all.filter(|kernel| scene.has_work(kernel)).collect()
 }
 
@@ -75,7 +77,7 @@ fn particles_that_lie_on_each_other_are_sorted_stably_and_lists_grow() {
     let first = scene.columns.fluid.position[0];
     let crowd = 700;
     scene.columns.fluid.position[..crowd].fill(first);
-    let (sort, search) = (kernel("grid::sort_fluid"), kernel("grid::fluid_neighbors"));
+    let (sort, search) = (kernel_named("grid::sort_fluid"), kernel_named("grid::fluid_neighbors"));
     let kernels = [sort, search].map(|kernel| kernel.expect("there is one"));
     let found = after_on_all(gpu(), &kernels, &scene);
     let is_one = |row: &usize| found.fluid.position[*row][..3] == first[..3];

@@ -11,7 +11,8 @@ use super::scene::Scene;
 use crate::{
     columns::{Column, Columns},
     gpu::{Gpu, Resident, StepLimits, is_internal},
-    kernel::{Kernel, kernel},
+    kernel::Kernel,
+    kernel_named,
 };
 
 /// One device for all tests.
@@ -45,7 +46,7 @@ fn after_on_all(gpu: &Arc<Gpu>, kernels: &[&'static Kernel], before: &Scene) -> 
     let mut kernels = kernels.to_vec();
     // The search of the device goes through its own cells.
     if ["grid::fluid_neighbors", "couple::controls"].contains(&kernels[0].name) {
-        kernels.insert(0, kernel("grid::sort_fluid").expect("a name of the table"));
+        kernels.insert(0, kernel_named("grid::sort_fluid").expect("a name of the table"));
     }
     let sorted = kernels[0].name != "grid::sort_fluid";
     let mut columns = before.columns.clone();

@@ -12,10 +12,12 @@ use super::{
     after_on, after_on_all, gpu,
 };
 use crate::{
+    KERNELS,
     columns::{Column, Columns},
     gpu::is_internal,
     grid::neighbors::Neighbors,
-    kernel::{KERNELS, Kernel, kernel},
+    kernel::Kernel,
+    kernel_named,
     oracle::apart,
     params::EquationOfState,
 };
@@ -24,30 +26,8 @@ use crate::{
 /// may fuse a product with the sum, and divide within 2.5 units.
 const ULPS: f64 = 4.0;
 
-/// Largest errors over the scale of changes, beyond [`ULPS`], of kernels that need more than the CPU is allowed against
-/// its oracles: most sum over the particles of a node. The CPU adds up the 7000 of the largest scene one after the other,
-/// where a twin adds up thirty-two parts. They differ by up to 6.2e-6 there, and by no more than the oracle's bounds in
-/// scenes of the usual density. Lists must be equal but for pairs at the very radius.
-const WIDER: &[(&str, f64)] = &[
-    ("couple::saturation", 1e-5),
-    // Quotients of sums of either sign: 6.0e-6.
-    ("sph::viscosity_product", 2e-5),
-    ("couple::zero_distance", 1.5e-5),
-    ("couple::velocity_filter", 5e-6),
-    ("couple::exchange", 5e-6),
-    // The sixth power of a distance over the range, which is a tenth of a millimetre where there are 65 537 particles: 2.6e-5.
-    ("sph::boundary", 1e-4),
-    // Impulses of either sign, added up in f32 over 65 537 particles, of walls that are thin as these are small: 4.9e-5.
-    ("sph::boundary_reaction", 1e-4),
-];
-
 /// Sizes around those of a vector, of a group and of two lines of groups.
 const SIZES: [usize; 7] = [0, 1, 63, 64, 65, 1000, 65_537];
-
-pub(super) fn bound(kernel: &Kernel) -> f64 {
-    let wider = WIDER.iter().find(|(name, _)| *name == kernel.name);
-    wider.map_or_else(|| oracles::bound(kernel), |(_, bound)| *bound)
-}
 
 /// The columns after a kernel on the CPU.
 pub(super) fn on_cpu(kernel: &Kernel, before: &Scene) -> Columns {
@@ -137,14 +117,14 @@ fn twins_agree_with_the_cpu() {
             let found = after_on(gpu(), kernel, &before);
             for (column, error) in gpu_errors(kernel, &before, &found, &expected) {
                 worst[index] = worst[index].max(error);
-                if error > bound(kernel) || error.is_nan() {
+                if error > kernel.twin_bound || error.is_nan() {
                     failures.push(format!("{} {}: {error:.1e} in {options:?}", kernel.name, column.name()));
                 }
             }
         }
     }
     for (kernel, worst) in KERNELS.iter().zip(worst) {
-        println!("{:26} {worst:.1e} of {:.0e}", kernel.name, bound(kernel));
+        println!("{:26} {worst:.1e} of {:.0e}", kernel.name, kernel.twin_bound);
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
@@ -181,7 +161,7 @@ fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool {
         }
         _ => return false,
     };
-    let used = rows.iter_mut().filter(|row| row[0].abs() < crate::columns::FAR);
+    let used = rows.iter_mut().filter(|row| row[0].abs() < crate::column::FAR);
     used.flatten().for_each(|value| *value *= factor);
     true
 }
@@ -204,7 +184,7 @@ fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
             planted += 1;
             let found = after_on(gpu(), kernel, &altered);
             let errors = gpu_errors(kernel, &before, &found, &expected);
-            let is_noticed = errors.iter().any(|(_, error)| *error > bound(kernel));
+            let is_noticed = errors.iter().any(|(_, error)| *error > kernel.twin_bound);
             assert!(is_noticed, "{} does not notice {}: {errors:?}", kernel.name, column.name());
         }
         assert!(planted > 0, "{} reads no numbers", kernel.name);
@@ -215,12 +195,12 @@ fn a_fault_of_a_thousandth_in_what_a_twin_reads_is_noticed() {
 #[test]
 fn a_twin_that_forgets_weights_is_noticed() {
     for name in oracles::WEIGHED {
-        let kernel = kernel(name).expect("there is one");
+        let kernel = kernel_named(name).expect("there is one");
         let before = Scene::new(FULL.suiting(kernel)).before(name, &best());
         let expected = on_cpu(kernel, &before);
         let found = after_on(gpu(), kernel, &oracles::without_weights(&before));
         let errors = gpu_errors(kernel, &before, &found, &expected);
-        let is_noticed = errors.iter().any(|(_, error)| *error > 10.0 * bound(kernel));
+        let is_noticed = errors.iter().any(|(_, error)| *error > 10.0 * kernel.twin_bound);
         assert!(is_noticed, "{name} does not notice: {errors:?}");
     }
 }
@@ -237,7 +217,7 @@ fn a_twin_that_does_not_look_across_is_noticed() {
         altered.params.periodic = None;
         let found = after_on(gpu(), kernel, &altered);
         let errors = gpu_errors(kernel, &before, &found, &expected);
-        let is_noticed = errors.iter().any(|(_, error)| *error > bound(kernel));
+        let is_noticed = errors.iter().any(|(_, error)| *error > kernel.twin_bound);
         assert!(is_noticed, "{} does not notice: {errors:?}", kernel.name);
     }
 }
@@ -245,8 +225,8 @@ fn a_twin_that_does_not_look_across_is_noticed() {
 #[test]
 fn the_search_sums_up_the_density() {
     for options in scenes() {
-        let search = kernel("grid::fluid_neighbors").expect("there is one");
-        let density = kernel("sph::density").expect("there is one");
+        let search = kernel_named("grid::fluid_neighbors").expect("there is one");
+        let density = kernel_named("sph::density").expect("there is one");
         let before = Scene::new(options).before(density.name, &best());
         if !before.has_work(density) {
             continue;
@@ -254,7 +234,7 @@ fn the_search_sums_up_the_density() {
         let expected = on_cpu(density, &before);
         let found = after_on_all(gpu(), &[search, density], &before);
         for (column, error) in gpu_errors(density, &before, &found, &expected) {
-            assert!(error <= bound(density), "{}: {error:.1e} in {options:?}", column.name());
+            assert!(error <= density.twin_bound, "{}: {error:.1e} in {options:?}", column.name());
         }
     }
 }

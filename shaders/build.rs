@@ -1,0 +1,68 @@
+//! Lists the WGSL files of all families, each with the common files that its first line includes.
+
+use std::{env, error::Error, fmt::Write, fs, path::Path};
+
+/// The first line of a file that includes others: names of files in `common/`, in order.
+const INCLUDE: &str = "// #include ";
+/// A common file of this name in place of the one without it, for adapters with subgroup operations.
+const SUBGROUP: &str = "_subgroup";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let root = env::var("CARGO_MANIFEST_DIR")?;
+    let root = Path::new(&root);
+    let (mut plain, mut subgroup) = (String::new(), String::new());
+    for family in names(root, None)? {
+        let is_source = ["common", "src"].contains(&family.as_str());
+        println!("cargo::rerun-if-changed={family}");
+        for file in if is_source { Vec::new() } else { names(&root.join(&family), Some("wgsl"))? } {
+            let path = format!("{family}/{file}.wgsl");
+            let text = fs::read_to_string(root.join(&path))?;
+            let first = text.lines().next().and_then(|line| line.strip_prefix(INCLUDE)).unwrap_or_default();
+            let common: Vec<&str> = first.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+            let entry = |common: &[String]| entry(&format!("{family}::{file}"), common, &path);
+            let own: Vec<String> = common.iter().map(|&name| name.to_owned()).collect();
+            plain.write_str(&entry(&own))?;
+            let has_subgroup = |name: &str| root.join(format!("common/{name}{SUBGROUP}.wgsl")).exists();
+            if own.iter().any(|name| has_subgroup(name)) {
+                let replaced = |name: &String| {
+                    if has_subgroup(name) { format!("{name}{SUBGROUP}") } else { name.clone() }
+                };
+                subgroup.write_str(&entry(&own.iter().map(replaced).collect::<Vec<_>>()))?;
+            }
+        }
+    }
+    let tables = format!(
+        "/// All passes, by family, with the common files that each is built from.\n\
+         pub static SHADERS: &[Shader] = &[{plain}];\n\n\
+         /// The same passes with subgroup operations, for adapters that have them.\n\
+         pub static SUBGROUP_SHADERS: &[Shader] = &[{subgroup}];\n"
+    );
+    fs::write(Path::new(&env::var("OUT_DIR")?).join("shaders.rs"), tables)?;
+    Ok(())
+}
+
+/// Folders, or names of files with an extension, in order.
+fn names(folder: &Path, extension: Option<&str>) -> Result<Vec<String>, Box<dyn Error>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let is_meant = match extension {
+            Some(extension) => path.extension().is_some_and(|own| own == extension),
+            None => path.is_dir(),
+        };
+        names.extend(path.file_stem().filter(|_| is_meant).map(|name| name.to_string_lossy().into_owned()));
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// A row of the table.
+fn entry(name: &str, common: &[String], path: &str) -> String {
+    let text = |path: &str| format!("include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/{path}\"))");
+    let common = ["layout".to_owned()]
+        .iter()
+        .chain(common)
+        .map(|name| text(&format!("common/{name}.wgsl")))
+        .collect::<Vec<_>>();
+    format!("Shader {{ name: {name:?}, source: concat!({}, {}) }},\n", common.join(", "), text(path))
+}
