@@ -1,4 +1,4 @@
-//! Any text as a change of one key of a scene.
+//! Parses any text as an override of one key of a scene: an error that repeats the text, or a valid scene.
 #![no_main]
 
 use std::sync::LazyLock;
@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use libfuzzer_sys::fuzz_target;
 use sorb::scene::{self, Scene, SceneError};
 
-/// The scene of the library with most in it.
+/// The scene of the library that uses most keys.
 static SCENE: LazyLock<Scene> = LazyLock::new(|| scene::preset("life").expect("a scene of the library"));
 
 fuzz_target!(|text: &str| {

@@ -1,4 +1,5 @@
-//! Any text as a scene file, TOML and JSON: an error with a key or a line, or a scene that is written and read back as it is.
+//! Parses any text as a scene file, TOML and JSON. The result is an error with a key or a line, or a valid scene that is
+//! the same after writing and reading it again.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -16,7 +17,7 @@ fuzz_target!(|text: &str| {
             }
             Err(SceneError::Syntax { line, .. }) => assert!(line >= 1),
             Err(SceneError::Invalid { problems, .. }) => {
-                // `scene` is the key of what only serde has noticed.
+                // `scene` is the key of errors that only serde detects.
                 assert!(problems.iter().all(|problem| !problem.key.is_empty() && problem.key != "scene"));
                 assert!(!problems.is_empty());
             }
