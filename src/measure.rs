@@ -7,6 +7,7 @@ use sorb_kernels::{
 };
 
 use crate::{World, rigid::Mechanics};
+use sorb_kernels::columns::lane;
 
 /// Interior value above which a particle counts as inside a sponge: its value at a flat surface.
 const INSIDE: f32 = 0.5;
@@ -98,7 +99,7 @@ impl Measures {
             (&fluid.density, None)
         };
         for (row, density) in density.iter().take(count).enumerate() {
-            let share = share.map_or(0.0, |share| f64::from(share[row][3]));
+            let share = share.map_or(0.0, |share| f64::from(share[row][lane::fluid::boundary::SHARE]));
             let error = (f64::from(*density) / rest_density + share - 1.0).max(0.0);
             self.mean_density_error += error / count as f64;
             self.maximum_density_error = self.maximum_density_error.max(error);

@@ -8,7 +8,7 @@ use glam::{Quat, Vec3};
 use sorb_kernels::{
     body::{Bodies, Body},
     column::{FAR_ROW, padded},
-    columns::{Columns, RowCounts},
+    columns::{Columns, RowCounts, lane},
     couple::interior::node_interior,
     cpu::Cpu,
     params::Params,
@@ -167,7 +167,7 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     if params.has_touch() {
         nodes.rest.clone_from(&lattice.position);
         let flat = flatness(&lattice.tets, &lattice.position);
-        nodes.rest.iter_mut().zip(flat).for_each(|(row, flat)| row[3] = flat);
+        nodes.rest.iter_mut().zip(flat).for_each(|(row, flat)| row[lane::nodes::rest::FLATNESS] = flat);
         nodes.rest.resize(rows, FAR_ROW);
     }
     nodes.volume.clone_from(&lattice.node_volume);
@@ -199,9 +199,12 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
                 let offset = inverse * (point - state.position);
                 nodes.grip[node] = body as u32;
                 nodes.grip_offset[node] = [offset.x, offset.y, offset.z, 0.0];
-                nodes.position[node][3] = 0.0;
+                nodes.position[node][lane::nodes::position::INVERSE_MASS] = 0.0;
             }
-            None => nodes.position[node][3] = 1.0 / (sponge.density * lattice.node_volume[node]),
+            None => {
+                nodes.position[node][lane::nodes::position::INVERSE_MASS] =
+                    1.0 / (sponge.density * lattice.node_volume[node])
+            }
         }
     }
     nodes.position.resize(rows, FAR_ROW);

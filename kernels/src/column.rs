@@ -23,12 +23,109 @@ pub enum Life {
     Scratch,
 }
 
+/// A number in the rows of a column of four floats, or a vector in the first three.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lane {
+    /// Name; empty for the vector.
+    pub name: &'static str,
+    /// First float.
+    pub index: usize,
+    /// SI unit.
+    pub unit: &'static str,
+}
+
+/// What a row of a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// Four floats: their lanes.
+    Rows(&'static [Lane]),
+    /// A float of this unit.
+    Values(&'static str),
+    /// A word of this unit.
+    Words(&'static str),
+    /// Something of its own.
+    Other,
+}
+
+impl Element {
+    /// Bytes of a row of a plain array, 0 for what is none.
+    #[must_use]
+    pub const fn bytes(self) -> usize {
+        match self {
+            Self::Rows(_) => 16,
+            Self::Values(_) | Self::Words(_) => 4,
+            Self::Other => 0,
+        }
+    }
+
+    /// Whether the first three floats of a row are a vector.
+    #[must_use]
+    pub fn has_vector(self) -> bool {
+        matches!(self, Self::Rows(lanes) if lanes.first().is_some_and(|lane| lane.name.is_empty()))
+    }
+}
+
+/// What padding rows hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Padding {
+    /// Zeros.
+    Zero,
+    /// This row.
+    Row([f32; 4]),
+    /// This word.
+    Word(u32),
+}
+
+impl Padding {
+    /// The row.
+    #[must_use]
+    pub const fn row(self) -> [f32; 4] {
+        if let Self::Row(row) = self { row } else { [0.0; 4] }
+    }
+
+    /// The word.
+    #[must_use]
+    pub const fn word(self) -> u32 {
+        if let Self::Word(word) = self { word } else { 0 }
+    }
+}
+
+/// The data of a column that is a plain array.
+#[derive(Debug)]
+pub enum Plain<'a> {
+    /// Four floats a row.
+    Rows(&'a Vec<[f32; 4]>),
+    /// A float a row.
+    Values(&'a Vec<f32>),
+    /// A word a row.
+    Words(&'a Vec<u32>),
+}
+
+/// The same, writable.
+#[derive(Debug)]
+pub enum PlainMut<'a> {
+    /// Four floats a row.
+    Rows(&'a mut Vec<[f32; 4]>),
+    /// A float a row.
+    Values(&'a mut Vec<f32>),
+    /// A word a row.
+    Words(&'a mut Vec<u32>),
+}
+
 /// What a column must offer to be hashed, and to be audited by the tests.
 pub trait ColumnData {
     /// Calls `visit` with every 32-bit word of the first `rows` rows, in order.
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32));
     /// Overwrites everything with values that no kernel can read without being noticed.
     fn poison(&mut self);
+    /// The array, if it is a plain one.
+    fn plain(&self) -> Option<Plain<'_>> {
+        None
+    }
+    /// The array, writable, if it is a plain one.
+    fn plain_mut(&mut self) -> Option<PlainMut<'_>> {
+        None
+    }
 }
 
 impl ColumnData for Vec<f32> {
@@ -37,6 +134,12 @@ impl ColumnData for Vec<f32> {
     }
     fn poison(&mut self) {
         self.fill(f32::NAN);
+    }
+    fn plain(&self) -> Option<Plain<'_>> {
+        Some(Plain::Values(self))
+    }
+    fn plain_mut(&mut self) -> Option<PlainMut<'_>> {
+        Some(PlainMut::Values(self))
     }
 }
 
@@ -47,6 +150,12 @@ impl ColumnData for Vec<[f32; 4]> {
     fn poison(&mut self) {
         self.fill([f32::NAN; 4]);
     }
+    fn plain(&self) -> Option<Plain<'_>> {
+        Some(Plain::Rows(self))
+    }
+    fn plain_mut(&mut self) -> Option<PlainMut<'_>> {
+        Some(PlainMut::Rows(self))
+    }
 }
 
 impl ColumnData for Vec<u32> {
@@ -55,6 +164,12 @@ impl ColumnData for Vec<u32> {
     }
     fn poison(&mut self) {
         self.fill(u32::MAX);
+    }
+    fn plain(&self) -> Option<Plain<'_>> {
+        Some(Plain::Words(self))
+    }
+    fn plain_mut(&mut self) -> Option<PlainMut<'_>> {
+        Some(PlainMut::Words(self))
     }
 }
 

@@ -10,25 +10,93 @@
 
 use crate::{
     body::Bodies,
-    column::{ColumnData, Life},
+    column::{ColumnData, Element, FAR_ROW, Lane, Life, Padding},
     grid::{
         cells::Cells,
         neighbors::{ListValues, Neighbors},
     },
+    need::Need,
     pbd::{lattice::Topology, stars::Stars},
     reduce::{Extremes, Wrenches},
     sph::{pressure_solve::PressureSolve, viscosity_solve::ViscositySolve},
 };
 
+macro_rules! element {
+    (rows) => { Vec<[f32; 4]> };
+    (values) => { Vec<f32> };
+    (words) => { Vec<u32> };
+    ($Type:ident) => { $Type };
+}
+
+macro_rules! layout {
+    (rows; $($vector:literal)? $(; $($lane:ident $index:literal $unit:literal),+)?) => {
+        Element::Rows(&[
+            $(Lane { name: "", index: 0, unit: $vector },)?
+            $($(Lane { name: stringify!($lane), index: $index, unit: $unit },)+)?
+        ])
+    };
+    (values; $unit:literal) => { Element::Values($unit) };
+    (words; $unit:literal) => { Element::Words($unit) };
+    ($Type:ident; $unit:literal) => { Element::Other };
+}
+
+macro_rules! lane_indices {
+    (rows; $($vector:literal)? $(; $($lane:ident $index:literal $unit:literal),+)?) => {
+        $($(#[doc = concat!("Unit: ", $unit, ".")] pub const $lane: usize = $index;)+)?
+    };
+    ($Type:ident; $unit:literal) => {};
+}
+
+macro_rules! padding {
+    () => {
+        Padding::Zero
+    };
+    ($kind:ident($padding:expr)) => {
+        Padding::$kind($padding)
+    };
+}
+
+macro_rules! is_host {
+    () => {
+        false
+    };
+    (host) => {
+        true
+    };
+}
+
+macro_rules! optional_need {
+    () => {
+        None
+    };
+    ($need:ident) => {
+        Some(Need::$need)
+    };
+}
+
 macro_rules! columns {
-    ($($(#[$store_doc:meta])* $store:ident: $Store:ident {
-        $($(#[$doc:meta])* $Column:ident = $field:ident: $Type:ty, $unit:literal, $life:ident;)*
+    ($($(#[$store_doc:meta])* $store:ident $row:ident: $Store:ident {
+        $(
+            $(#[$doc:meta])*
+            $Column:ident = $field:ident: $element:ident($($lanes:tt)*) $(padded $kind:ident($padding:expr))?,
+            $life:ident $(on $host:ident)? $(, needs $need:ident)?;
+        )*
     })*) => {
         $($(#[$store_doc])*
         #[derive(Clone, Debug, Default)]
         pub struct $Store {
-            $($(#[$doc])* #[doc = concat!("\n\nUnit: ", $unit, ".")] pub $field: $Type,)*
+            $($(#[$doc])* #[doc = concat!("\n\nElements and units: ", stringify!($element), "(", stringify!($($lanes)*), ").")]
+            pub $field: element!($element),)*
         })*
+
+        /// Where the scalars in the rows of columns are: `row[lane::fluid::boundary::SHARE]`. A vector comes first.
+        pub mod lane {
+            $($(#[$store_doc])*
+            pub mod $store {
+                $(#[doc = concat!("Lanes of [`Column::", stringify!($Column), "`](crate::columns::Column).")]
+                pub mod $field { lane_indices!($element; $($lanes)*); })*
+            })*
+        }
 
         /// Every column; the order is the order of the digest and of saved files.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,16 +114,40 @@ macro_rules! columns {
                 match self { $($(Self::$Column => concat!(stringify!($store), ".", stringify!($field)),)*)* }
             }
 
-            /// SI unit.
+            /// Name of the buffer on a device, and of the variable of its twins.
             #[must_use]
-            pub const fn unit(self) -> &'static str {
-                match self { $($(Self::$Column => $unit,)*)* }
+            pub const fn buffer(self) -> &'static str {
+                match self { $($(Self::$Column => concat!(stringify!($row), "_", stringify!($field)),)*)* }
+            }
+
+            /// What a row holds, with SI units.
+            #[must_use]
+            pub const fn element(self) -> Element {
+                match self { $($(Self::$Column => layout!($element; $($lanes)*),)*)* }
+            }
+
+            /// What padding rows hold.
+            #[must_use]
+            pub const fn padding(self) -> Padding {
+                match self { $($(Self::$Column => padding!($($kind($padding))?),)*)* }
             }
 
             /// How long the content lives.
             #[must_use]
             pub const fn life(self) -> Life {
                 match self { $($(Self::$Column => Life::$life,)*)* }
+            }
+
+            /// Whether no device holds it, because twins compute it anew or find it in another form.
+            #[must_use]
+            pub const fn is_on_host_only(self) -> bool {
+                match self { $($(Self::$Column => is_host!($($host)?),)*)* }
+            }
+
+            /// What a scene must contain for the column to have rows, beside those of its store.
+            #[must_use]
+            pub const fn need(self) -> Option<Need> {
+                match self { $($(Self::$Column => optional_need!($($need)?),)*)* }
             }
 
             /// The store that the column belongs to.
@@ -96,169 +188,169 @@ macro_rules! columns {
 
 columns! {
     /// The fluid, one row per particle, in the order of its cells.
-    fluid: Fluid {
+    fluid fluid: Fluid {
         /// Centre of the particle; w: pressure over density squared, p/rho^2 \[Pa m^6/kg^2\].
-        FluidPosition = position: Vec<[f32; 4]>, "m", State;
+        FluidPosition = position: rows("m"; PRESSURE_OVER_SQUARED_DENSITY 3 "Pa m^6/kg^2") padded Row(FAR_ROW), State;
         /// Velocity of the particle; w: its volume m/rho \[m^3\], or, where pressure is solved for, the compression that
         /// it is allowed \[1\].
-        FluidVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
+        FluidVelocity = velocity: rows("m/s"; VOLUME 3 "m^3", ALLOWED_COMPRESSION 3 "1"), State;
         /// Identity of the particle, kept while rows are re-ordered.
-        FluidId = id: Vec<u32>, "1", State;
+        FluidId = id: words("1") padded Word(u32::MAX), State;
         /// Cells over the particles.
-        FluidCells = cells: Cells, "1", Scratch;
+        FluidCells = cells: Cells("1"), Scratch on host;
         /// For every particle, the particles within the support radius, itself included.
-        FluidNeighbors = neighbors: Neighbors, "1", Scratch;
+        FluidNeighbors = neighbors: Neighbors("1"), Scratch;
         /// Mass density rho.
-        FluidDensity = density: Vec<f32>, "kg/m^3", Scratch;
+        FluidDensity = density: values("kg/m^3"), Scratch;
         /// Acceleration by all forces of this step; w: compression that is allowed, see `sph::forces`.
-        FluidAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
+        FluidAcceleration = acceleration: rows("m/s^2"; ALLOWED_COMPRESSION 3 "1"), Scratch;
         /// Weight of the share of its neighbourhood that a particle near the surface lacks, see `sph::deficit`.
-        FluidDeficit = deficit: Vec<f32>, "1", Scratch;
+        FluidDeficit = deficit: values("1"), Scratch, needs Cohesion;
         /// For every particle, the control rows within the suction radius.
-        FluidControls = controls: Neighbors, "1", Scratch;
+        FluidControls = controls: Neighbors("1"), Scratch, needs Sponge;
         /// For every entry of those lists, node volume times kernel.
-        FluidControlWeights = control_weights: ListValues, "1", Scratch;
+        FluidControlWeights = control_weights: ListValues("1"), Scratch on host;
         /// How far inside a sponge the particle is: sum of node volume times kernel, 0 outside, 1 inside.
-        FluidInterior = interior: Vec<f32>, "1", Scratch;
+        FluidInterior = interior: values("1"), Scratch, needs Sponge;
         /// Rate at which drag takes the particle to the velocity of the sponge, and what its speed beside the sponge adds to
         /// that \[1/m\]; z: root of how far the material there gives way to the pressure, over the water, see `couple::solid_yield` \[1\];
-        /// w: unused.
-        FluidDragRate = drag_rate: Vec<[f32; 4]>, "1/s", Scratch;
-        /// Impulse that the particle loses to the sponge, over its interior value; w: unused.
-        FluidDrag = drag: Vec<[f32; 4]>, "kg m/s", Scratch;
+        ///
+        FluidDragRate = drag_rate: rows(; RATE 0 "1/s", INERTIAL_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
+        /// Impulse that the particle loses to the sponge, over its interior value.
+        FluidDrag = drag: rows("kg m/s"; MASS 3 "kg"), Scratch, needs Sponge;
         /// Position at the end of the step as far as it is known; w: change of the pressure over rest density
         /// \[m^2/s^2\].
-        FluidPredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
+        FluidPredicted = predicted: rows("m"; PRESSURE_CHANGE 3 "m^2/s^2") padded Row(FAR_ROW), Scratch, needs Incompressible;
         /// Gradient of the share of walls and bodies in the kernel's volume \[1/m\]; w: the share \[1\].
-        FluidBoundary = boundary: Vec<[f32; 4]>, "1/m", Scratch;
+        FluidBoundary = boundary: rows("1/m"; SHARE 3 "1"), Scratch, needs Incompressible;
         /// Acceleration of a particle by its own pressure, over that pressure over rest density; w: compression
         /// `rho / rho_0 - 1` before the solve.
-        FluidFactors = factors: Vec<[f32; 4]>, "1/m", Scratch;
+        FluidFactors = factors: rows("1/m"; COMPRESSION 3 "1"), Scratch, needs Incompressible;
         /// For every entry of the neighbour lists, volume times kernel gradient, over the distance vector.
-        FluidPairs = pairs: ListValues, "1/m^2", Scratch;
+        FluidPairs = pairs: ListValues("1/m^2"), Scratch on host;
         /// Pressure over rest density \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and compression
         /// that is left \[1\].
-        FluidPressureRows = pressure_rows: Vec<[f32; 4]>, "m^2/s^2", Scratch;
+        FluidPressureRows = pressure_rows: rows(; PRESSURE 0 "m^2/s^2", CHANGE 1 "m^2/s^2", DIAGONAL 2 "s^2/m^2", COMPRESSION 3 "1") padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
-        FluidCorrection = correction: Vec<[f32; 4]>, "m/s^2", Scratch;
+        FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
         /// Compression that sponges take by giving way to the change of the pressure, over the square of the step, see
         /// `couple::solid_yield`. Empty where there are none.
-        FluidYield = solid_yield: Vec<f32>, "1/s^2", Scratch;
+        FluidSolidYield = solid_yield: values("1/s^2"), Scratch, needs Incompressible;
         /// Where the pressure solve stands.
-        FluidPressureSolve = pressure_solve: PressureSolve, "1", Scratch;
-        /// Rate at which walls and bodies slow a particle down, along the axes: xx, yy, zz; w: unused.
-        FluidFriction = friction: Vec<[f32; 4]>, "1/s", Scratch;
-        /// The same between the axes: yz, zx, xy; w: unused.
-        FluidFrictionBetween = friction_between: Vec<[f32; 4]>, "1/s", Scratch;
-        /// What is left of the equation of the implicit viscosity; w: unused.
-        FluidViscosityResidual = viscosity_residual: Vec<[f32; 4]>, "m/s", Scratch;
-        /// Direction of the present round of that solve; w: unused.
-        FluidViscosityDirection = viscosity_direction: Vec<[f32; 4]>, "m/s", Scratch;
-        /// Product of its matrix with that direction; w: unused.
-        FluidViscosityProduct = viscosity_product: Vec<[f32; 4]>, "m/s", Scratch;
-        /// Change of the velocity by the implicit viscosity so far; w: unused.
-        FluidViscosityChange = viscosity_change: Vec<[f32; 4]>, "m/s", Scratch;
+        FluidPressureSolve = pressure_solve: PressureSolve("1"), Scratch;
+        /// Rate at which walls and bodies slow a particle down, along the axes: xx, yy, zz.
+        FluidFriction = friction: rows("1/s"), Scratch, needs ImplicitViscosity;
+        /// The same between the axes: yz, zx, xy.
+        FluidFrictionBetween = friction_between: rows("1/s"), Scratch, needs ImplicitViscosity;
+        /// What is left of the equation of the implicit viscosity.
+        FluidViscosityResidual = viscosity_residual: rows("m/s"), Scratch, needs ImplicitViscosity;
+        /// Direction of the present round of that solve.
+        FluidViscosityDirection = viscosity_direction: rows("m/s"), Scratch, needs ImplicitViscosity;
+        /// Product of its matrix with that direction.
+        FluidViscosityProduct = viscosity_product: rows("m/s"), Scratch, needs ImplicitViscosity;
+        /// Change of the velocity by the implicit viscosity so far.
+        FluidViscosityChange = viscosity_change: rows("m/s"), Scratch, needs ImplicitViscosity;
         /// Where that solve stands.
-        FluidViscositySolve = viscosity_solve: ViscositySolve, "1", Scratch;
+        FluidViscositySolve = viscosity_solve: ViscositySolve("1"), Scratch;
         /// Extremes over chunks of particles, for the time step.
-        FluidExtremes = extremes: Extremes, "m/s", Scratch;
+        FluidExtremes = extremes: Extremes("m/s"), Scratch;
     }
     /// The sponges, one row per lattice node, in the order of the vertex colours.
-    nodes: Nodes {
+    nodes node: Nodes {
         /// Position of the node; w: inverse mass \[1/kg\], 0 for a held node.
-        NodePosition = position: Vec<[f32; 4]>, "m", State;
+        NodePosition = position: rows("m"; INVERSE_MASS 3 "1/kg") padded Row(FAR_ROW), State;
         /// Velocity of the node; w: share of the external acceleration that it followed in the last step, 0 to 1, see
         /// `pbd::guess`.
-        NodeVelocity = velocity: Vec<[f32; 4]>, "m/s", State;
+        NodeVelocity = velocity: rows("m/s"; FOLLOWED_SHARE 3 "1"), State;
         /// Volume of sponge that the node stands for, pores included.
-        NodeVolume = volume: Vec<f32>, "m^3", Constant;
+        NodeVolume = volume: values("m^3"), Constant;
         /// Index of the node's sponge.
-        NodeSponge = sponge: Vec<u32>, "1", Constant;
+        NodeSponge = sponge: words("1"), Constant;
         /// 0 for nodes of the outer surface, else 1: surface nodes do not suck.
-        NodeSuction = suction: Vec<f32>, "1", Constant;
+        NodeSuction = suction: values("1"), Constant on host;
         /// Kernel sum of node volumes at the node, at rest: what saturation is measured against.
-        NodeInterior = interior: Vec<f32>, "1", Constant;
+        NodeInterior = interior: values("1"), Constant on host;
         /// Body that holds the node, or `u32::MAX`.
-        NodeGrip = grip: Vec<u32>, "1", Constant;
-        /// Position of a held node in the frame of its body; w: unused.
-        NodeGripOffset = grip_offset: Vec<[f32; 4]>, "m", Constant;
+        NodeGrip = grip: words("1") padded Word(u32::MAX), Constant;
+        /// Position of a held node in the frame of its body.
+        NodeGripOffset = grip_offset: rows("m"), Constant;
         /// Tets, their colours and the chunks that colours are solved in.
-        NodeTopology = topology: Topology, "1", Constant;
+        NodeTopology = topology: Topology("1"), Constant on host;
         /// Neighbours and tets of every node.
-        NodeStars = stars: Stars, "1", Constant;
+        NodeStars = stars: Stars("1"), Constant on host;
         /// Place of the node in the lattice at rest; w: how flat the surface is there, 1 on a face, 0 inside, see `pbd::pairs`.
-        NodeRest = rest: Vec<[f32; 4]>, "m", Constant;
+        NodeRest = rest: rows("m"; FLATNESS 3 "1"), Constant on host;
         /// Outward normal of the surface of the sponge; w: area that the node stands for \[m^2\], 0 inside and where no sponge
         /// can touch it.
-        NodeNormal = normal: Vec<[f32; 4]>, "1", Scratch;
+        NodeNormal = normal: rows("1"; AREA 3 "m^2"), Scratch, needs Touch;
         /// For every surface node, those of other sponges or of its own that it may touch in this step.
-        NodePairs = pairs: Neighbors, "1", Scratch;
+        NodePairs = pairs: Neighbors("1"), Scratch, needs Touch;
         /// Force by what the node touches of sponges; w: lowest index of another sponge that it touches, or of its own.
-        NodeTouch = touch: Vec<[f32; 4]>, "N", Scratch;
+        NodeTouch = touch: rows("N"; LOWEST_SPONGE 3 "1"), Scratch, needs Touch;
         /// Derivative of that force by the place of the node, with the opposite sign, along the axes: xx, yy, zz; w: highest index
         /// of another sponge that it touches, or of its own.
-        NodeTouchStiffness = touch_stiffness: Vec<[f32; 4]>, "N/m", Scratch;
-        /// The same between the axes: xy, xz, yz; w: unused.
-        NodeTouchBetween = touch_between: Vec<[f32; 4]>, "N/m", Scratch;
+        NodeTouchStiffness = touch_stiffness: rows("N/m"; HIGHEST_SPONGE 3 "1"), Scratch, needs Touch;
+        /// The same between the axes: xy, xz, yz.
+        NodeTouchBetween = touch_between: rows("N/m"), Scratch, needs Touch;
         /// Where the node would go without elastic forces and drag; w: its mass \[kg\], 0 for a held node.
-        NodeFree = free: Vec<[f32; 4]>, "m", Scratch;
+        NodeFree = free: rows("m"; MASS 3 "kg"), Scratch;
         /// Where inertia and the drag of the fluid draw the node; w: the mass with which they do \[kg\].
-        NodeTarget = target: Vec<[f32; 4]>, "m", Scratch;
+        NodeTarget = target: rows("m"; MASS 3 "kg"), Scratch;
         /// What walls, bodies and grips gave to the node in this step; w: its mass if it is free to move, else minus the
         /// mass that would resist like what holds it \[kg\].
-        NodeReaction = reaction: Vec<[f32; 4]>, "N s", Scratch;
+        NodeReaction = reaction: rows("N s"; MASS 3 "kg"), Scratch;
         /// Predicted position, corrected by the constraints; w: inverse mass \[1/kg\].
-        NodePredicted = predicted: Vec<[f32; 4]>, "m", Scratch;
-        /// External acceleration, by gravity and the fluid; w: unused.
-        NodeAcceleration = acceleration: Vec<[f32; 4]>, "m/s^2", Scratch;
+        NodePredicted = predicted: rows("m"; INVERSE_MASS 3 "1/kg") padded Row(FAR_ROW), Scratch;
+        /// External acceleration, by gravity and the fluid.
+        NodeAcceleration = acceleration: rows("m/s^2"), Scratch;
         /// Volume of the sponge around the node over that at rest \[1\]; times it: rate of the drag, and what the speed of
         /// the water beside the sponge adds to that \[1/m\]; w: porosity \[1\].
-        NodePores = pores: Vec<[f32; 4]>, "1/s", Scratch;
+        NodePores = pores: rows(; VOLUME_RATIO 0 "1", DRAG_RATE 1 "1/s", INERTIAL_DRAG_RATE 2 "1/m", POROSITY 3 "1"), Scratch;
         /// Pore volume filled with fluid, over pore volume.
-        NodeSaturation = saturation: Vec<f32>, "1", Scratch;
+        NodeSaturation = saturation: values("1"), Scratch;
         /// How wet the material of the node is, 0 to 1; its saturation in this step, at most 1; share of the receding
         /// capillary pressure in its suction; w: how easily water moves through partly filled pores. Empty where no property
         /// of a sponge depends on them, see `couple::wetting`.
-        NodeWetting = wetting: Vec<[f32; 4]>, "1", State;
+        NodeWetting = wetting: rows(; WETNESS 0 "1", SATURATION 1 "1", RECEDING_SHARE 2 "1", MOBILITY 3 "1"), State, needs Wetting;
         /// Impulse of the drag of the fluid in this step; w: mass of the fluid that the node takes along \[kg\].
-        NodeDrag = drag: Vec<[f32; 4]>, "N s", Scratch;
-        /// Moment of that impulse about the node: it acts where the particles are; w: unused.
-        NodeDragMoment = drag_moment: Vec<[f32; 4]>, "N m s", Scratch;
+        NodeDrag = drag: rows("N s"; MASS 3 "kg"), Scratch;
+        /// Moment of that impulse about the node: it acts where the particles are.
+        NodeDragMoment = drag_moment: rows("N m s"), Scratch;
         /// Extremes over chunks of nodes, for the time step.
-        NodeExtremes = extremes: Extremes, "m/s", Scratch;
+        NodeExtremes = extremes: Extremes("m/s"), Scratch;
     }
     /// The sponge nodes again, as control particles of the fluid, in the order of their cells.
-    controls: Controls {
+    controls control: Controls {
         /// Row of the node.
-        ControlNode = node: Vec<u32>, "1", Scratch;
+        ControlNode = node: words("1") padded Word(u32::MAX), Scratch, needs Fluid;
         /// Position of the node; w: its volume \[m^3\].
-        ControlPosition = position: Vec<[f32; 4]>, "m", Scratch;
+        ControlPosition = position: rows("m"; VOLUME 3 "m^3") padded Row(FAR_ROW), Scratch, needs Fluid;
         /// Velocity of the node, filtered by the drag of the fluid; w: share of the drag, see `couple::drag` \[1/kg\].
-        ControlVelocity = velocity: Vec<[f32; 4]>, "m/s", Scratch;
+        ControlVelocity = velocity: rows("m/s"; DRAG_SHARE 3 "1/kg"), Scratch, needs Fluid;
         /// Velocity of the node before the filter; w: inverse mass \[1/kg\].
-        ControlUnfiltered = unfiltered: Vec<[f32; 4]>, "m/s", Scratch;
+        ControlUnfiltered = unfiltered: rows("m/s"; INVERSE_MASS 3 "1/kg"), Scratch, needs Fluid;
         /// Cells over the controls.
-        ControlCells = cells: Cells, "1", Scratch;
+        ControlCells = cells: Cells("1"), Scratch on host;
         /// For every control, the particles within the suction radius.
-        ControlFluid = fluid: Neighbors, "1", Scratch;
+        ControlFluid = fluid: Neighbors("1"), Scratch, needs Fluid;
         /// For every entry of those lists, node volume times kernel.
-        ControlFluidWeights = fluid_weights: ListValues, "1", Scratch;
+        ControlFluidWeights = fluid_weights: ListValues("1"), Scratch on host;
         /// Where the node is expected at the end of the step; w: volume of its material, without pores \[m^3\].
-        ControlSolid = solid: Vec<[f32; 4]>, "m", Scratch;
+        ControlSolid = solid: rows("m"; VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Pore volume filled with fluid, over pore volume.
-        ControlSaturation = saturation: Vec<f32>, "1", Scratch;
+        ControlSaturation = saturation: values("1"), Scratch, needs Fluid;
         /// Control pressure times volume: negative, so that it sucks.
-        ControlSuction = suction: Vec<f32>, "Pa m^3", Scratch;
+        ControlSuction = suction: values("Pa m^3"), Scratch, needs Fluid;
     }
     /// Rigid bodies, one row per body.
-    bodies: BodyStore {
+    bodies body: BodyStore {
         /// Shapes, poses and velocities.
-        BodyStates = states: Bodies, "m", State;
+        BodyStates = states: Bodies("m"), State;
         /// What the fluid gave to the bodies in this step.
-        BodyFluidWrenches = fluid_wrenches: Wrenches, "N s", Scratch;
+        BodyFluidWrenches = fluid_wrenches: Wrenches("N s"), Scratch;
         /// What the sponges gave to the bodies in this step.
-        BodyNodeWrenches = node_wrenches: Wrenches, "N s", Scratch;
+        BodyNodeWrenches = node_wrenches: Wrenches("N s"), Scratch;
     }
 }
 

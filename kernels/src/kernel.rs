@@ -10,6 +10,14 @@ use crate::{
 
 pub use crate::need::Need;
 
+/// Columns that only the twin of a kernel reads or writes, because it has no other way to find or keep them.
+#[cfg(all(test, feature = "gpu"))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TwinAccess {
+    pub(crate) reads: &'static [Column],
+    pub(crate) writes: &'static [Column],
+}
+
 /// A kernel as a plain loop in f64.
 pub type Oracle = fn(&Params, &mut Columns);
 
@@ -41,6 +49,9 @@ pub struct Kernel {
     /// order: the CPU adds up the 7000 particles of a node in the largest scene one after the other, a twin in thirty-two parts.
     #[cfg(all(test, feature = "gpu"))]
     pub(crate) twin_bound: f64,
+    /// What the twin reads and writes beyond [`Self::reads`] and [`Self::writes`].
+    #[cfg(all(test, feature = "gpu"))]
+    pub(crate) twin_access: TwinAccess,
     /// The passes of the WGSL twin, in order.
     #[cfg(feature = "gpu")]
     pub(crate) twin: &'static [Pass],
@@ -68,6 +79,8 @@ impl Kernel {
             bound: 0.0,
             #[cfg(all(test, feature = "gpu"))]
             twin_bound: 0.0,
+            #[cfg(all(test, feature = "gpu"))]
+            twin_access: TwinAccess { reads: &[], writes: &[] },
             #[cfg(feature = "gpu")]
             twin: &[],
         }
@@ -84,6 +97,8 @@ macro_rules! declare {
         oracle: $oracle:path,
         bound: $bound:literal,
         $(twin_bound: $twin_bound:literal,)?
+        $(twin_reads: [$($twin_read:ident),* $(,)?],)?
+        $(twin_writes: [$($twin_write:ident),* $(,)?],)?
         twin: [$($pass:expr),* $(,)?] $(,)?
     ) => {
         /// Path of the module within the package.
@@ -102,6 +117,11 @@ macro_rules! declare {
             bound: $bound,
             #[cfg(all(test, feature = "gpu"))]
             twin_bound: $crate::kernel::declare!(@first $($twin_bound,)? $bound),
+            #[cfg(all(test, feature = "gpu"))]
+            twin_access: $crate::kernel::TwinAccess {
+                reads: &[$($($crate::columns::Column::$twin_read),*)?],
+                writes: &[$($($crate::columns::Column::$twin_write),*)?],
+            },
             #[cfg(feature = "gpu")]
             twin: {
                 use $crate::gpu::twins::{Rows::*, *};

@@ -1,5 +1,5 @@
 // The energy of one node while all others stand still, and obstacles in its way; `descent.rs` and `obstacles.rs` have the
-// formulas. Uses the bindings `params`, `stars`, `position`, `predicted`, and `bodies`.
+// formulas. Uses the bindings `params`, `node_stars`, `node_position`, `node_predicted`, and `bodies`.
 
 const LEAST_COMPLIANCE: f32 = 0.1;
 const SOLID: f32 = 0.2;
@@ -70,7 +70,7 @@ fn columns_of(x: vec3<f32>, u: vec3<f32>, q: vec3<f32>, r: vec3<f32>) -> mat3x3<
 }
 
 fn wetness_of(row: u32) -> f32 {
-    return bitcast<f32>(stars[row * STAR + WETNESS]);
+    return bitcast<f32>(node_stars[row * STAR + WETNESS]);
 }
 
 // Force by what a node touches of sponges, its stiffness along the axes and between them, from behind the stars.
@@ -79,7 +79,7 @@ fn touch_of(row: u32) -> array<vec3<f32>, 3> {
     var all = array<vec3<f32>, 3>();
     for (var k = 0u; k < 3u; k += 1u) {
         let first = base + 3u * k;
-        let words = vec3<u32>(stars[first], stars[first + 1u], stars[first + 2u]);
+        let words = vec3<u32>(node_stars[first], node_stars[first + 1u], node_stars[first + 2u]);
         all[k] = bitcast<vec3<f32>>(words);
     }
     return all;
@@ -88,8 +88,8 @@ fn touch_of(row: u32) -> array<vec3<f32>, 3> {
 // Force on a node at `x` by its material and by what it touches of sponges, and its stiffness.
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
     let base = row * STAR;
-    let tets = stars[base + TETS];
-    let weights = stars[base + WEIGHTS];
+    let tets = node_stars[base + TETS];
+    let weights = node_stars[base + WEIGHTS];
     let dry_shear = sponge.edge * sponge.mu / 12.0;
     let dry_volume = sponge.edge * sponge.lambda / 12.0;
     let dry_rate = sponge.damping / step;
@@ -109,8 +109,8 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     var strain = 0.0;
     for (var direction = 0u; direction < 6u; direction += 1u) {
         let ring = rings[direction];
-        let partner = stars[base + DIRECTION + direction];
-        let u = predicted[partner].xyz;
+        let partner = node_stars[base + DIRECTION + direction];
+        let u = node_predicted[partner].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
             let tet = 4u * direction + k;
             if (((tets >> tet) & 1u) == 0u) {
@@ -119,12 +119,12 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             // Where there is no table, all weights are 1.
             var weight = 1.0;
             if (weights != 0u) {
-                weight = bitcast<f32>(stars[weights + tet]);
+                weight = bitcast<f32>(node_stars[weights + tet]);
             }
-            let r_row = stars[base + ring[k]];
-            let q_row = stars[base + ring[(k + 1u) % 4u]];
-            let r = predicted[r_row].xyz;
-            let q = predicted[q_row].xyz;
+            let r_row = node_stars[base + ring[k]];
+            let q_row = node_stars[base + ring[(k + 1u) % 4u]];
+            let r = node_predicted[r_row].xyz;
+            let q = node_predicted[q_row].xyz;
             if (becomes_wet) {
                 let all = wetness_of(row) + wetness_of(partner) + (wetness_of(q_row) + wetness_of(r_row));
                 let size = 1.0 + sponge.swelling * (0.25 * all);
@@ -148,7 +148,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             stiffness += outer(own * (lame + shear * inverse * inverse), area);
             if (rate > 0.0) {
                 let f = columns_of(x, u, q, r);
-                let g = columns_of(old, position[partner].xyz, position[q_row].xyz, position[r_row].xyz);
+                let g = columns_of(old, node_position[partner].xyz, node_position[q_row].xyz, node_position[r_row].xyz);
                 let part = viscosity(f, g, sponge, rate * weight);
                 damping.force += part.force;
                 damping.stiffness += part.stiffness;
@@ -172,11 +172,11 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
 }
 
 // The way to where the energy is least without obstacles.
-fn least(local: Local, x: vec3<f32>, goal: vec4<f32>, step: f32) -> Quadratic {
-    let inertia = goal.w / (step * step);
+fn least(local: Local, x: vec3<f32>, node_target: vec4<f32>, step: f32) -> Quadratic {
+    let inertia = node_target.w / (step * step);
     let stiffness = local.stiffness + diagonal(inertia);
     let inverse = inverse_of(stiffness);
-    return Quadratic(inverse * (local.force + (goal.xyz - x) * inertia), stiffness, inverse);
+    return Quadratic(inverse * (local.force + (node_target.xyz - x) * inertia), stiffness, inverse);
 }
 
 fn react(quadratic: Quadratic, depth: f32, normal: vec3<f32>, slide: vec3<f32>, friction: f32) -> Reaction {

@@ -4,14 +4,14 @@ fn received_drag(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> vec4<f32>
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
-        end = list[first];
+        end = control_fluid[first];
     }
     var sum = vec4<f32>(0.0);
     for (var k = lane & 31u; k < end; k += 32u) {
-        let other = list[first + 1u + k];
-        let apart = own.xyz - position[other].xyz;
+        let other = control_fluid[first + 1u + k];
+        let apart = own.xyz - fluid_position[other].xyz;
         let weight = scale * shape(closeness(params.coupling, dot(apart, apart)));
-        sum += drag[other] * weight;
+        sum += fluid_drag[other] * weight;
     }
     return control_sum(lane, sum);
 }

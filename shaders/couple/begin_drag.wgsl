@@ -5,8 +5,8 @@
 @group(0) @binding(2) var<storage, read> control_node: array<u32>;
 @group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> node_velocity: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> unfiltered: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> drag: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> control_unfiltered: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> fluid_drag: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -19,10 +19,10 @@ fn main(
         return;
     }
     if (row < params.fluid_rows) {
-        drag[row] = vec4<f32>(0.0);
+        fluid_drag[row] = vec4<f32>(0.0);
     }
     if (row < params.node_rows) {
         let node = control_node[row];
-        unfiltered[row] = vec4<f32>(node_velocity[node].xyz, node_position[node].w);
+        control_unfiltered[row] = vec4<f32>(node_velocity[node].xyz, node_position[node].w);
     }
 }

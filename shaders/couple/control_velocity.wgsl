@@ -5,11 +5,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> interior: array<f32>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_interior: array<f32>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> list: array<u32>;
-@group(0) @binding(6) var<storage, read> unfiltered: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_fluid: array<u32>;
+@group(0) @binding(6) var<storage, read> control_unfiltered: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
@@ -28,18 +28,18 @@ fn main(
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
-        end = list[first];
+        end = control_fluid[first];
     }
     var part = 0.0;
     for (var k = lane & 31u; k < end; k += 32u) {
-        let other = list[first + 1u + k];
-        let apart = own.xyz - position[other].xyz;
-        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * weight_inside(interior[other]);
+        let other = control_fluid[first + 1u + k];
+        let apart = own.xyz - fluid_position[other].xyz;
+        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * weight_inside(fluid_interior[other]);
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;
     if (!is_row || (lane & 31u) != 0u) {
         return;
     }
-    let before = unfiltered[row];
+    let before = control_unfiltered[row];
     control_velocity[row] = vec4<f32>(before.xyz, sum * before.w);
 }

@@ -2,9 +2,9 @@
 // Nodes as control particles: in the order of their cells, those of one cell in the order of the nodes.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
-@group(0) @binding(1) var<uniform> grid: Grid;
-@group(0) @binding(2) var<storage, read> grouped: array<u32>;
-@group(0) @binding(3) var<storage, read> starts: array<u32>;
+@group(0) @binding(1) var<uniform> control_grid: Grid;
+@group(0) @binding(2) var<storage, read> control_grouped: array<u32>;
+@group(0) @binding(3) var<storage, read> control_starts: array<u32>;
 @group(0) @binding(4) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> node_volume: array<f32>;
 @group(0) @binding(6) var<storage, read_write> control_position: array<vec4<f32>>;
@@ -20,17 +20,17 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let slot = row_of(group, groups, lane);
-    if (clock.running == 0u || slot >= grid.wrap.w) {
+    if (clock.running == 0u || slot >= control_grid.wrap.w) {
         return;
     }
-    let node = grouped[slot];
+    let node = control_grouped[slot];
     let point = node_position[node].xyz;
-    let cell = cell_of(grid, point);
-    let begin = starts[cell];
-    let end = starts[cell + 1u];
+    let cell = cell_of(control_grid, point);
+    let begin = control_starts[cell];
+    let end = control_starts[cell + 1u];
     var row = begin;
     for (var other = begin; other < end; other += 1u) {
-        if (grouped[other] < node) {
+        if (control_grouped[other] < node) {
             row += 1u;
         }
     }

@@ -3,14 +3,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> interior: array<f32>;
-@group(0) @binding(5) var<storage, read> drag_rate: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> list: array<u32>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_interior: array<f32>;
+@group(0) @binding(5) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_controls: array<u32>;
 @group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> control_velocity: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> drag: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_drag: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -23,27 +23,27 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let end = list[row];
+    let end = fluid_controls[row];
     if (end == 0u) {
-        drag[row] = vec4<f32>(0.0);
+        fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let point = position[row].xyz;
+    let point = fluid_position[row].xyz;
     var slot = row;
     var sum = vec4<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
+        let other = fluid_controls[slot];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_velocity[other];
     }
-    let inverse = weight_inside(interior[row]);
-    let rate = drag_rate[row].x * clock.step;
+    let inverse = weight_inside(fluid_interior[row]);
+    let rate = fluid_drag_rate[row].x * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;
     // The column holds impulses over chi.
-    let old = drag[row].xyz;
-    let lacking = (velocity[row].xyz - sum.xyz * inverse) * (strength * inverse) - old;
-    drag[row] = vec4<f32>(old + lacking * (1.0 / (1.0 + strength * (sum.w * inverse))), 0.0);
+    let old = fluid_drag[row].xyz;
+    let lacking = (fluid_velocity[row].xyz - sum.xyz * inverse) * (strength * inverse) - old;
+    fluid_drag[row] = vec4<f32>(old + lacking * (1.0 / (1.0 + strength * (sum.w * inverse))), 0.0);
 }

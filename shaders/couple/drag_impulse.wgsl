@@ -4,14 +4,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> interior: array<f32>;
-@group(0) @binding(5) var<storage, read> drag_rate: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> list: array<u32>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_interior: array<f32>;
+@group(0) @binding(5) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_controls: array<u32>;
 @group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> control_velocity: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> drag: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_drag: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -24,30 +24,30 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let end = list[row];
+    let end = fluid_controls[row];
     if (end == 0u) {
-        drag[row] = vec4<f32>(0.0);
+        fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let point = position[row].xyz;
+    let point = fluid_position[row].xyz;
     var slot = row;
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
+        let other = fluid_controls[slot];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_velocity[other].xyz;
     }
-    let inverse = weight_inside(interior[row]);
-    let beside = velocity[row].xyz - sum * inverse;
+    let inverse = weight_inside(fluid_interior[row]);
+    let beside = fluid_velocity[row].xyz - sum * inverse;
     // The speed that the drag leaves.
     let speed = length(beside);
-    let slowed = 1.0 + drag_rate[row].x * clock.step;
-    let root = sqrt(slowed * slowed + 4.0 * clock.step * drag_rate[row].y * speed);
-    let rate = (drag_rate[row].x + drag_rate[row].y * (2.0 * speed / (slowed + root))) * clock.step;
+    let slowed = 1.0 + fluid_drag_rate[row].x * clock.step;
+    let root = sqrt(slowed * slowed + 4.0 * clock.step * fluid_drag_rate[row].y * speed);
+    let rate = (fluid_drag_rate[row].x + fluid_drag_rate[row].y * (2.0 * speed / (slowed + root))) * clock.step;
     // The column holds impulses and masses over chi.
     let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
-    drag[row] = vec4<f32>(beside * strength, strength);
+    fluid_drag[row] = vec4<f32>(beside * strength, strength);
 }

@@ -3,11 +3,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_drag: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_node: array<u32>;
-@group(0) @binding(6) var<storage, read> list: array<u32>;
+@group(0) @binding(6) var<storage, read> control_fluid: array<u32>;
 @group(0) @binding(7) var<storage, read_write> node_drag: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
@@ -27,15 +27,15 @@ fn main(
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
-        end = list[first];
+        end = control_fluid[first];
     }
     var part = vec4<f32>(0.0);
     var turning = vec3<f32>(0.0);
     for (var k = lane & 31u; k < end; k += 32u) {
-        let other = list[first + 1u + k];
-        let apart = own.xyz - position[other].xyz;
+        let other = control_fluid[first + 1u + k];
+        let apart = own.xyz - fluid_position[other].xyz;
         let weight = scale * shape(closeness(params.coupling, dot(apart, apart)));
-        let impulse = weight * drag[other];
+        let impulse = weight * fluid_drag[other];
         part += impulse;
         turning -= cross(apart, impulse.xyz);
     }

@@ -4,14 +4,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_drag: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_velocity: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> control_node: array<u32>;
-@group(0) @binding(7) var<storage, read> list: array<u32>;
-@group(0) @binding(8) var<storage, read> free: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> goal: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> control_fluid: array<u32>;
+@group(0) @binding(8) var<storage, read> node_free: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_target: array<vec4<f32>>;
 
 // Mass below which nothing is drawn.
 const LEAST: f32 = 1.0e-20;
@@ -33,7 +33,7 @@ fn main(
         return;
     }
     let node = control_node[row];
-    let start = free[node];
+    let start = node_free[node];
     var end = start;
     if (start.w > 0.0 && received.w > LEAST) {
         let velocity = control_velocity[row].xyz + received.xyz / received.w;
@@ -41,5 +41,5 @@ fn main(
         let by_fluid = own.xyz + velocity * clock.step;
         end = vec4<f32>(start.xyz + (by_fluid - start.xyz) * (received.w / mass), mass);
     }
-    goal[node] = end;
+    node_target[node] = end;
 }

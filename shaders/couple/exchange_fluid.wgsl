@@ -2,9 +2,9 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> drag: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> interior: array<f32>;
-@group(0) @binding(4) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_drag: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_interior: array<f32>;
+@group(0) @binding(4) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -16,7 +16,7 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let scale = interior[row] * (1.0 / params.particle_mass);
-    let before = velocity[row];
-    velocity[row] = vec4<f32>(before.xyz - drag[row].xyz * scale, before.w);
+    let scale = fluid_interior[row] * (1.0 / params.particle_mass);
+    let before = fluid_velocity[row];
+    fluid_velocity[row] = vec4<f32>(before.xyz - fluid_drag[row].xyz * scale, before.w);
 }

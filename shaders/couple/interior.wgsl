@@ -7,13 +7,13 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_node: array<u32>;
 @group(0) @binding(5) var<storage, read> node_pores: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> list: array<u32>;
-@group(0) @binding(7) var<storage, read_write> interior: array<f32>;
-@group(0) @binding(8) var<storage, read_write> drag_rate: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_controls: array<u32>;
+@group(0) @binding(7) var<storage, read_write> fluid_interior: array<f32>;
+@group(0) @binding(8) var<storage, read_write> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read> node_wetting: array<vec4<f32>>;
 
 const FOLLOWING: f32 = 0.7;
@@ -34,8 +34,8 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
-    let end = list[row];
+    let point = fluid_position[row].xyz;
+    let end = fluid_controls[row];
     var slot = row;
     var sum = 0.0;
     var rate = vec2<f32>(0.0);
@@ -43,7 +43,7 @@ fn main(
     var follows = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
+        let other = fluid_controls[slot];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
@@ -60,6 +60,6 @@ fn main(
         let slower = sum / mobile;
         rate *= vec2<f32>(slower, sqrt(slower));
     }
-    interior[row] = sum;
-    drag_rate[row] = vec4<f32>(rate, follows, 0.0);
+    fluid_interior[row] = sum;
+    fluid_drag_rate[row] = vec4<f32>(rate, follows, 0.0);
 }

@@ -4,11 +4,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<uniform> grid: Grid;
-@group(0) @binding(3) var<storage, read> queries: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> points: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> starts: array<u32>;
-@group(0) @binding(6) var<storage, read_write> list: array<u32>;
+@group(0) @binding(2) var<uniform> fluid_grid: Grid;
+@group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> fluid_starts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> control_fluid: array<u32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> found: array<u32, 256>;
@@ -18,41 +18,41 @@ var<workgroup> found: array<u32, 256>;
 fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
     let radius = params.coupling.radius;
     let square = radius * radius;
-    let cell_square = square * grid.origin.w * grid.origin.w;
-    let reach = radius * grid.origin.w;
+    let cell_square = square * fluid_grid.origin.w * fluid_grid.origin.w;
+    let reach = radius * fluid_grid.origin.w;
     let at = vec3<f32>(
-        coordinate_of(grid, point.x, 0u),
-        coordinate_of(grid, point.y, 1u),
-        coordinate_of(grid, point.z, 2u),
+        coordinate_of(fluid_grid, point.x, 0u),
+        coordinate_of(fluid_grid, point.y, 1u),
+        coordinate_of(fluid_grid, point.z, 2u),
     );
-    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
-    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
+    let span_y = cells_around(fluid_grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(fluid_grid, at.z, reach + slack(at.z), 2u);
     let wide = span_y.y - span_y.x + 1;
     let lines = wide * (span_z.y - span_z.x + 1);
     var count = 0u;
     for (var index = i32(sub); index < lines; index += 32) {
         let z = span_z.x + index / wide;
         let y = span_y.x + index % wide;
-        let dz = slab_distance(grid, at.z, z, 2u);
-        let dy = slab_distance(grid, at.y, y, 1u);
+        let dz = slab_distance(fluid_grid, at.z, z, 2u);
+        let dy = slab_distance(fluid_grid, at.y, y, 1u);
         let chord = cell_square - dy * dy - dz * dz;
         if (chord <= 0.0) {
             continue;
         }
-        let line = (wrapped(grid, z, 2u) * grid.size.y + wrapped(grid, y, 1u)) * grid.size.x;
-        let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+        let line = (wrapped(fluid_grid, z, 2u) * fluid_grid.size.y + wrapped(fluid_grid, y, 1u)) * fluid_grid.size.x;
+        let span_x = cells_around(fluid_grid, at.x, sqrt(chord) + slack(at.x), 0u);
         var x = span_x.x;
         // One run, or two where it crosses the seam of the torus.
         while (x <= span_x.y) {
-            let first = wrapped(grid, x, 0u);
-            let end_cell = min(first + u32(span_x.y - x), grid.size.x - 1u);
+            let first = wrapped(fluid_grid, x, 0u);
+            let end_cell = min(first + u32(span_x.y - x), fluid_grid.size.x - 1u);
             x += i32(end_cell - first) + 1;
-            let end = starts[line + end_cell + 1u];
-            for (var other = starts[line + first]; other < end; other += 1u) {
-                let apart = point - points[other].xyz;
+            let end = fluid_starts[line + end_cell + 1u];
+            for (var other = fluid_starts[line + first]; other < end; other += 1u) {
+                let apart = point - fluid_position[other].xyz;
                 if (dot(apart, apart) < square) {
                     if (slot + count <= last) {
-                        list[slot + count] = other;
+                        control_fluid[slot + count] = other;
                     }
                     count += 1u;
                 }
@@ -73,7 +73,7 @@ fn main(
     }
     let row = group_of(group, groups) * 8u + lane / 32u;
     let is_row = row < params.node_rows;
-    let query = queries[min(row, params.node_rows - 1u)];
+    let query = control_position[min(row, params.node_rows - 1u)];
     let point = query.xyz;
     let sub = lane & 31u;
     var own = 0u;
@@ -97,7 +97,7 @@ fn main(
     }
     if (sub == 31u) {
         let all = before + own;
-        list[first] = all;
+        control_fluid[first] = all;
         if (all > capacity) {
             atomicMax(&extremes[7], all);
         }

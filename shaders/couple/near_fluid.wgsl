@@ -3,11 +3,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<uniform> grid: Grid;
-@group(0) @binding(3) var<storage, read> queries: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> points: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> starts: array<u32>;
-@group(0) @binding(6) var<storage, read_write> list: array<u32>;
+@group(0) @binding(2) var<uniform> control_grid: Grid;
+@group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_starts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> fluid_controls: array<u32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
 @compute @workgroup_size(GROUP)
@@ -21,44 +21,44 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = queries[row].xyz;
+    let point = fluid_position[row].xyz;
     let radius = params.coupling.radius;
     let square = radius * radius;
-    let cell_square = square * grid.origin.w * grid.origin.w;
-    let reach = radius * grid.origin.w;
+    let cell_square = square * control_grid.origin.w * control_grid.origin.w;
+    let reach = radius * control_grid.origin.w;
     let at = vec3<f32>(
-        coordinate_of(grid, point.x, 0u),
-        coordinate_of(grid, point.y, 1u),
-        coordinate_of(grid, point.z, 2u),
+        coordinate_of(control_grid, point.x, 0u),
+        coordinate_of(control_grid, point.y, 1u),
+        coordinate_of(control_grid, point.z, 2u),
     );
-    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
-    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
+    let span_y = cells_around(control_grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(control_grid, at.z, reach + slack(at.z), 2u);
     var found = 0u;
     var slot = row;
     for (var z = span_z.x; z <= span_z.y; z += 1) {
-        let dz = slab_distance(grid, at.z, z, 2u);
-        let plane = wrapped(grid, z, 2u) * grid.size.y;
+        let dz = slab_distance(control_grid, at.z, z, 2u);
+        let plane = wrapped(control_grid, z, 2u) * control_grid.size.y;
         for (var y = span_y.x; y <= span_y.y; y += 1) {
-            let dy = slab_distance(grid, at.y, y, 1u);
+            let dy = slab_distance(control_grid, at.y, y, 1u);
             let chord = cell_square - dy * dy - dz * dz;
             if (chord <= 0.0) {
                 continue;
             }
-            let line = (plane + wrapped(grid, y, 1u)) * grid.size.x;
-            let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+            let line = (plane + wrapped(control_grid, y, 1u)) * control_grid.size.x;
+            let span_x = cells_around(control_grid, at.x, sqrt(chord) + slack(at.x), 0u);
             var x = span_x.x;
             // One run, or two where it crosses the seam of the torus.
             while (x <= span_x.y) {
-                let first = wrapped(grid, x, 0u);
-                let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
+                let first = wrapped(control_grid, x, 0u);
+                let last = min(first + u32(span_x.y - x), control_grid.size.x - 1u);
                 x += i32(last - first) + 1;
-                let end = starts[line + last + 1u];
-                for (var other = starts[line + first]; other < end; other += 1u) {
-                    let apart = point - points[other].xyz;
+                let end = control_starts[line + last + 1u];
+                for (var other = control_starts[line + first]; other < end; other += 1u) {
+                    let apart = point - control_position[other].xyz;
                     if (dot(apart, apart) < square) {
                         if (found < params.control_capacity) {
                             slot += rows;
-                            list[slot] = other;
+                            fluid_controls[slot] = other;
                         }
                         found += 1u;
                     }
@@ -66,7 +66,7 @@ fn main(
             }
         }
     }
-    list[row] = found;
+    fluid_controls[row] = found;
     if (found > params.control_capacity) {
         atomicMax(&extremes[6], found);
     }

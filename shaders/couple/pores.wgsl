@@ -4,9 +4,9 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> stars: array<u32>;
-@group(0) @binding(5) var<storage, read_write> pores: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_stars: array<u32>;
+@group(0) @binding(5) var<storage, read_write> node_pores: array<vec4<f32>>;
 
 const LEAST_POROSITY: f32 = 0.15;
 const LARGEST: f32 = 10.0;
@@ -22,23 +22,23 @@ fn main(
         return;
     }
     let base = row * STAR;
-    let sponge = sponges.all[stars[base + SPONGE]];
+    let sponge = sponges.all[node_stars[base + SPONGE]];
     if (is_asleep(sponge)) {
         return;
     }
     if (sponge.pores_close == 0u) {
-        pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity);
+        node_pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity);
         return;
     }
-    let tets = stars[base + TETS];
-    let weights = stars[base + WEIGHTS];
-    let x = position[row].xyz;
+    let tets = node_stars[base + TETS];
+    let weights = node_stars[base + WEIGHTS];
+    let x = node_position[row].xyz;
     var rings = RINGS;
     var sum = 0.0;
     var all = 0.0;
     for (var direction = 0u; direction < 6u; direction += 1u) {
         let ring = rings[direction];
-        let u = position[stars[base + DIRECTION + direction]].xyz;
+        let u = node_position[node_stars[base + DIRECTION + direction]].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
             let tet = 4u * direction + k;
             if (((tets >> tet) & 1u) == 0u) {
@@ -47,10 +47,10 @@ fn main(
             // Where there is no table, all weights are 1.
             var weight = 1.0;
             if (weights != 0u) {
-                weight = bitcast<f32>(stars[weights + tet]);
+                weight = bitcast<f32>(node_stars[weights + tet]);
             }
-            let r = position[stars[base + ring[k]]].xyz;
-            let q = position[stars[base + ring[(k + 1u) % 4u]]].xyz;
+            let r = node_position[node_stars[base + ring[k]]].xyz;
+            let q = node_position[node_stars[base + ring[(k + 1u) % 4u]]].xyz;
             sum += dot(u - x, cross(q - u, r - u)) * weight;
             all += weight;
         }
@@ -62,15 +62,15 @@ fn main(
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);
     let permeability = opening * opening * opening * (crowding * crowding);
-    pores[row] = vec4<f32>(
+    node_pores[row] = vec4<f32>(
         ratio,
         sponge.drag_rate * opening / permeability * ratio,
         sponge.inertial_drag * (opening * opening) / sqrt(permeability) * ratio,
         porosity,
     );
     if (sponge.swelling > 0.0) {
-        let size = 1.0 + sponge.swelling * bitcast<f32>(stars[base + WETNESS]);
+        let size = 1.0 + sponge.swelling * bitcast<f32>(node_stars[base + WETNESS]);
         let swollen = size * size * size;
-        pores[row] = vec4<f32>(pores[row].xyz / swollen, porosity);
+        node_pores[row] = vec4<f32>(node_pores[row].xyz / swollen, porosity);
     }
 }

@@ -6,9 +6,9 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> list: array<u32>;
+@group(0) @binding(5) var<storage, read> control_fluid: array<u32>;
 // Per node: its sponge, the bits of its suction, and the bits of its kernel sum at rest.
 @group(0) @binding(6) var<storage, read> node_traits: array<vec4<u32>>;
 @group(0) @binding(7) var<storage, read> control_node: array<u32>;
@@ -31,11 +31,11 @@ fn main(
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
-        end = list[first];
+        end = control_fluid[first];
     }
     var part = 0.0;
     for (var k = lane & 31u; k < end; k += 32u) {
-        let apart = own.xyz - position[list[first + 1u + k]].xyz;
+        let apart = own.xyz - fluid_position[control_fluid[first + 1u + k]].xyz;
         part += shape(closeness(params.coupling, dot(apart, apart)));
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;

@@ -3,12 +3,12 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_predicted: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_solid: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> control_node: array<u32>;
-@group(0) @binding(7) var<storage, read> list: array<u32>;
+@group(0) @binding(7) var<storage, read> control_fluid: array<u32>;
 @group(0) @binding(8) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_acceleration: array<vec4<f32>>;
 
@@ -29,16 +29,16 @@ fn main(
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
-        end = list[first];
+        end = control_fluid[first];
     }
     var part = vec3<f32>(0.0);
     for (var k = lane & 31u; k < end; k += 32u) {
-        let other = list[first + 1u + k];
-        let particle = position[other];
+        let other = control_fluid[first + 1u + k];
+        let particle = fluid_position[other];
         let apart = before - particle.xyz;
         let u = closeness(params.solid, dot(apart, apart));
         part += (particle.w * params.rest_density * (u * u * u)) * apart;
-        let moved = predicted[other];
+        let moved = fluid_predicted[other];
         let apart_after = solid.xyz - moved.xyz;
         let u_after = closeness(params.solid, dot(apart_after, apart_after));
         part += (moved.w * (u_after * u_after * u_after)) * apart_after;

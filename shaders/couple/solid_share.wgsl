@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_predicted: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> control_solid: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read_write> boundary: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_controls: array<u32>;
+@group(0) @binding(5) var<storage, read_write> fluid_boundary: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,18 +21,18 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = predicted[row].xyz;
-    let end = list[row];
+    let point = fluid_predicted[row].xyz;
+    let end = fluid_controls[row];
     var slot = row;
     var sum = vec4<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let solid = control_solid[list[slot]];
+        let solid = control_solid[fluid_controls[slot]];
         let apart = point - solid.xyz;
         let u = closeness(params.solid, dot(apart, apart));
         sum += solid.w * vec4<f32>(apart * (u * u * u), shape(u));
     }
-    let before = boundary[row];
+    let before = fluid_boundary[row];
     let slope = sum.xyz * params.solid.gradient;
-    boundary[row] = vec4<f32>(before.xyz - slope, before.w + sum.w * params.solid.value);
+    fluid_boundary[row] = vec4<f32>(before.xyz - slope, before.w + sum.w * params.solid.value);
 }

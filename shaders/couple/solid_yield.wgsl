@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
-@group(0) @binding(4) var<storage, read> drag_rate: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> solid_yield: array<f32>;
+@group(0) @binding(2) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(4) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_solid_yield: array<f32>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,21 +21,21 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let own = predicted[row];
-    let follows = drag_rate[row].z;
+    let own = fluid_predicted[row];
+    let follows = fluid_drag_rate[row].z;
     var sum = 0.0;
     if (follows > 0.0) {
         let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
-        let end = list[row];
+        let end = fluid_neighbors[row];
         var slot = row;
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
-            let other = list[slot];
-            let there = predicted[other];
+            let other = fluid_neighbors[slot];
+            let there = fluid_predicted[other];
             let apart = own.xyz - there.xyz;
             let u = closeness(params.smoothing, dot(apart, apart));
-            sum += gradient * (u * u * u) * drag_rate[other].z * (there.w - own.w);
+            sum += gradient * (u * u * u) * fluid_drag_rate[other].z * (there.w - own.w);
         }
     }
-    solid_yield[row] = 2.0 * follows * sum;
+    fluid_solid_yield[row] = 2.0 * follows * sum;
 }

@@ -5,11 +5,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_suction: array<f32>;
-@group(0) @binding(5) var<storage, read> list: array<u32>;
-@group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> fluid_controls: array<u32>;
+@group(0) @binding(6) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -22,18 +22,18 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
-    let end = list[row];
+    let point = fluid_position[row].xyz;
+    let end = fluid_controls[row];
     var slot = row;
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
+        let other = fluid_controls[slot];
         let apart = point - control_position[other].xyz;
         let u = closeness(params.coupling, dot(apart, apart));
         sum += (control_suction[other] * (u * u * u)) * apart;
     }
-    let before = acceleration[row];
+    let before = fluid_acceleration[row];
     let scale = params.coupling.gradient * (1.0 / params.rest_density);
-    acceleration[row] = vec4<f32>(before.xyz + sum * scale, before.w);
+    fluid_acceleration[row] = vec4<f32>(before.xyz + sum * scale, before.w);
 }

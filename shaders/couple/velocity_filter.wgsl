@@ -3,11 +3,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> drag: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_drag: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> list: array<u32>;
-@group(0) @binding(6) var<storage, read> unfiltered: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_fluid: array<u32>;
+@group(0) @binding(6) var<storage, read> control_unfiltered: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
@@ -26,6 +26,6 @@ fn main(
     if (!is_row || (lane & 31u) != 0u) {
         return;
     }
-    let before = unfiltered[row];
+    let before = control_unfiltered[row];
     control_velocity[row] = vec4<f32>(before.xyz + received * before.w, control_velocity[row].w);
 }

@@ -12,7 +12,7 @@
 @group(0) @binding(7) var<storage, read_write> control_suction: array<f32>;
 @group(0) @binding(8) var<storage, read_write> node_saturation: array<f32>;
 @group(0) @binding(9) var<storage, read_write> node_wetting: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> stars: array<u32>;
+@group(0) @binding(10) var<storage, read_write> node_stars: array<u32>;
 
 const SCANNING_BAND: f32 = 0.1;
 const LEAST_MOBILITY: f32 = 1.0e-3;
@@ -51,5 +51,5 @@ fn main(
     control_suction[row] = pressure * bitcast<f32>(traits.y) * control_position[row].w;
     node_saturation[node] = saturation;
     node_wetting[node] = vec4<f32>(wetness, filled, receding, max(mobility, LEAST_MOBILITY));
-    stars[node * STAR + WETNESS] = bitcast<u32>(wetness);
+    node_stars[node * STAR + WETNESS] = bitcast<u32>(wetness);
 }

@@ -6,11 +6,11 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_node: array<u32>;
 @group(0) @binding(6) var<storage, read> control_suction: array<f32>;
-@group(0) @binding(7) var<storage, read> list: array<u32>;
+@group(0) @binding(7) var<storage, read> control_fluid: array<u32>;
 @group(0) @binding(8) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read> node_sponge: array<u32>;
 @group(0) @binding(10) var<storage, read_write> node_acceleration: array<vec4<f32>>;
@@ -30,11 +30,11 @@ fn main(
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
-        end = list[first];
+        end = control_fluid[first];
     }
     var part = vec3<f32>(0.0);
     for (var k = lane & 31u; k < end; k += 32u) {
-        let apart = point - position[list[first + 1u + k]].xyz;
+        let apart = point - fluid_position[control_fluid[first + 1u + k]].xyz;
         let u = closeness(params.coupling, dot(apart, apart));
         part += (u * u * u) * apart;
     }

@@ -7,11 +7,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<uniform> grid: Grid;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> starts: array<u32>;
-@group(0) @binding(5) var<storage, read_write> list: array<u32>;
-@group(0) @binding(6) var<storage, read_write> density: array<f32>;
+@group(0) @binding(2) var<uniform> fluid_grid: Grid;
+@group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_starts: array<u32>;
+@group(0) @binding(5) var<storage, read_write> fluid_neighbors: array<u32>;
+@group(0) @binding(6) var<storage, read_write> fluid_density: array<f32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
 struct Found {
@@ -26,12 +26,12 @@ fn add_run(before: Found, point: vec3<f32>, begin: u32, end: u32) -> Found {
     var found = before;
     let square = params.list_radius * params.list_radius;
     for (var other = begin; other < end; other += 1u) {
-        let apart = point - position[other].xyz;
+        let apart = point - fluid_position[other].xyz;
         let distance_square = dot(apart, apart);
         if (distance_square < square) {
             if (found.count < params.neighbor_capacity) {
                 found.slot += params.fluid_rows;
-                list[found.slot] = other;
+                fluid_neighbors[found.slot] = other;
             }
             found.count += 1u;
             found.sum += shape(closeness(params.smoothing, distance_square));
@@ -44,33 +44,33 @@ fn add_run(before: Found, point: vec3<f32>, begin: u32, end: u32) -> Found {
 fn add_ball(before: Found, point: vec3<f32>) -> Found {
     var found = before;
     let radius = params.list_radius;
-    let cell_square = radius * radius * grid.origin.w * grid.origin.w;
-    let reach = radius * grid.origin.w;
+    let cell_square = radius * radius * fluid_grid.origin.w * fluid_grid.origin.w;
+    let reach = radius * fluid_grid.origin.w;
     let at = vec3<f32>(
-        coordinate_of(grid, point.x, 0u),
-        coordinate_of(grid, point.y, 1u),
-        coordinate_of(grid, point.z, 2u),
+        coordinate_of(fluid_grid, point.x, 0u),
+        coordinate_of(fluid_grid, point.y, 1u),
+        coordinate_of(fluid_grid, point.z, 2u),
     );
-    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
-    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
+    let span_y = cells_around(fluid_grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(fluid_grid, at.z, reach + slack(at.z), 2u);
     for (var z = span_z.x; z <= span_z.y; z += 1) {
-        let dz = slab_distance(grid, at.z, z, 2u);
-        let plane = wrapped(grid, z, 2u) * grid.size.y;
+        let dz = slab_distance(fluid_grid, at.z, z, 2u);
+        let plane = wrapped(fluid_grid, z, 2u) * fluid_grid.size.y;
         for (var y = span_y.x; y <= span_y.y; y += 1) {
-            let dy = slab_distance(grid, at.y, y, 1u);
+            let dy = slab_distance(fluid_grid, at.y, y, 1u);
             let chord = cell_square - dy * dy - dz * dz;
             if (chord <= 0.0) {
                 continue;
             }
-            let line = (plane + wrapped(grid, y, 1u)) * grid.size.x;
-            let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+            let line = (plane + wrapped(fluid_grid, y, 1u)) * fluid_grid.size.x;
+            let span_x = cells_around(fluid_grid, at.x, sqrt(chord) + slack(at.x), 0u);
             var x = span_x.x;
             // One run, or two where it crosses the seam of the torus.
             while (x <= span_x.y) {
-                let first = wrapped(grid, x, 0u);
-                let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
+                let first = wrapped(fluid_grid, x, 0u);
+                let last = min(first + u32(span_x.y - x), fluid_grid.size.x - 1u);
                 x += i32(last - first) + 1;
-                found = add_run(found, point, starts[line + first], starts[line + last + 1u]);
+                found = add_run(found, point, fluid_starts[line + first], fluid_starts[line + last + 1u]);
             }
         }
     }
@@ -96,7 +96,7 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
+    let point = fluid_position[row].xyz;
     var found = Found(0u, row, 0.0);
     // The box itself first, then its images.
     let images = select(1u, 27u, params.periods.w > 0.0);
@@ -107,8 +107,8 @@ fn main(
             found = add_ball(found, point - image * params.periods.xyz);
         }
     }
-    list[row] = found.count;
-    density[row] = found.sum * (params.smoothing.value * params.particle_mass);
+    fluid_neighbors[row] = found.count;
+    fluid_density[row] = found.sum * (params.smoothing.value * params.particle_mass);
     if (found.count > params.neighbor_capacity) {
         atomicMax(&extremes[5], found.count);
     }

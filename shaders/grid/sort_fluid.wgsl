@@ -3,15 +3,15 @@
 // they had.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
-@group(0) @binding(1) var<uniform> grid: Grid;
-@group(0) @binding(2) var<storage, read> grouped: array<u32>;
-@group(0) @binding(3) var<storage, read> starts: array<u32>;
-@group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> id: array<u32>;
-@group(0) @binding(7) var<storage, read_write> sorted_position: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> sorted_velocity: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> sorted_id: array<u32>;
+@group(0) @binding(1) var<uniform> fluid_grid: Grid;
+@group(0) @binding(2) var<storage, read> fluid_grouped: array<u32>;
+@group(0) @binding(3) var<storage, read> fluid_starts: array<u32>;
+@group(0) @binding(4) var<storage, read> fluid_position_next: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> fluid_velocity_next: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_id_next: array<u32>;
+@group(0) @binding(7) var<storage, read_write> fluid_position: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_id: array<u32>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -20,21 +20,21 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let slot = row_of(group, groups, lane);
-    if (clock.running == 0u || slot >= grid.wrap.w) {
+    if (clock.running == 0u || slot >= fluid_grid.wrap.w) {
         return;
     }
-    let source = grouped[slot];
-    let point = position[source];
-    let cell = cell_of(grid, point.xyz);
-    let begin = starts[cell];
-    let end = starts[cell + 1u];
+    let source = fluid_grouped[slot];
+    let point = fluid_position_next[source];
+    let cell = cell_of(fluid_grid, point.xyz);
+    let begin = fluid_starts[cell];
+    let end = fluid_starts[cell + 1u];
     var row = begin;
     for (var other = begin; other < end; other += 1u) {
-        if (grouped[other] < source) {
+        if (fluid_grouped[other] < source) {
             row += 1u;
         }
     }
-    sorted_position[row] = point;
-    sorted_velocity[row] = velocity[source];
-    sorted_id[row] = id[source];
+    fluid_position[row] = point;
+    fluid_velocity[row] = fluid_velocity_next[source];
+    fluid_id[row] = fluid_id_next[source];
 }

@@ -5,10 +5,10 @@
 // c: sum of the positions, sum of density errors; largest: squared speed, density error.
 
 @group(0) @binding(0) var<uniform> params: Params;
-@group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> density: array<f32>;
-@group(0) @binding(4) var<storage, read> interior: array<f32>;
+@group(0) @binding(1) var<storage, read> fluid_position_next: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_velocity_next: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_density: array<f32>;
+@group(0) @binding(4) var<storage, read> fluid_interior: array<f32>;
 @group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
@@ -20,15 +20,15 @@ fn main(
     let row = row_of(group, groups, lane);
     var own = no_sums();
     if (row < params.fluid_rows) {
-        let x = position[row].xyz;
-        let v = velocity[row].xyz;
+        let x = fluid_position_next[row].xyz;
+        let v = fluid_velocity_next[row].xyz;
         let square = dot(v, v);
         var inside = 0.0;
         // Without nodes there is nothing to be inside of, and the column has no rows.
-        if (params.node_rows > 0u && interior[row] > 0.5) {
+        if (params.node_rows > 0u && fluid_interior[row] > 0.5) {
             inside = 1.0;
         }
-        let error = max((density[row] - params.rest_density) / params.rest_density, 0.0);
+        let error = max((fluid_density[row] - params.rest_density) / params.rest_density, 0.0);
         own.a = vec4<f32>(v, square);
         own.b = vec4<f32>(cross(x, v), inside);
         own.c = vec4<f32>(x, error);

@@ -5,8 +5,8 @@
 // saturation; d: volume; largest: squared speed, height of what is more than half saturated, depth of the lowest.
 
 @group(0) @binding(0) var<uniform> params: Params;
-@group(0) @binding(1) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> velocity: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> node_velocity: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> node_mass: array<f32>;
 @group(0) @binding(4) var<storage, read> node_volume: array<f32>;
 @group(0) @binding(5) var<storage, read> node_saturation: array<f32>;
@@ -21,8 +21,8 @@ fn main(
     let row = row_of(group, groups, lane);
     var own = no_sums();
     if (row < params.node_rows) {
-        let x = position[row].xyz;
-        let v = velocity[row].xyz;
+        let x = node_position[row].xyz;
+        let v = node_velocity[row].xyz;
         let mass = node_mass[row];
         let square = dot(v, v);
         own.a = mass * vec4<f32>(v, square);

@@ -5,7 +5,7 @@
 @group(0) @binding(1) var<uniform> sponges: Sponges;
 @group(0) @binding(2) var<storage, read> tets: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> tet_sponge: array<u32>;
-@group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> node_wetting: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> tet_weight: array<f32>;
@@ -34,10 +34,10 @@ fn main(
             sponge.mu *= 1.0 - sponge.softening * wetness;
             sponge.lambda *= 1.0 - sponge.softening * wetness;
         }
-        let p0 = position[tet.x].xyz;
-        let p1 = position[tet.y].xyz;
-        let p2 = position[tet.z].xyz;
-        let p3 = position[tet.w].xyz;
+        let p0 = node_position[tet.x].xyz;
+        let p1 = node_position[tet.y].xyz;
+        let p2 = node_position[tet.z].xyz;
+        let p3 = node_position[tet.w].xyz;
         let d = (p1 - p0) / sponge.edge;
         let e = (p2 - p3) / sponge.edge;
         let f = ((p2 - p0) + (p3 - p1)) / sponge.edge;

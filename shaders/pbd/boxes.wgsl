@@ -3,9 +3,9 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> ranges: array<vec2<u32>>;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> boxes: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> sponge_ranges: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> sponge_boxes: array<vec4<f32>>;
 
 var<workgroup> lows: array<vec3<f32>, 128>;
 var<workgroup> highs: array<vec3<f32>, 128>;
@@ -18,10 +18,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var low = vec3<f32>(3.0e38);
     var high = vec3<f32>(-3.0e38);
     for (var color = 0u; color < 4u; color += 1u) {
-        let range = ranges[group.x * 8u + color];
+        let range = sponge_ranges[group.x * 8u + color];
         for (var row = range.x + lane; row < range.y; row += 128u) {
-            low = min(low, position[row].xyz);
-            high = max(high, position[row].xyz);
+            low = min(low, node_position[row].xyz);
+            high = max(high, node_position[row].xyz);
         }
     }
     lows[lane] = low;
@@ -34,7 +34,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         }
     }
     if (lane == 0u) {
-        boxes[group.x * 2u] = vec4<f32>(lows[0] - params.pair_radius, 0.0);
-        boxes[group.x * 2u + 1u] = vec4<f32>(highs[0] + params.pair_radius, 0.0);
+        sponge_boxes[group.x * 2u] = vec4<f32>(lows[0] - params.pair_radius, 0.0);
+        sponge_boxes[group.x * 2u + 1u] = vec4<f32>(highs[0] + params.pair_radius, 0.0);
     }
 }

@@ -5,12 +5,12 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(5) var<storage, read> bodies: array<Body>;
+@group(0) @binding(5) var<storage, read> body_states: array<Body>;
 @group(0) @binding(6) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> predicted: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> node_predicted: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
 // Change of position: out along the normal, and back along the surface as far as friction reaches.
 fn contact(depth: f32, normal: vec3<f32>, slide: vec3<f32>, friction: f32) -> vec3<f32> {
@@ -58,9 +58,9 @@ fn main(
     // Held nodes, those that are asleep, and those that meet obstacles in their own solver, stay where they are.
     var moves = false;
     if (is_row) {
-        point = predicted[row].xyz;
-        w = predicted[row].w;
-        old = position[row].xyz;
+        point = node_predicted[row].xyz;
+        w = node_predicted[row].w;
+        old = node_position[row].xyz;
         clearance = sponges.all[node_sponge[row]].edge * CLEARANCE;
         let sponge = sponges.all[node_sponge[row]];
         moves = w > 0.0 && sponge.solver != VBD && !is_asleep(sponge);
@@ -70,7 +70,7 @@ fn main(
         point = walls(point, old, sponges.all[node_sponge[row]].friction);
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         let drift = body_velocity(body, point) * clock.step;
         // The body stands where it began the step: so is the node, in the body's frame.
         let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
@@ -86,8 +86,8 @@ fn main(
             let all = group_sum(lane, own);
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
-                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+                body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                body_node_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
             }
         }
     }
@@ -97,6 +97,6 @@ fn main(
             point = select(point, params.wall_low.xyz, point < params.wall_low.xyz);
             point = select(point, params.wall_high.xyz, point > params.wall_high.xyz);
         }
-        predicted[row] = vec4<f32>(point, w);
+        node_predicted[row] = vec4<f32>(point, w);
     }
 }

@@ -2,7 +2,7 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> node_acceleration: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -14,5 +14,5 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    acceleration[row] = vec4<f32>(params.gravity.xyz, 0.0);
+    node_acceleration[row] = vec4<f32>(params.gravity.xyz, 0.0);
 }

@@ -4,14 +4,14 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> acceleration: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_acceleration: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(6) var<storage, read_write> predicted: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> free: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> goal: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> drag: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> drag_moment: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> node_predicted: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> node_free: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> node_target: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_drag: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -23,17 +23,17 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    let y = predicted[row];
+    let y = node_predicted[row];
     var mass = 0.0;
     if (y.w > 0.0) {
         mass = 1.0 / y.w;
     }
-    free[row] = vec4<f32>(y.xyz, mass);
-    goal[row] = vec4<f32>(y.xyz, mass);
-    drag[row] = vec4<f32>(0.0);
-    drag_moment[row] = vec4<f32>(0.0);
+    node_free[row] = vec4<f32>(y.xyz, mass);
+    node_target[row] = vec4<f32>(y.xyz, mass);
+    node_drag[row] = vec4<f32>(0.0);
+    node_drag_moment[row] = vec4<f32>(0.0);
     if (y.w > 0.0 && sponges.all[node_sponge[row]].solver == VBD) {
-        let lacking = clock.step * clock.step * (1.0 - velocity[row].w);
-        predicted[row] = vec4<f32>(y.xyz - acceleration[row].xyz * lacking, y.w);
+        let lacking = clock.step * clock.step * (1.0 - node_velocity[row].w);
+        node_predicted[row] = vec4<f32>(y.xyz - node_acceleration[row].xyz * lacking, y.w);
     }
 }

@@ -1,22 +1,22 @@
 // Which sponges touch each other through others: the bits of `touching.wgsl`, carried on until nothing is added.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
-@group(0) @binding(1) var<storage, read_write> ranges: array<vec2<u32>>;
+@group(0) @binding(1) var<storage, read_write> sponge_ranges: array<vec2<u32>>;
 
 @compute @workgroup_size(1)
 fn main() {
     if (clock.running == 0u) {
         return;
     }
-    let count = min(arrayLength(&ranges) / 8u, 256u);
+    let count = min(arrayLength(&sponge_ranges) / 8u, 256u);
     // Through every sponge once, as Warshall has it.
     for (var through = 0u; through < count; through += 1u) {
         for (var own = 0u; own < count; own += 1u) {
-            let pair = ranges[own * 8u + 4u + through / 64u];
+            let pair = sponge_ranges[own * 8u + 4u + through / 64u];
             let word = select(pair.x, pair.y, (through / 32u) % 2u == 1u);
             if (((word >> (through % 32u)) & 1u) != 0u) {
                 for (var k = 4u; k < 8u; k += 1u) {
-                    ranges[own * 8u + k] = ranges[own * 8u + k] | ranges[through * 8u + k];
+                    sponge_ranges[own * 8u + k] = sponge_ranges[own * 8u + k] | sponge_ranges[through * 8u + k];
                 }
             }
         }

@@ -5,13 +5,13 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> acceleration: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_acceleration: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(6) var<storage, read> reaction: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> motions: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> predicted: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_reaction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> sponge_motions: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> node_predicted: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -24,28 +24,28 @@ fn main(
         return;
     }
     let sponge = node_sponge[row];
-    let start = predicted[row];
+    let start = node_predicted[row];
     if (start.w <= 0.0 || sponges.all[sponge].solver != VBD) {
         return;
     }
-    let x = position[row].xyz;
+    let x = node_position[row].xyz;
     var y = start.xyz;
-    if (reaction[row].w > 0.0) {
-        let turn = cross(motions[sponge * 3u + 2u].xyz, x - motions[sponge * 3u].xyz);
-        y += (motions[sponge * 3u + 1u].xyz + turn) * clock.step;
+    if (node_reaction[row].w > 0.0) {
+        let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, x - sponge_motions[sponge * 3u].xyz);
+        y += (sponge_motions[sponge * 3u + 1u].xyz + turn) * clock.step;
         if (params.wall_low.w > 0.0) {
             // What is not a number stays so.
             y = select(y, params.wall_low.xyz, y < params.wall_low.xyz);
             y = select(y, params.wall_high.xyz, y > params.wall_high.xyz);
         }
     }
-    predicted[row] = vec4<f32>(y, start.w);
-    let v = velocity[row].xyz;
-    let a = acceleration[row].xyz;
+    node_predicted[row] = vec4<f32>(y, start.w);
+    let v = node_velocity[row].xyz;
+    let a = node_acceleration[row].xyz;
     let square = dot(a, a);
     var share = 0.0;
     if (square > 0.0) {
         share = clamp(dot((y - x) / clock.step - v, a) / (clock.step * square), 0.0, 1.0);
     }
-    velocity[row] = vec4<f32>(v, share);
+    node_velocity[row] = vec4<f32>(v, share);
 }

@@ -5,14 +5,14 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_predicted: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(6) var<storage, read> motions: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> bodies: array<Body>;
+@group(0) @binding(6) var<storage, read> sponge_motions: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> body_states: array<Body>;
 @group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> reaction: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_reaction: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
 const MARGIN: f32 = 1.0e-2;
 
@@ -21,7 +21,7 @@ fn touched(point: vec3<f32>, margin: f32) -> u32 {
     var found = params.body_rows;
     var least = margin;
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         // The body stands where it began the step: so does the point, in the body's frame.
         let distance = body_surface(body, point - body_velocity(body, point) * clock.step).distance;
         if (body.info.w != 0u && distance < least) {
@@ -47,25 +47,25 @@ fn main(
     var old = vec3<f32>(0.0);
     if (row < params.node_rows) {
         let sponge = node_sponge[row];
-        let before = reaction[row];
+        let before = node_reaction[row];
         if (before.w < 0.0 && sponges.all[sponge].solver == VBD) {
-            old = position[row].xyz;
-            let turn = cross(motions[sponge * 3u + 2u].xyz, old - motions[sponge * 3u].xyz);
-            impulse = (motions[sponge * 3u + 1u].xyz + turn) * -before.w;
-            reaction[row] = vec4<f32>(before.xyz - impulse, before.w);
-            if (predicted[row].w > 0.0) {
-                body = touched(predicted[row].xyz, sponges.all[sponge].edge * MARGIN);
+            old = node_position[row].xyz;
+            let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, old - sponge_motions[sponge * 3u].xyz);
+            impulse = (sponge_motions[sponge * 3u + 1u].xyz + turn) * -before.w;
+            node_reaction[row] = vec4<f32>(before.xyz - impulse, before.w);
+            if (node_predicted[row].w > 0.0) {
+                body = touched(node_predicted[row].xyz, sponges.all[sponge].edge * MARGIN);
             }
         }
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         if (group_touches(lane, body == index)) {
             let own = select(vec3<f32>(0.0), impulse, body == index);
-            let all = group_sum(lane, Wrench(own, cross(old - bodies[index].position.xyz, own)));
+            let all = group_sum(lane, Wrench(own, cross(old - body_states[index].position.xyz, own)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
-                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+                body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                body_node_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
             }
         }
     }

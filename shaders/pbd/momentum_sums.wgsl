@@ -4,14 +4,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
-@group(0) @binding(2) var<storage, read> ranges: array<vec2<u32>>;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> free: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> reaction: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> drag: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read> drag_moment: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> motions: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> sponge_ranges: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_free: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_reaction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> node_drag: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> node_drag_moment: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> sponge_motions: array<vec4<f32>>;
 
 struct Sums {
     // First moment, and mass.
@@ -28,24 +28,24 @@ var<workgroup> sums: array<Sums, 128>;
 
 // Whether a sponge lacks its momentum together with another.
 fn is_joined(own: u32, other: u32) -> bool {
-    let pair = ranges[own * 8u + 4u + other / 64u];
+    let pair = sponge_ranges[own * 8u + 4u + other / 64u];
     let word = select(pair.x, pair.y, (other / 32u) % 2u == 1u);
     return ((word >> (other % 32u)) & 1u) != 0u;
 }
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
-    let x = position[row].xyz - origin;
-    var weight = reaction[row].w;
+    let x = node_position[row].xyz - origin;
+    var weight = node_reaction[row].w;
     if (weight > 0.0) {
-        weight += drag[row].w;
+        weight += node_drag[row].w;
     }
     let mass = abs(weight);
-    let y = predicted[row];
-    var lacking = reaction[row].xyz;
+    let y = node_predicted[row];
+    var lacking = node_reaction[row].xyz;
     var moment = vec3<f32>(0.0);
     if (y.w > 0.0) {
-        lacking += drag[row].xyz - (y.xyz - free[row].xyz) * (clock.inverse_step / y.w);
-        moment = drag_moment[row].xyz;
+        lacking += node_drag[row].xyz - (y.xyz - node_free[row].xyz) * (clock.inverse_step / y.w);
+        moment = node_drag_moment[row].xyz;
     }
     return Sums(
         vec4<f32>(x, 1.0) * mass,
@@ -76,12 +76,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     while (first < group.x && !is_joined(group.x, first)) {
         first += 1u;
     }
-    let origin = position[ranges[first * 8u].x].xyz;
+    let origin = node_position[sponge_ranges[first * 8u].x].xyz;
     var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
     for (var index = first * 4u; index < 1024u; index += 1u) {
         let sponge = index / 4u;
         if (sponge == group.x || is_joined(group.x, sponge)) {
-            let range = ranges[sponge * 8u + index % 4u];
+            let range = sponge_ranges[sponge * 8u + index % 4u];
             for (var row = range.x + lane; row < range.y; row += 128u) {
                 own = join(own, term(row, origin));
             }
@@ -123,7 +123,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
             turn = vec3<f32>(dot(a, angular), dot(b, angular), dot(c, angular)) / determinant;
         }
     }
-    motions[group.x * 3u] = vec4<f32>(centre + origin, 0.0);
-    motions[group.x * 3u + 1u] = vec4<f32>(velocity, 0.0);
-    motions[group.x * 3u + 2u] = vec4<f32>(turn, 0.0);
+    sponge_motions[group.x * 3u] = vec4<f32>(centre + origin, 0.0);
+    sponge_motions[group.x * 3u + 1u] = vec4<f32>(velocity, 0.0);
+    sponge_motions[group.x * 3u + 2u] = vec4<f32>(turn, 0.0);
 }

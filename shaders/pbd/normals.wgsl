@@ -4,21 +4,21 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> stars: array<u32>;
-@group(0) @binding(5) var<storage, read> boxes: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> rest: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> normal: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_stars: array<u32>;
+@group(0) @binding(5) var<storage, read> sponge_boxes: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_rest: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> node_normal: array<vec4<f32>>;
 
 const SMALLEST: f32 = 1.0e-3;
 
 // Whether a node may be near another sponge.
 fn is_near(sponge: u32, x: vec3<f32>) -> bool {
-    for (var other = 0u; other < arrayLength(&boxes) / 2u && other < 256u; other += 1u) {
+    for (var other = 0u; other < arrayLength(&sponge_boxes) / 2u && other < 256u; other += 1u) {
         if (!may_meet(sponge, other)) {
             continue;
         }
-        if (other == sponge || (all(x >= boxes[other * 2u].xyz) && all(x <= boxes[other * 2u + 1u].xyz))) {
+        if (other == sponge || (all(x >= sponge_boxes[other * 2u].xyz) && all(x <= sponge_boxes[other * 2u + 1u].xyz))) {
             return true;
         }
     }
@@ -36,11 +36,11 @@ fn main(
         return;
     }
     let base = row * STAR;
-    let tets = stars[base + TETS];
-    let sponge = stars[base + SPONGE];
-    let x = position[row].xyz;
-    normal[row] = vec4<f32>(0.0);
-    let weight = rest[row].w;
+    let tets = node_stars[base + TETS];
+    let sponge = node_stars[base + SPONGE];
+    let x = node_position[row].xyz;
+    node_normal[row] = vec4<f32>(0.0);
+    let weight = node_rest[row].w;
     if (weight <= 0.0 || !is_near(sponge, x)) {
         return;
     }
@@ -48,11 +48,11 @@ fn main(
     var sum = vec3<f32>(0.0);
     for (var direction = 0u; direction < 6u; direction += 1u) {
         let ring = rings[direction];
-        let u = position[stars[base + DIRECTION + direction]].xyz;
+        let u = node_position[node_stars[base + DIRECTION + direction]].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
             if (((tets >> (4u * direction + k)) & 1u) != 0u) {
-                let q = position[stars[base + ring[(k + 1u) % 4u]]].xyz;
-                let r = position[stars[base + ring[k]]].xyz;
+                let q = node_position[node_stars[base + ring[(k + 1u) % 4u]]].xyz;
+                let r = node_position[node_stars[base + ring[k]]].xyz;
                 sum -= cross(q - u, r - u);
             }
         }
@@ -61,6 +61,6 @@ fn main(
     let area = length / 6.0;
     let edge = sponges.all[sponge].edge;
     if (area > SMALLEST * edge * edge) {
-        normal[row] = vec4<f32>(sum * (weight / length), area);
+        node_normal[row] = vec4<f32>(sum * (weight / length), area);
     }
 }

@@ -4,14 +4,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
-@group(0) @binding(2) var<uniform> grid: Grid;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> normal: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> rest: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> stars: array<u32>;
-@group(0) @binding(7) var<storage, read> starts: array<u32>;
-@group(0) @binding(8) var<storage, read> grouped: array<u32>;
-@group(0) @binding(9) var<storage, read_write> list: array<u32>;
+@group(0) @binding(2) var<uniform> pair_grid: Grid;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_normal: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_rest: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_stars: array<u32>;
+@group(0) @binding(7) var<storage, read> pair_starts: array<u32>;
+@group(0) @binding(8) var<storage, read> pair_grouped: array<u32>;
+@group(0) @binding(9) var<storage, read_write> node_pairs: array<u32>;
 @group(0) @binding(10) var<storage, read_write> extremes: array<atomic<u32>>;
 
 const DEEP: f32 = 1.0;
@@ -19,19 +19,19 @@ const NEAR: f32 = 0.6;
 const APART: f32 = 4.0;
 
 fn may_touch(a: u32, b: u32, own: u32) -> bool {
-    let normal_b = normal[b];
-    let other = stars[b * STAR + SPONGE];
+    let normal_b = node_normal[b];
+    let other = node_stars[b * STAR + SPONGE];
     if (normal_b.w <= 0.0 || !may_meet(own, other)) {
         return false;
     }
     let edge = max(contact_edge(own), contact_edge(other));
     if (own == other) {
-        let apart = rest[a].xyz - rest[b].xyz;
+        let apart = node_rest[a].xyz - node_rest[b].xyz;
         if (dot(apart, apart) < APART * APART * edge * edge) {
             return false;
         }
     }
-    let pair = pair_of(position[a].xyz, position[b].xyz, normal[a].xyz, normal_b.xyz);
+    let pair = pair_of(node_position[a].xyz, node_position[b].xyz, node_normal[a].xyz, normal_b.xyz);
     let reach = REACH * edge;
     return pair.facing > 0.0 && pair.gap > -DEEP * edge && pair.gap < NEAR * edge && pair.aside < reach * reach;
 }
@@ -39,11 +39,11 @@ fn may_touch(a: u32, b: u32, own: u32) -> bool {
 // Puts a row into a list that is in order and has `found` entries.
 fn insert(row: u32, found: u32, other: u32) {
     var place = found;
-    while (place > 0u && list[place * grid.wrap.w + row] > other) {
-        list[(place + 1u) * grid.wrap.w + row] = list[place * grid.wrap.w + row];
+    while (place > 0u && node_pairs[place * pair_grid.wrap.w + row] > other) {
+        node_pairs[(place + 1u) * pair_grid.wrap.w + row] = node_pairs[place * pair_grid.wrap.w + row];
         place -= 1u;
     }
-    list[(place + 1u) * grid.wrap.w + row] = other;
+    node_pairs[(place + 1u) * pair_grid.wrap.w + row] = other;
 }
 
 @compute @workgroup_size(256)
@@ -53,34 +53,34 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= grid.wrap.w) {
+    if (clock.running == 0u || row >= pair_grid.wrap.w) {
         return;
     }
-    if (normal[row].w <= 0.0) {
-        list[row] = 0u;
+    if (node_normal[row].w <= 0.0) {
+        node_pairs[row] = 0u;
         return;
     }
-    let x = position[row].xyz;
-    let own = stars[row * STAR + SPONGE];
+    let x = node_position[row].xyz;
+    let own = node_stars[row * STAR + SPONGE];
     // Cells are half of the radius wide.
     let reach = 2.0;
     let at = vec3<f32>(
-        coordinate_of(grid, x.x, 0u),
-        coordinate_of(grid, x.y, 1u),
-        coordinate_of(grid, x.z, 2u),
+        coordinate_of(pair_grid, x.x, 0u),
+        coordinate_of(pair_grid, x.y, 1u),
+        coordinate_of(pair_grid, x.z, 2u),
     );
-    let span_x = cells_around(grid, at.x, reach + slack(at.x), 0u);
-    let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
-    let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
-    let capacity = arrayLength(&list) / grid.wrap.w - 1u;
+    let span_x = cells_around(pair_grid, at.x, reach + slack(at.x), 0u);
+    let span_y = cells_around(pair_grid, at.y, reach + slack(at.y), 1u);
+    let span_z = cells_around(pair_grid, at.z, reach + slack(at.z), 2u);
+    let capacity = arrayLength(&node_pairs) / pair_grid.wrap.w - 1u;
     var found = 0u;
     for (var z = span_z.x; z <= span_z.y; z += 1) {
         for (var y = span_y.x; y <= span_y.y; y += 1) {
-            let line = (wrapped(grid, z, 2u) * grid.size.y + wrapped(grid, y, 1u)) * grid.size.x;
+            let line = (wrapped(pair_grid, z, 2u) * pair_grid.size.y + wrapped(pair_grid, y, 1u)) * pair_grid.size.x;
             for (var cell = span_x.x; cell <= span_x.y; cell += 1) {
-                let first = line + wrapped(grid, cell, 0u);
-                for (var slot = starts[first]; slot < starts[first + 1u]; slot += 1u) {
-                    let other = grouped[slot];
+                let first = line + wrapped(pair_grid, cell, 0u);
+                for (var slot = pair_starts[first]; slot < pair_starts[first + 1u]; slot += 1u) {
+                    let other = pair_grouped[slot];
                     if (may_touch(row, other, own)) {
                         if (found < capacity) {
                             insert(row, found, other);
@@ -91,7 +91,7 @@ fn main(
             }
         }
     }
-    list[row] = found;
+    node_pairs[row] = found;
     if (found > capacity) {
         atomicMax(&extremes[9], found);
     }

@@ -3,14 +3,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> acceleration: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> grip: array<u32>;
-@group(0) @binding(6) var<storage, read> grip_offset: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> bodies: array<Body>;
-@group(0) @binding(8) var<storage, read_write> predicted: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_grip: array<u32>;
+@group(0) @binding(6) var<storage, read> node_grip_offset: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> body_states: array<Body>;
+@group(0) @binding(8) var<storage, read_write> node_predicted: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -22,20 +22,20 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    let x = position[row];
-    var y = x.xyz + clock.step * (velocity[row].xyz + clock.step * acceleration[row].xyz);
-    let holder = grip[row];
+    let x = node_position[row];
+    var y = x.xyz + clock.step * (node_velocity[row].xyz + clock.step * node_acceleration[row].xyz);
+    let holder = node_grip[row];
     if (holder < params.body_rows) {
-        let body = bodies[holder];
-        let offset = grip_offset[row].xyz;
+        let body = body_states[holder];
+        let offset = node_grip_offset[row].xyz;
         let arm = body.x.xyz * offset.x + body.y.xyz * offset.y + body.z.xyz * offset.z;
         y = body.position.xyz + arm + (body.linear.xyz + cross(body.angular.xyz, arm)) * clock.step;
     }
-    predicted[row] = vec4<f32>(y, x.w);
+    node_predicted[row] = vec4<f32>(y, x.w);
     if (lane == 0u) {
         let first = group_of(group, groups) * params.body_rows * 2u;
         for (var k = 0u; k < params.body_rows * 2u; k += 1u) {
-            wrenches[first + k] = vec4<f32>(0.0);
+            body_node_wrenches[first + k] = vec4<f32>(0.0);
         }
     }
 }

@@ -4,14 +4,14 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> goal: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> stars: array<u32>;
-@group(0) @binding(7) var<storage, read> bodies: array<Body>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_target: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_stars: array<u32>;
+@group(0) @binding(7) var<storage, read> body_states: array<Body>;
 @group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> reaction: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_reaction: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
 const MARGIN: f32 = 1.0e-2;
 
@@ -25,7 +25,7 @@ fn is_near(point: vec3<f32>, old: vec3<f32>, margin: f32) -> bool {
         }
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         let drift = body_velocity(body, point) * clock.step;
         let way = point - drift - old;
         if (body.info.w != 0u && body_surface(body, old).distance - sqrt(dot(way, way)) < margin) {
@@ -50,9 +50,9 @@ fn main(
     var sponge = sponges.all[0];
     var counts = false;
     if (row < params.node_rows) {
-        x = predicted[row];
-        old = position[row].xyz;
-        sponge = sponges.all[stars[row * STAR + SPONGE]];
+        x = node_predicted[row];
+        old = node_position[row].xyz;
+        sponge = sponges.all[node_stars[row * STAR + SPONGE]];
         counts = sponge.solver == VBD;
     }
     let free = x.w > 0.0;
@@ -63,7 +63,7 @@ fn main(
         local = local_energy(row, x.xyz, old, sponge, clock.step);
     }
     if (near) {
-        quadratic = least(local, x.xyz, goal[row], clock.step);
+        quadratic = least(local, x.xyz, node_target[row], clock.step);
     }
     let low = params.wall_low.xyz;
     let high = params.wall_high.xyz;
@@ -78,17 +78,17 @@ fn main(
     for (var index = 0u; index < params.body_rows; index += 1u) {
         var pushed = Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
         if (near) {
-            pushed = push_by_body(bodies[index], quadratic, point, old, sponge.edge * CLEARANCE, clock.step);
+            pushed = push_by_body(body_states[index], quadratic, point, old, sponge.edge * CLEARANCE, clock.step);
         }
         point += pushed.change;
         force += pushed.force;
         if (group_touches(lane, any(pushed.force != vec3<f32>(0.0)))) {
             let impulse = pushed.force * -clock.step;
-            let all = group_sum(lane, Wrench(impulse, cross(old - bodies[index].position.xyz, impulse)));
+            let all = group_sum(lane, Wrench(impulse, cross(old - body_states[index].position.xyz, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
-                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+                body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                body_node_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
             }
         }
     }
@@ -107,6 +107,6 @@ fn main(
             let trace = local.stiffness[0].x + local.stiffness[1].y + local.stiffness[2].z;
             mass = -trace / 3.0 * (clock.step * clock.step);
         }
-        reaction[row] = vec4<f32>(force * clock.step, mass);
+        node_reaction[row] = vec4<f32>(force * clock.step, mass);
     }
 }

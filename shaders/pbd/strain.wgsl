@@ -11,10 +11,10 @@ struct Batch {
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
 @group(0) @binding(2) var<uniform> batch: Batch;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> tets: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> tet_sponge: array<u32>;
-@group(0) @binding(6) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> node_predicted: array<vec4<f32>>;
 
 const SMALLEST_RATIO: f32 = 0.1;
 const RIGID: f32 = 1.0e-3;
@@ -124,19 +124,19 @@ fn main(
     if (sponge.solver != SBD) {
         return;
     }
-    let a = predicted[tet.x];
-    let b = predicted[tet.y];
-    let c = predicted[tet.z];
-    let d = predicted[tet.w];
+    let a = node_predicted[tet.x];
+    let b = node_predicted[tet.y];
+    let c = node_predicted[tet.z];
+    let d = node_predicted[tet.w];
     p0 = a.xyz;
     p1 = b.xyz;
     p2 = c.xyz;
     p3 = d.xyz;
     w = vec4<f32>(a.w, b.w, c.w, d.w);
-    old0 = position[tet.x].xyz;
-    old1 = position[tet.y].xyz;
-    old2 = position[tet.z].xyz;
-    old3 = position[tet.w].xyz;
+    old0 = node_position[tet.x].xyz;
+    old1 = node_position[tet.y].xyz;
+    old2 = node_position[tet.z].xyz;
+    old3 = node_position[tet.w].xyz;
     inverse_edge = 1.0 / sponge.edge;
     let rest = sponge.edge * sponge.edge * sponge.edge / 12.0;
     // Iterations restart from no impulse: each takes its share of the stiffness.
@@ -146,8 +146,8 @@ fn main(
     shear(per_modulus / sponge.shear_modulus, damping);
     volume(per_modulus / sponge.volume_modulus, damping, false);
     volume(per_modulus / sponge.volume_modulus * RIGID, 0.0, true);
-    predicted[tet.x] = vec4<f32>(p0, a.w);
-    predicted[tet.y] = vec4<f32>(p1, b.w);
-    predicted[tet.z] = vec4<f32>(p2, c.w);
-    predicted[tet.w] = vec4<f32>(p3, d.w);
+    node_predicted[tet.x] = vec4<f32>(p0, a.w);
+    node_predicted[tet.y] = vec4<f32>(p1, b.w);
+    node_predicted[tet.z] = vec4<f32>(p2, c.w);
+    node_predicted[tet.w] = vec4<f32>(p3, d.w);
 }

@@ -4,14 +4,14 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> normal: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> list: array<u32>;
-@group(0) @binding(7) var<storage, read_write> stars: array<u32>;
-@group(0) @binding(8) var<storage, read_write> touch: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> stiffness: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> between: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_normal: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_pairs: array<u32>;
+@group(0) @binding(7) var<storage, read_write> node_stars: array<u32>;
+@group(0) @binding(8) var<storage, read_write> node_touch: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_touch_stiffness: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> node_touch_between: array<vec4<f32>>;
 
 const STIFFNESS: f32 = 10.0;
 const TURN: f32 = 0.4;
@@ -28,28 +28,28 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    let own = stars[row * STAR + SPONGE];
-    let x_a = position[row].xyz;
-    let y_a = predicted[row].xyz;
-    let n_a = normal[row];
+    let own = node_stars[row * STAR + SPONGE];
+    let x_a = node_position[row].xyz;
+    let y_a = node_predicted[row].xyz;
+    let n_a = node_normal[row];
     var force = vec3<f32>(0.0);
     var along = vec3<f32>(0.0);
     var across = vec3<f32>(0.0);
     var lowest = 0xffffffffu;
     var highest = 0u;
-    let end = (list[row] + 1u) * params.node_rows;
+    let end = (node_pairs[row] + 1u) * params.node_rows;
     for (var slot = row + params.node_rows; slot < end; slot += params.node_rows) {
-        let other = list[slot];
-        let x_b = position[other].xyz;
-        let y_b = predicted[other].xyz;
-        let n_b = normal[other];
+        let other = node_pairs[slot];
+        let x_b = node_position[other].xyz;
+        let y_b = node_predicted[other].xyz;
+        let n_b = node_normal[other];
         let pair = pair_of(x_a, x_b, n_a.xyz, n_b.xyz);
         let n = pair.normal;
         let depth = -dot(n, y_a - y_b);
         if (depth <= 0.0) {
             continue;
         }
-        let sponge = stars[other * STAR + SPONGE];
+        let sponge = node_stars[other * STAR + SPONGE];
         let edge = max(contact_edge(own), contact_edge(sponge));
         let reach = REACH * edge;
         let closeness = max(1.0 - pair.aside / (reach * reach), 0.0);
@@ -78,14 +78,14 @@ fn main(
         lowest = own;
         highest = own;
     }
-    touch[row] = vec4<f32>(force, f32(lowest));
-    stiffness[row] = vec4<f32>(along, f32(highest));
-    between[row] = vec4<f32>(across, 0.0);
+    node_touch[row] = vec4<f32>(force, f32(lowest));
+    node_touch_stiffness[row] = vec4<f32>(along, f32(highest));
+    node_touch_between[row] = vec4<f32>(across, 0.0);
     let base = params.node_rows * STAR + row * TOUCH;
     let words = array<vec3<u32>, 3>(bitcast<vec3<u32>>(force), bitcast<vec3<u32>>(along), bitcast<vec3<u32>>(across));
     for (var k = 0u; k < 3u; k += 1u) {
-        stars[base + 3u * k] = words[k].x;
-        stars[base + 3u * k + 1u] = words[k].y;
-        stars[base + 3u * k + 2u] = words[k].z;
+        node_stars[base + 3u * k] = words[k].x;
+        node_stars[base + 3u * k + 1u] = words[k].y;
+        node_stars[base + 3u * k + 2u] = words[k].z;
     }
 }

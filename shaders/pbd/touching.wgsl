@@ -1,9 +1,9 @@
 // Which other sponges every sponge touches, one group per sponge: a bit each, behind the ranges of its nodes.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
-@group(0) @binding(1) var<storage, read> touch: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> stiffness: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> ranges: array<vec2<u32>>;
+@group(0) @binding(1) var<storage, read> node_touch: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> node_touch_stiffness: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> sponge_ranges: array<vec2<u32>>;
 
 // Bits that are only ever set, so that the order does not matter.
 var<workgroup> bits: array<atomic<u32>, 8>;
@@ -22,15 +22,15 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     workgroupBarrier();
     for (var color = 0u; color < 4u; color += 1u) {
-        let range = ranges[group.x * 8u + color];
+        let range = sponge_ranges[group.x * 8u + color];
         for (var row = range.x + lane; row < range.y; row += 128u) {
-            set_bit(u32(touch[row].w));
-            set_bit(u32(stiffness[row].w));
+            set_bit(u32(node_touch[row].w));
+            set_bit(u32(node_touch_stiffness[row].w));
         }
     }
     workgroupBarrier();
     if (lane < 4u) {
         let pair = vec2<u32>(atomicLoad(&bits[2u * lane]), atomicLoad(&bits[2u * lane + 1u]));
-        ranges[group.x * 8u + 4u + lane] = pair;
+        sponge_ranges[group.x * 8u + 4u + lane] = pair;
     }
 }

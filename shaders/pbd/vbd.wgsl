@@ -20,12 +20,12 @@ struct Batch {
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
 @group(0) @binding(3) var<storage, read> batch: Batch;
-@group(0) @binding(4) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> goal: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> stars: array<u32>;
-@group(0) @binding(7) var<storage, read> bodies: array<Body>;
+@group(0) @binding(4) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_target: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> node_stars: array<u32>;
+@group(0) @binding(7) var<storage, read> body_states: array<Body>;
 @group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> node_predicted: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -38,14 +38,14 @@ fn main(
         return;
     }
     let row = batch.first + index;
-    let sponge = sponges.all[stars[row * STAR + SPONGE]];
-    let x = predicted[row];
+    let sponge = sponges.all[node_stars[row * STAR + SPONGE]];
+    let x = node_predicted[row];
     if (x.w <= 0.0 || sponge.solver != VBD) {
         return;
     }
-    let old = position[row].xyz;
+    let old = node_position[row].xyz;
     let local = local_energy(row, x.xyz, old, sponge, clock.step);
-    let quadratic = least(local, x.xyz, goal[row], clock.step);
+    let quadratic = least(local, x.xyz, node_target[row], clock.step);
     var relaxation = 1.0;
     let edges = quadratic.way / sponge.edge;
     let short = (LONG * LONG - dot(edges, edges)) * 4.0 / (3.0 * LONG * LONG);
@@ -59,7 +59,7 @@ fn main(
         // What is in the way answers to the energy, and not to what goes beyond.
         point = pushed(quadratic, moved(x.xyz, quadratic.way), old, sponge);
     }
-    predicted[row] = vec4<f32>(point, x.w);
+    node_predicted[row] = vec4<f32>(point, x.w);
 }
 
 // A point a way on, rounded up or down by chance, in proportion to what is lost; `vbd.rs` says why.
@@ -79,7 +79,7 @@ fn pushed(quadratic: Quadratic, start: vec3<f32>, old: vec3<f32>, sponge: Sponge
         point += push_by_walls(low, high, quadratic, point, old, sponge.friction).change;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        point += push_by_body(bodies[index], quadratic, point, old, sponge.edge * CLEARANCE, clock.step).change;
+        point += push_by_body(body_states[index], quadratic, point, old, sponge.edge * CLEARANCE, clock.step).change;
     }
     if (has_walls) {
         point += push_by_walls(low, high, quadratic, point, old, 0.0).change;

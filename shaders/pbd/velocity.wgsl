@@ -6,9 +6,9 @@
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
 @group(0) @binding(3) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> position: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> node_position: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> node_velocity: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> largest: atomic<u32>;
@@ -32,10 +32,10 @@ fn main(
         moves = !is_asleep(sponges.all[node_sponge[row]]);
     }
     if (moves) {
-        let y = predicted[row];
-        let v = (y.xyz - position[row].xyz) * clock.inverse_step;
-        velocity[row] = vec4<f32>(v, velocity[row].w);
-        position[row] = y;
+        let y = node_predicted[row];
+        let v = (y.xyz - node_position[row].xyz) * clock.inverse_step;
+        node_velocity[row] = vec4<f32>(v, node_velocity[row].w);
+        node_position[row] = y;
         let square = dot(v, v);
         if (is_finite(square)) {
             atomicMax(&largest, bitcast<u32>(square));

@@ -11,11 +11,11 @@ struct Batch {
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
 @group(0) @binding(2) var<uniform> batch: Batch;
-@group(0) @binding(3) var<storage, read> position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> tets: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> tet_sponge: array<u32>;
 @group(0) @binding(6) var<storage, read> tet_weight: array<f32>;
-@group(0) @binding(7) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> node_predicted: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -32,12 +32,12 @@ fn main(
     if (sponge.solver != XPBD_NEO_HOOKEAN) {
         return;
     }
-    let p = array<vec4<f32>, 4>(predicted[tet.x], predicted[tet.y], predicted[tet.z], predicted[tet.w]);
+    let p = array<vec4<f32>, 4>(node_predicted[tet.x], node_predicted[tet.y], node_predicted[tet.z], node_predicted[tet.w]);
     let old = array<vec3<f32>, 4>(
-        position[tet.x].xyz,
-        position[tet.y].xyz,
-        position[tet.z].xyz,
-        position[tet.w].xyz,
+        node_position[tet.x].xyz,
+        node_position[tet.y].xyz,
+        node_position[tet.z].xyz,
+        node_position[tet.w].xyz,
     );
     let scale = 1.0 / sponge.edge;
     let d = (p[1].xyz - p[0].xyz) * scale;
@@ -90,6 +90,6 @@ fn main(
     let rows = array<u32, 4>(tet.x, tet.y, tet.z, tet.w);
     for (var vertex = 0; vertex < 4; vertex += 1) {
         let change = by_norm[vertex] * to_both + apart[vertex] * to_apart;
-        predicted[rows[vertex]] = vec4<f32>(p[vertex].xyz + change * p[vertex].w, p[vertex].w);
+        node_predicted[rows[vertex]] = vec4<f32>(p[vertex].xyz + change * p[vertex].w, p[vertex].w);
     }
 }

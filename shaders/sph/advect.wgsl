@@ -3,12 +3,12 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> sorted_position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> sorted_velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> sorted_id: array<u32>;
-@group(0) @binding(5) var<storage, read_write> position: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> velocity: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> id: array<u32>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_id: array<u32>;
+@group(0) @binding(5) var<storage, read_write> fluid_position_next: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> fluid_velocity_next: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> fluid_id_next: array<u32>;
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> largest: atomic<u32>;
@@ -40,8 +40,8 @@ fn main(
     }
     workgroupBarrier();
     if (row < params.fluid_rows) {
-        let own = sorted_position[row];
-        let its_velocity = sorted_velocity[row];
+        let own = fluid_position[row];
+        let its_velocity = fluid_velocity[row];
         var v = its_velocity.xyz;
         var x = own.xyz + clock.step * v;
         if (params.wall_low.w > 0.0) {
@@ -55,9 +55,9 @@ fn main(
         if (params.periods.w > 0.0) {
             x = wrapped_into_box(x);
         }
-        position[row] = vec4<f32>(x, own.w);
-        velocity[row] = vec4<f32>(v, its_velocity.w);
-        id[row] = sorted_id[row];
+        fluid_position_next[row] = vec4<f32>(x, own.w);
+        fluid_velocity_next[row] = vec4<f32>(v, its_velocity.w);
+        fluid_id_next[row] = fluid_id[row];
         let square = dot(v, v);
         if (is_finite(square) && is_finite(x.x + x.y + x.z)) {
             atomicMax(&largest, bitcast<u32>(square));

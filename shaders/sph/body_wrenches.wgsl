@@ -3,8 +3,8 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> fluid_wrenches: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> node_wrenches: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> body_fluid_wrenches: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> body_node_wrenches: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> body_wrenches: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
@@ -17,16 +17,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let fluid_groups = (params.fluid_rows + 255u) / 256u;
     for (var k = lane; k < fluid_groups; k += 256u) {
         let slot = (k * params.body_rows + body) * 2u;
-        own.impulse += fluid_wrenches[slot].xyz;
-        own.angular += fluid_wrenches[slot + 1u].xyz;
+        own.impulse += body_fluid_wrenches[slot].xyz;
+        own.angular += body_fluid_wrenches[slot + 1u].xyz;
     }
     let fluid = group_sum(lane, own);
     own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
     let node_groups = (params.node_rows + 255u) / 256u;
     for (var k = lane; k < node_groups; k += 256u) {
         let slot = (k * params.body_rows + body) * 2u;
-        own.impulse += node_wrenches[slot].xyz;
-        own.angular += node_wrenches[slot + 1u].xyz;
+        own.impulse += body_node_wrenches[slot].xyz;
+        own.angular += body_node_wrenches[slot + 1u].xyz;
     }
     let nodes = group_sum(lane, own);
     if (lane == 0u) {

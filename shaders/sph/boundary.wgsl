@@ -3,10 +3,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> body_states: array<Body>;
 @group(0) @binding(3) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> boundary: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_boundary: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -19,10 +19,10 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = predicted[row].xyz;
+    let point = fluid_predicted[row].xyz;
     var sum = wall_share(point);
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        sum += body_share(at_end(bodies[index]), point);
+        sum += body_share(at_end(body_states[index]), point);
     }
-    boundary[row] = sum;
+    fluid_boundary[row] = sum;
 }

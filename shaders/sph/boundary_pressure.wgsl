@@ -7,11 +7,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> body_states: array<Body>;
 @group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -29,12 +29,12 @@ fn main(
     var sum = vec3<f32>(0.0);
     var pressure = 0.0;
     if (is_row) {
-        own = position[row];
+        own = fluid_position[row];
         pressure = own.w * params.rest_density;
-        sum = acceleration[row].xyz - pressure * wall_share(own.xyz).xyz;
+        sum = fluid_acceleration[row].xyz - pressure * wall_share(own.xyz).xyz;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         let gradient = body_share(body, own.xyz).xyz;
         let push = pressure * gradient;
         sum -= push;
@@ -46,11 +46,11 @@ fn main(
             all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position.xyz, impulse)));
         }
         if (lane == 0u && is_slot) {
-            wrenches[slot] = vec4<f32>(all.impulse, 0.0);
-            wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
+            body_fluid_wrenches[slot] = vec4<f32>(all.impulse, 0.0);
+            body_fluid_wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
         }
     }
     if (is_row) {
-        acceleration[row] = vec4<f32>(sum, acceleration[row].w);
+        fluid_acceleration[row] = vec4<f32>(sum, fluid_acceleration[row].w);
     }
 }

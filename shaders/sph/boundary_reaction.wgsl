@@ -3,10 +3,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> body_states: array<Body>;
 @group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -22,10 +22,10 @@ fn main(
     let is_row = row < rows;
     var own = vec4<f32>(0.0);
     if (is_row) {
-        own = predicted[row];
+        own = fluid_predicted[row];
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = at_end(bodies[index]);
+        let body = at_end(body_states[index]);
         let push = own.w * body_share(body, own.xyz).xyz;
         let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
         let is_slot = group_of(group, groups) * 256u < rows;
@@ -33,8 +33,8 @@ fn main(
             let impulse = push * (clock.step * params.particle_mass);
             let all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position.xyz, impulse)));
             if (lane == 0u && is_slot) {
-                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+                body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
             }
         }
     }

@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
-@group(0) @binding(4) var<storage, read> deficit: array<f32>;
-@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(4) var<storage, read> fluid_deficit: array<f32>;
+@group(0) @binding(5) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,20 +21,20 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
-    let weight = deficit[row];
-    let end = list[row];
+    let point = fluid_position[row].xyz;
+    let weight = fluid_deficit[row];
+    let end = fluid_neighbors[row];
     var slot = row;
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
-        let apart = apart_from(point, position[other].xyz);
+        let other = fluid_neighbors[slot];
+        let apart = apart_from(point, fluid_position[other].xyz);
         let u = closeness(params.cohesion, dot(apart, apart));
-        sum += apart * (u * u * u * (weight + deficit[other]));
+        sum += apart * (u * u * u * (weight + fluid_deficit[other]));
     }
     let volume = params.cohesion_volume;
     let factor = params.cohesion_stiffness * volume * (volume / params.particle_mass);
-    let own = acceleration[row];
-    acceleration[row] = vec4<f32>(own.xyz - sum * (params.cohesion.gradient * factor), own.w);
+    let own = fluid_acceleration[row];
+    fluid_acceleration[row] = vec4<f32>(own.xyz - sum * (params.cohesion.gradient * factor), own.w);
 }

@@ -5,11 +5,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
-@group(0) @binding(4) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(4) var<storage, read> body_states: array<Body>;
 @group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> deficit: array<f32>;
+@group(0) @binding(6) var<storage, read_write> fluid_deficit: array<f32>;
 
 // Share of a surface at a distance, as in `boundary.rs`.
 fn share_of(distance: f32) -> f32 {
@@ -27,7 +27,7 @@ fn share_at(point: vec3<f32>) -> f32 {
         }
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        share += share_of(body_surface(bodies[index], point).distance);
+        share += share_of(body_surface(body_states[index], point).distance);
     }
     return share;
 }
@@ -49,15 +49,15 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
-    let end = list[row];
+    let point = fluid_position[row].xyz;
+    let end = fluid_neighbors[row];
     var slot = row;
     var sum = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let apart = apart_from(point, position[list[slot]].xyz);
+        let apart = apart_from(point, fluid_position[fluid_neighbors[slot]].xyz);
         sum += shape(closeness(params.cohesion, dot(apart, apart)));
     }
     let there = sum * (params.cohesion.value * params.cohesion_volume);
-    deficit[row] = weight(max(0.98 - there - share_at(point), 0.0));
+    fluid_deficit[row] = weight(max(0.98 - there - share_at(point), 0.0));
 }

@@ -4,13 +4,13 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read> boundary: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> acceleration: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> factors: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(5) var<storage, read> fluid_boundary: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_acceleration: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> fluid_factors: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> solve_sums: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
@@ -27,8 +27,8 @@ fn main(
     let is_row = row < rows;
     var displacement = 0.0;
     if (is_row) {
-        let before = position[row];
-        let point = predicted[row].xyz;
+        let before = fluid_position[row];
+        let point = fluid_predicted[row].xyz;
         let moved = point - before.xyz;
         displacement = dot(moved, moved);
         let volume = params.particle_mass / params.rest_density;
@@ -37,11 +37,11 @@ fn main(
         var others = 0.0;
         var shapes = 0.0;
         var pairs = 0.0;
-        let end = list[row];
+        let end = fluid_neighbors[row];
         var slot = row;
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
-            let apart = apart_from(point, predicted[list[slot]].xyz);
+            let apart = apart_from(point, fluid_predicted[fluid_neighbors[slot]].xyz);
             let square = dot(apart, apart);
             let u = closeness(params.smoothing, square);
             let c = gradient * (u * u * u);
@@ -50,7 +50,7 @@ fn main(
             pairs += c;
             shapes += shape(u);
         }
-        let wall = boundary[row];
+        let wall = fluid_boundary[row];
         own -= wall.xyz;
         let least = params.lattice_diagonal / 3.0;
         // The lists hold the particle itself, which is no pair.
@@ -58,9 +58,9 @@ fn main(
         let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step) + rough;
         let most = params.correction_speed * clock.step / params.spacing;
         let share = shapes * (params.smoothing.value * volume) + wall.w;
-        let compression = min(share - 1.0 + acceleration[row].w, most);
-        factors[row] = vec4<f32>(own, compression);
-        pressure_rows[row] = vec4<f32>(before.w * params.rest_density, 0.0, diagonal, compression);
+        let compression = min(share - 1.0 + fluid_acceleration[row].w, most);
+        fluid_factors[row] = vec4<f32>(own, compression);
+        fluid_pressure_rows[row] = vec4<f32>(before.w * params.rest_density, 0.0, diagonal, compression);
     }
     let sum = group_row(lane, vec4<f32>(displacement, 0.0, 0.0, 0.0), false);
     let place = group_of(group, groups);

@@ -7,10 +7,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(5) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -23,9 +23,9 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let own = position[row];
-    let own_velocity = velocity[row];
-    let end = list[row];
+    let own = fluid_position[row];
+    let own_velocity = fluid_velocity[row];
+    let end = fluid_neighbors[row];
     var slot = row;
     var push = vec3<f32>(0.0);
     var pull = vec3<f32>(0.0);
@@ -39,9 +39,9 @@ fn main(
     let weight = params.gravity.xyz / params.rest_density;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
-        let there = position[other];
-        let its_velocity = velocity[other];
+        let other = fluid_neighbors[slot];
+        let there = fluid_position[other];
+        let its_velocity = fluid_velocity[other];
         let apart = apart_from(own.xyz, there.xyz);
         let square = dot(apart, apart);
         let u = closeness(params.smoothing, square);
@@ -61,5 +61,5 @@ fn main(
     let central_scale =
         params.smoothing.gradient * (10.0 * params.central_viscosity / params.particle_mass) * own_volume;
     let sum = push * pressure_scale + pull * viscosity_scale + central * central_scale + params.gravity.xyz;
-    acceleration[row] = vec4<f32>(sum, roughness * (pressure_scale * params.roughness));
+    fluid_acceleration[row] = vec4<f32>(sum, roughness * (pressure_scale * params.roughness));
 }

@@ -2,8 +2,8 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> acceleration: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_acceleration: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> largest: atomic<u32>;
@@ -23,9 +23,9 @@ fn main(
     }
     workgroupBarrier();
     if (row < params.fluid_rows) {
-        let a = acceleration[row].xyz;
-        let own = velocity[row];
-        velocity[row] = vec4<f32>(own.xyz + clock.step * a, own.w);
+        let a = fluid_acceleration[row].xyz;
+        let own = fluid_velocity[row];
+        fluid_velocity[row] = vec4<f32>(own.xyz + clock.step * a, own.w);
         let square = dot(a, a);
         // Bits of numbers that are not negative have the order of the numbers; not a number is above all.
         if (is_finite(square)) {

@@ -4,9 +4,9 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> correction: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_correction: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> fluid_predicted: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -19,8 +19,8 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let change = clock.step * correction[row].xyz;
-    let before = predicted[row];
+    let change = clock.step * fluid_correction[row].xyz;
+    let before = fluid_predicted[row];
     var end = before.xyz + clock.step * change;
     if (params.wall_low.w > 0.0) {
         let margin = params.spacing * 0.05;
@@ -28,7 +28,7 @@ fn main(
         let high = params.wall_high.xyz - margin;
         end = select(select(end, high, end > high), low, end < low);
     }
-    predicted[row] = vec4<f32>(end, before.w);
-    let velocity_before = velocity[row];
-    velocity[row] = vec4<f32>(velocity_before.xyz + change, velocity_before.w);
+    fluid_predicted[row] = vec4<f32>(end, before.w);
+    let velocity_before = fluid_velocity[row];
+    fluid_velocity[row] = vec4<f32>(velocity_before.xyz + change, velocity_before.w);
 }

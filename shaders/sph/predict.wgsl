@@ -4,10 +4,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> acceleration: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> predicted: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_predicted: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -20,24 +20,24 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    var end = position[row].xyz + clock.step * velocity[row].xyz;
+    var end = fluid_position[row].xyz + clock.step * fluid_velocity[row].xyz;
     if (params.wall_low.w > 0.0) {
         let margin = params.spacing * 0.05;
         let low = params.wall_low.xyz + margin;
         let high = params.wall_high.xyz - margin;
         end = select(select(end, high, end > high), low, end < low);
     }
-    predicted[row] = vec4<f32>(end, 0.0);
+    fluid_predicted[row] = vec4<f32>(end, 0.0);
     var share = 1.0;
     let prompt = prompt_roughness();
     if (prompt < params.roughness) {
         share = prompt / params.roughness;
     }
     // More than all of the volume is no compression.
-    let own = velocity[row].w;
+    let own = fluid_velocity[row].w;
     let before = select(0.0, own, abs(own) <= 1.0);
-    let asked = acceleration[row].w;
+    let asked = fluid_acceleration[row].w;
     let allowed = before + share * (asked - before);
-    velocity[row].w = allowed;
-    acceleration[row].w = allowed + share * (asked - allowed);
+    fluid_velocity[row].w = allowed;
+    fluid_acceleration[row].w = allowed + share * (asked - allowed);
 }

@@ -2,9 +2,9 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> density: array<f32>;
-@group(0) @binding(3) var<storage, read_write> position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_density: array<f32>;
+@group(0) @binding(3) var<storage, read_write> fluid_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 
 fn pressure(rho: f32) -> f32 {
     let square = params.sound_speed * params.sound_speed;
@@ -26,7 +26,7 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let rho = density[row];
-    position[row].w = pressure(rho) / (rho * rho);
-    velocity[row].w = params.particle_mass / rho;
+    let rho = fluid_density[row];
+    fluid_position[row].w = pressure(rho) / (rho * rho);
+    fluid_velocity[row].w = params.particle_mass / rho;
 }

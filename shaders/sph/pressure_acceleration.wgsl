@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> list: array<u32>;
-@group(0) @binding(4) var<storage, read> factors: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> correction: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(4) var<storage, read> fluid_factors: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_correction: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,19 +21,19 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let own = predicted[row];
+    let own = fluid_predicted[row];
     let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
-    let end = list[row];
+    let end = fluid_neighbors[row];
     var slot = row;
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let there = predicted[list[slot]];
+        let there = fluid_predicted[fluid_neighbors[slot]];
         let apart = apart_from(own.xyz, there.xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
         sum += (gradient * (u * u * u) * there.w) * apart;
     }
-    sum += own.w * factors[row].xyz;
+    sum += own.w * fluid_factors[row].xyz;
     let roughness = prompt_roughness() / (clock.step * clock.step);
-    correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()) - own.w * roughness);
+    fluid_correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()) - own.w * roughness);
 }

@@ -2,10 +2,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> correction: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> pressure_rows: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_correction: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_pressure_rows: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> fluid_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -18,7 +18,7 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let before = velocity[row];
-    velocity[row] = vec4<f32>(before.xyz + clock.step * correction[row].xyz, before.w);
-    position[row].w = pressure_rows[row].x / params.rest_density;
+    let before = fluid_velocity[row];
+    fluid_velocity[row] = vec4<f32>(before.xyz + clock.step * fluid_correction[row].xyz, before.w);
+    fluid_position[row].w = fluid_pressure_rows[row].x / params.rest_density;
 }

@@ -5,13 +5,13 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> predicted: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> correction: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read> factors: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_correction: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(5) var<storage, read> fluid_factors: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> solve_sums: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read> solid_yield: array<f32>;
+@group(0) @binding(8) var<storage, read> fluid_solid_yield: array<f32>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -28,29 +28,29 @@ fn main(
     var sums = vec4<f32>(0.0);
     var pressure_sum = 0.0;
     if (is_row) {
-        let own = predicted[row];
+        let own = fluid_predicted[row];
         let point = own.xyz - middle();
         let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
-        let end = list[row];
+        let end = fluid_neighbors[row];
         var slot = row;
         var sum = 0.0;
         var pairs = 0.0;
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
-            let other = list[slot];
-            let shift = image_shift(own.xyz - predicted[other].xyz);
-            let apart = (own.xyz - predicted[other].xyz) + shift;
+            let other = fluid_neighbors[slot];
+            let shift = image_shift(own.xyz - fluid_predicted[other].xyz);
+            let apart = (own.xyz - fluid_predicted[other].xyz) + shift;
             let u = closeness(params.smoothing, dot(apart, apart));
-            let there = correction[other];
+            let there = fluid_correction[other];
             let c = gradient * (u * u * u);
             sum += c * (dot(there.xyz, point + shift) - there.w);
             pairs += c;
         }
-        let factor = factors[row];
+        let factor = fluid_factors[row];
         let square = clock.step * clock.step;
-        let away = dot(correction[row].xyz, factor.xyz) + pairs * own.w * (prompt_roughness() / square);
-        let left = factor.w + (sum - away + solid_yield[row]) * square;
-        let before = pressure_rows[row];
+        let away = dot(fluid_correction[row].xyz, factor.xyz) + pairs * own.w * (prompt_roughness() / square);
+        let left = factor.w + (sum - away + fluid_solid_yield[row]) * square;
+        let before = fluid_pressure_rows[row];
         let response = before.w - left;
         var error = left;
         if (left <= 0.0) {
@@ -63,7 +63,7 @@ fn main(
             response * response / before.z,
         );
         pressure_sum = before.x * before.x;
-        pressure_rows[row].w = left;
+        fluid_pressure_rows[row].w = left;
     }
     let all = group_row(lane, sums, false);
     let pressures = group_row(lane, vec4<f32>(pressure_sum, 0.0, 0.0, 0.0), false);

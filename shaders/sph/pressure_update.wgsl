@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> solve: Solve;
-@group(0) @binding(4) var<storage, read_write> predicted: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> pressure_rows: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_pressure_solve: Solve;
+@group(0) @binding(4) var<storage, read_write> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,9 +21,9 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let own = pressure_rows[row];
+    let own = fluid_pressure_rows[row];
     let speed = 10.0 * params.correction_speed;
-    let next = min(max(own.x + solve.length * own.w / own.z, 0.0), speed * speed);
-    pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
-    predicted[row].w = next - params.rest_density * position[row].w;
+    let next = min(max(own.x + fluid_pressure_solve.length * own.w / own.z, 0.0), speed * speed);
+    fluid_pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
+    fluid_predicted[row].w = next - params.rest_density * fluid_position[row].w;
 }

@@ -7,12 +7,12 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> body_states: array<Body>;
 @group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> acceleration: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
 fn push_of(distance: f32, speed: f32) -> f32 {
     let depth = params.repulsion_range - distance;
@@ -47,15 +47,15 @@ fn main(
     var speed = vec3<f32>(0.0);
     var sum = vec3<f32>(0.0);
     if (is_row) {
-        point = position[row].xyz;
-        speed = velocity[row].xyz;
-        sum = acceleration[row].xyz;
+        point = fluid_position[row].xyz;
+        speed = fluid_velocity[row].xyz;
+        sum = fluid_acceleration[row].xyz;
         if (params.wall_low.w > 0.0) {
             sum += walls(point, speed);
         }
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         let surface = body_surface(body, point);
         var push = 0.0;
         if (is_row) {
@@ -71,11 +71,11 @@ fn main(
             all = group_sum(lane, Wrench(impulse, cross(arm, impulse)));
         }
         if (lane == 0u && is_slot) {
-            wrenches[slot] = vec4<f32>(all.impulse, 0.0);
-            wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
+            body_fluid_wrenches[slot] = vec4<f32>(all.impulse, 0.0);
+            body_fluid_wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
         }
     }
     if (is_row) {
-        acceleration[row] = vec4<f32>(sum, acceleration[row].w);
+        fluid_acceleration[row] = vec4<f32>(sum, fluid_acceleration[row].w);
     }
 }

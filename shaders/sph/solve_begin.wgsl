@@ -8,7 +8,7 @@ const FIRST_LENGTH: f32 = 0.6;
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> solve_sums: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> solve: Solve;
+@group(0) @binding(3) var<storage, read_write> fluid_pressure_solve: Solve;
 
 @compute @workgroup_size(256)
 fn main(@builtin(local_invocation_index) lane: u32) {
@@ -25,6 +25,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (lane == 0u) {
         let displacement = sqrt(sum / f32(max(params.fluid_rows, 1u))) / params.spacing;
         let tolerance = max(displacement * ERROR_PER_DISPLACEMENT, LEAST_TOLERANCE);
-        solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u, 0u, 0u);
+        fluid_pressure_solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u, 0u, 0u);
     }
 }

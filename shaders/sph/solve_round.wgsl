@@ -6,7 +6,7 @@ const FIRST_LENGTH: f32 = 0.6;
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> solve_sums: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> solve: Solve;
+@group(0) @binding(3) var<storage, read_write> fluid_pressure_solve: Solve;
 @group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
 @group(0) @binding(5) var<storage, read_write> extremes: array<u32, 12>;
 
@@ -29,21 +29,21 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         return;
     }
     let particles = f32(max(params.fluid_rows, 1u));
-    let rounds = solve.rounds + 1u;
-    solve.rounds = rounds;
-    solve.error = sums.x / particles;
-    solve.pressure = sqrt(pressure_sum / particles);
-    extremes[8] = bitcast<u32>(solve.pressure);
-    let has_converged = solve.error <= solve.tolerance || rounds >= params.solve_rounds;
-    solve.has_converged = select(0u, 1u, has_converged);
+    let rounds = fluid_pressure_solve.rounds + 1u;
+    fluid_pressure_solve.rounds = rounds;
+    fluid_pressure_solve.error = sums.x / particles;
+    fluid_pressure_solve.pressure = sqrt(pressure_sum / particles);
+    extremes[8] = bitcast<u32>(fluid_pressure_solve.pressure);
+    let has_converged = fluid_pressure_solve.error <= fluid_pressure_solve.tolerance || rounds >= params.solve_rounds;
+    fluid_pressure_solve.has_converged = select(0u, 1u, has_converged);
     convergence[0] = select(1u, 0u, has_converged);
-    solve.length = FIRST_LENGTH;
+    fluid_pressure_solve.length = FIRST_LENGTH;
     let below = select(sums.w, sums.z, rounds % 2u == 0u);
     let above = select(sums.z, sums.y, rounds % 2u == 0u);
     if (rounds > 1u && sums.z > 0.0 && below > 0.0) {
         let ratio = above / below;
         if (is_finite(ratio)) {
-            solve.length = clamp(ratio, 0.2, 20.0);
+            fluid_pressure_solve.length = clamp(ratio, 0.2, 20.0);
         }
     }
 }

@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read_write> acceleration: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(5) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,26 +21,26 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
-    let end = list[row];
+    let point = fluid_position[row].xyz;
+    let end = fluid_neighbors[row];
     var slot = row;
     var slopes = vec3<f32>(0.0);
     var laplacian = 0.0;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
-        let apart = apart_from(point, position[other].xyz);
+        let other = fluid_neighbors[slot];
+        let apart = apart_from(point, fluid_position[other].xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
-        let weight = velocity[other].w * u * u;
+        let weight = fluid_velocity[other].w * u * u;
         slopes -= (weight * u) * apart;
         laplacian -= weight * (u + u - 1.0);
     }
     let normal = slopes * params.smoothing.gradient;
     let length = sqrt(dot(normal, normal));
     if (length > 1.0 / params.smoothing.radius) {
-        let strength = laplacian * params.smoothing.laplacian * velocity[row].w
+        let strength = laplacian * params.smoothing.laplacian * fluid_velocity[row].w
             * (params.surface_tension / params.particle_mass);
-        let own = acceleration[row];
-        acceleration[row] = vec4<f32>(own.xyz - (strength / length) * normal, own.w);
+        let own = fluid_acceleration[row];
+        fluid_acceleration[row] = vec4<f32>(own.xyz - (strength / length) * normal, own.w);
     }
 }

@@ -3,11 +3,11 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> body_states: array<Body>;
 @group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -23,12 +23,12 @@ fn main(
     var start = vec3<f32>(0.0);
     var own = vec4<f32>(0.0);
     if (is_row) {
-        start = position[row].xyz;
-        own = velocity[row];
+        start = fluid_position[row].xyz;
+        own = fluid_velocity[row];
     }
     let margin = params.spacing * 0.05;
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let before = bodies[index];
+        let before = body_states[index];
         let after = at_end(before);
         let end = start + clock.step * own.xyz;
         var moved = vec3<f32>(0.0);
@@ -41,13 +41,13 @@ fn main(
             let all = group_sum(lane, Wrench(impulse, cross(end + moved - after.position.xyz, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
-                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+                body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
             }
             own = vec4<f32>(own.xyz + change, own.w);
         }
     }
     if (is_row) {
-        velocity[row] = own;
+        fluid_velocity[row] = own;
     }
 }

@@ -5,12 +5,12 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read_write> viscosity_residual: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> viscosity_direction: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> viscosity_solve: ViscositySolve;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(5) var<storage, read_write> fluid_viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> fluid_viscosity_direction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> fluid_viscosity_solve: ViscositySolve;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -23,21 +23,21 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let point = position[row].xyz;
-    let own = velocity[row];
-    let end = list[row];
+    let point = fluid_position[row].xyz;
+    let own = fluid_velocity[row];
+    let end = fluid_neighbors[row];
     var slot = row;
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
-        let other = list[slot];
-        let there = velocity[other];
-        sum += viscosity_pair(apart_from(point, position[other].xyz), own.xyz - there.xyz);
+        let other = fluid_neighbors[slot];
+        let there = fluid_velocity[other];
+        sum += viscosity_pair(apart_from(point, fluid_position[other].xyz), own.xyz - there.xyz);
     }
-    let residual = viscosity_residual[row].xyz - clock.step * sum;
-    viscosity_residual[row] = vec4<f32>(residual, 0.0);
-    viscosity_direction[row] = vec4<f32>(residual, 0.0);
+    let residual = fluid_viscosity_residual[row].xyz - clock.step * sum;
+    fluid_viscosity_residual[row] = vec4<f32>(residual, 0.0);
+    fluid_viscosity_direction[row] = vec4<f32>(residual, 0.0);
     if (row == 0u) {
-        viscosity_solve = ViscositySolve(0.0, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u);
+        fluid_viscosity_solve = ViscositySolve(0.0, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u);
     }
 }

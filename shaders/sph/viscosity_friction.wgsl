@@ -5,14 +5,14 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> body_states: array<Body>;
 @group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> friction: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> friction_between: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> viscosity_residual: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> viscosity_change: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> fluid_friction: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> fluid_friction_between: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_viscosity_change: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -24,8 +24,8 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let point = position[row].xyz;
-    let v = velocity[row].xyz;
+    let point = fluid_position[row].xyz;
+    let v = fluid_velocity[row].xyz;
     var axes = vec3<f32>(0.0);
     var between = vec3<f32>(0.0);
     if (params.wall_low.w > 0.0 && params.no_slip > 0u) {
@@ -38,7 +38,7 @@ fn main(
     }
     var slowed = axes * v;
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         if (body.surface.y > 0.0) {
             let surface = body_surface(body, point);
             let rate = friction_rate(surface.distance);
@@ -49,8 +49,8 @@ fn main(
             slowed += rate * (slide - n * dot(slide, n));
         }
     }
-    friction[row] = vec4<f32>(axes, 0.0);
-    friction_between[row] = vec4<f32>(between, 0.0);
-    viscosity_residual[row] = vec4<f32>(-clock.step * slowed, 0.0);
-    viscosity_change[row] = vec4<f32>(0.0);
+    fluid_friction[row] = vec4<f32>(axes, 0.0);
+    fluid_friction_between[row] = vec4<f32>(between, 0.0);
+    fluid_viscosity_residual[row] = vec4<f32>(-clock.step * slowed, 0.0);
+    fluid_viscosity_change[row] = vec4<f32>(0.0);
 }

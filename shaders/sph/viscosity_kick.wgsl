@@ -3,10 +3,10 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> viscosity_change: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> viscosity_residual: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> viscosity_solve: ViscositySolve;
-@group(0) @binding(5) var<storage, read_write> velocity: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_viscosity_change: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_viscosity_solve: ViscositySolve;
+@group(0) @binding(5) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -18,8 +18,8 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let own = velocity[row];
-    let share = f32(viscosity_solve.is_solved);
-    let change = viscosity_change[row].xyz + share * viscosity_residual[row].xyz;
-    velocity[row] = vec4<f32>(own.xyz + change, own.w);
+    let own = fluid_velocity[row];
+    let share = f32(fluid_viscosity_solve.is_solved);
+    let change = fluid_viscosity_change[row].xyz + share * fluid_viscosity_residual[row].xyz;
+    fluid_velocity[row] = vec4<f32>(own.xyz + change, own.w);
 }

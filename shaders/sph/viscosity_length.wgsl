@@ -3,7 +3,7 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<storage, read> viscosity_sums: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read_write> viscosity_solve: ViscositySolve;
+@group(0) @binding(2) var<storage, read_write> fluid_viscosity_solve: ViscositySolve;
 
 @compute @workgroup_size(256)
 fn main(@builtin(local_invocation_index) lane: u32) {
@@ -19,12 +19,12 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (lane != 0u) {
         return;
     }
-    viscosity_solve.length = 0.0;
-    viscosity_solve.share = 0.0;
+    fluid_viscosity_solve.length = 0.0;
+    fluid_viscosity_solve.share = 0.0;
     // There is no direction where nothing moves.
     if (sums.x > 0.0) {
         let length = sums.y / sums.x;
-        viscosity_solve.length = length;
-        viscosity_solve.share = (length * sums.w - sums.z) / sums.x;
+        fluid_viscosity_solve.length = length;
+        fluid_viscosity_solve.share = (length * sums.w - sums.z) / sums.x;
     }
 }

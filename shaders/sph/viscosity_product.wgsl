@@ -6,13 +6,13 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> viscosity_direction: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> list: array<u32>;
-@group(0) @binding(5) var<storage, read> friction: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> friction_between: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> viscosity_residual: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read_write> viscosity_product: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_viscosity_direction: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_neighbors: array<u32>;
+@group(0) @binding(5) var<storage, read> fluid_friction: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_friction_between: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> fluid_viscosity_residual: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_viscosity_product: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> viscosity_sums: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
@@ -28,23 +28,23 @@ fn main(
     let rows = params.fluid_rows;
     var sums = vec4<f32>(0.0);
     if (row < rows) {
-        let point = position[row].xyz;
-        let own = viscosity_direction[row];
-        let end = list[row];
+        let point = fluid_position[row].xyz;
+        let own = fluid_viscosity_direction[row];
+        let end = fluid_neighbors[row];
         var slot = row;
         var sum = vec3<f32>(0.0);
         for (var k = 0u; k < end; k += 1u) {
             slot += rows;
-            let other = list[slot];
-            let there = viscosity_direction[other];
-            sum += viscosity_pair(apart_from(point, position[other].xyz), own.xyz - there.xyz);
+            let other = fluid_neighbors[slot];
+            let there = fluid_viscosity_direction[other];
+            sum += viscosity_pair(apart_from(point, fluid_position[other].xyz), own.xyz - there.xyz);
         }
         let p = own.xyz;
-        let between = friction_between[row].xyz;
-        let slowed = friction[row].xyz * p + between.yzx * p.zxy + between.zxy * p.yzx;
+        let between = fluid_friction_between[row].xyz;
+        let slowed = fluid_friction[row].xyz * p + between.yzx * p.zxy + between.zxy * p.yzx;
         let q = p + clock.step * (sum + slowed);
-        let r = viscosity_residual[row].xyz;
-        viscosity_product[row] = vec4<f32>(q, 0.0);
+        let r = fluid_viscosity_residual[row].xyz;
+        fluid_viscosity_product[row] = vec4<f32>(q, 0.0);
         sums = vec4<f32>(dot(p, q), dot(r, p), dot(r, q), dot(q, q));
     }
     let all = group_row(lane, sums, false);

@@ -5,12 +5,12 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> viscosity_change: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_viscosity_change: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> body_states: array<Body>;
 @group(0) @binding(6) var<storage, read> planes: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> wrenches: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -26,11 +26,11 @@ fn main(
     var point = vec3<f32>(0.0);
     var v = vec3<f32>(0.0);
     if (is_row) {
-        point = position[row].xyz;
-        v = velocity[row].xyz + viscosity_change[row].xyz;
+        point = fluid_position[row].xyz;
+        v = fluid_velocity[row].xyz + fluid_viscosity_change[row].xyz;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let body = bodies[index];
+        let body = body_states[index];
         var slowed = vec3<f32>(0.0);
         if (is_row && body.surface.y > 0.0) {
             let surface = body_surface(body, point);
@@ -42,8 +42,8 @@ fn main(
             let all = group_sum(lane, Wrench(impulse, cross(point - body.position.xyz, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
-                wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
+                body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
+                body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
             }
         }
     }

@@ -4,7 +4,7 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> viscosity_sums: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read_write> viscosity_solve: ViscositySolve;
+@group(0) @binding(3) var<storage, read_write> fluid_viscosity_solve: ViscositySolve;
 @group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
 
 @compute @workgroup_size(256)
@@ -22,13 +22,13 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         return;
     }
     let particles = f32(max(params.fluid_rows, 1u));
-    let rounds = viscosity_solve.rounds + 1u;
-    viscosity_solve.rounds = rounds;
-    viscosity_solve.residual = sqrt(sums.x / particles);
-    viscosity_solve.change = sqrt(sums.y / particles);
-    let is_solved = viscosity_solve.residual <= params.viscosity_tolerance * viscosity_solve.change;
+    let rounds = fluid_viscosity_solve.rounds + 1u;
+    fluid_viscosity_solve.rounds = rounds;
+    fluid_viscosity_solve.residual = sqrt(sums.x / particles);
+    fluid_viscosity_solve.change = sqrt(sums.y / particles);
+    let is_solved = fluid_viscosity_solve.residual <= params.viscosity_tolerance * fluid_viscosity_solve.change;
     let has_converged = is_solved || rounds >= params.viscosity_rounds;
-    viscosity_solve.is_solved = select(0u, 1u, is_solved);
-    viscosity_solve.has_converged = select(0u, 1u, has_converged);
+    fluid_viscosity_solve.is_solved = select(0u, 1u, is_solved);
+    fluid_viscosity_solve.has_converged = select(0u, 1u, has_converged);
     convergence[0] = select(1u, 0u, has_converged);
 }

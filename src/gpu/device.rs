@@ -8,10 +8,7 @@ use sorb_kernels::{
     columns::{Column, Columns},
     couple::weights::weigh,
     cpu::Cpu,
-    gpu::{
-        Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Stage, Start, StepLimits, is_internal,
-        make_room,
-    },
+    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Stage, Start, StepLimits, make_room},
     kernel::has_converged,
     params::Params,
 };
@@ -29,7 +26,7 @@ const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve
 
 /// Scratch columns that the host looks at after a step that it shares with a device.
 pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
-    let observed = observed.iter().filter(|column| !is_internal(**column));
+    let observed = observed.iter().filter(|column| !column.is_on_host_only());
     LOOKED_AT.iter().chain(&EXTREMES).chain(observed).copied().collect()
 }
 
@@ -91,7 +88,7 @@ impl Device {
             let is_state = column.life() == Life::State;
             (is_state || LOOKED_AT.contains(column) || observed.contains(column))
                 && written.contains(column)
-                && !is_internal(*column)
+                && !column.is_on_host_only()
         };
         let looked_at = Column::ALL.iter().copied().filter(wanted).collect();
         let stages = |plan: &Plan| {
@@ -204,7 +201,7 @@ impl Device {
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
         // What is looked at may be what nobody computes anew while a part sleeps.
         let lives = |column: &Column| {
-            (column.life() != Life::Scratch || LOOKED_AT.contains(column)) && !is_internal(*column)
+            (column.life() != Life::Scratch || LOOKED_AT.contains(column)) && !column.is_on_host_only()
         };
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;

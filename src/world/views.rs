@@ -1,6 +1,12 @@
 //! What a host may look at: read-only views of a world.
 
-use sorb_kernels::{body::Body, columns::Columns, cpu::Cpu, params::Params, sph};
+use sorb_kernels::{
+    body::Body,
+    columns::{Columns, lane},
+    cpu::Cpu,
+    params::Params,
+    sph,
+};
 
 use super::World;
 use crate::{
@@ -113,7 +119,11 @@ impl World {
         let parameters = &self.params.fluid;
         let Some(solve) = &parameters.incompressible else {
             let rows = fluid.position.iter().zip(&fluid.density).take(count);
-            let mut pressures: Vec<_> = rows.map(|(row, density)| row[3] * density * density).collect();
+            let mut pressures: Vec<_> = rows
+                .map(|(row, density)| {
+                    row[lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] * density * density
+                })
+                .collect();
             pressures.resize(count, 0.0);
             return pressures;
         };
@@ -125,7 +135,11 @@ impl World {
         let (inside, lack) = ((inside as f32) * square, ((inside - beside) as f32) * square);
         let shares = sph::boundary::shares(&self.cpu, &self.params, self.columns());
         let rows = fluid.position.iter().zip(&shares).take(count);
-        rows.map(|(row, share)| row[3] * (inside - lack * (share[3] / whole).min(2.0))).collect()
+        rows.map(|(row, share)| {
+            row[lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]
+                * (inside - lack * (share[lane::fluid::boundary::SHARE] / whole).min(2.0))
+        })
+        .collect()
     }
 
     /// Identities of the particles: `ids[row]` is the same particle for ever.

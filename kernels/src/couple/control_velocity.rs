@@ -23,7 +23,9 @@ declare! {
     writes: [ControlVelocity, ControlUnfiltered, FluidDrag],
     oracle: crate::oracle::couple::control_velocity,
     bound: 6e-6,
-    twin: [pass("couple::begin_drag", FluidOrNodes, FROM_FLUID), pass(NAME, Controls, FROM_FLUID)],
+    // Weights are computed where they are needed.
+    twin_reads: [FluidPosition, ControlPosition],
+    twin: [pass("couple::begin_drag", FluidOrNodes), pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {

@@ -2,7 +2,7 @@
 
 use crate::{
     column::{FAR_ROW, padded},
-    columns::Columns,
+    columns::{Columns, lane},
     cpu::Cpu,
     grid::sort::permute,
     kernel::declare,
@@ -15,14 +15,16 @@ declare! {
     writes: [ControlNode, ControlCells, ControlPosition, FluidControls, ControlFluid],
     oracle: crate::oracle::couple::controls,
     bound: 1e-6,
+    // The longest list that does not fit.
+    twin_writes: [FluidExtremes],
     twin: [
-        pass("grid::count", Nodes, CONTROLS),
-        pass("grid::scan_sums", ControlScan, CONTROLS),
-        pass("grid::scan_pages", ControlPages, CONTROLS),
-        pass("grid::scatter", Nodes, CONTROLS),
-        pass(NAME, Nodes, CONTROLS),
-        pass("couple::near_fluid", Fluid, NEAR_FLUID),
-        pass("couple::near_controls", Controls, NEAR_CONTROLS),
+        pass("grid::count", Nodes).on(CONTROL_CELLS),
+        pass("grid::scan_sums", ControlScan).on(CONTROL_CELLS),
+        pass("grid::scan_pages", ControlPages).on(CONTROL_CELLS),
+        pass("grid::scatter", Nodes).on(CONTROL_CELLS),
+        pass(NAME, Nodes),
+        pass("couple::near_fluid", Fluid),
+        pass("couple::near_controls", Controls),
         CHECK,
     ],
 }
@@ -37,14 +39,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     controls.position.resize(padded(count), FAR_ROW);
     permute(cpu, &controls.node, &nodes.position, &mut controls.position);
     for (row, node) in controls.node.iter().enumerate() {
-        controls.position[row][3] = nodes.volume[*node as usize];
+        controls.position[row][lane::controls::position::VOLUME] = nodes.volume[*node as usize];
     }
     if !nodes.wetting.is_empty() {
         for (row, node) in controls.node.iter().enumerate() {
             let node = *node as usize;
             let wetting = &params.sponges[nodes.sponge[node] as usize].wetting;
             let size = wetting.size(nodes.wetting[node][0]);
-            controls.position[row][3] *= size * size * size;
+            controls.position[row][lane::controls::position::VOLUME] *= size * size * size;
         }
     }
     let (particles, controls_rows) = ((&fluid.position[..], particles), (&controls.position[..], count));

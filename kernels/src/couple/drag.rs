@@ -32,7 +32,9 @@ declare! {
     writes: [FluidDrag],
     oracle: crate::oracle::couple::drag,
     bound: 2e-6,
-    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+    // Weights are computed where they are needed.
+    twin_reads: [FluidPosition, ControlPosition],
+    twin: [pass(NAME, Fluid)],
 }
 
 /// Interior value below which a particle feels no drag.

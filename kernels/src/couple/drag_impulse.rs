@@ -28,7 +28,9 @@ declare! {
     writes: [FluidDrag],
     oracle: crate::oracle::porous::drag_impulse,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+    // Weights are computed where they are needed.
+    twin_reads: [FluidPosition, ControlPosition],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

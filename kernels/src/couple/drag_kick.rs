@@ -12,7 +12,7 @@ declare! {
     writes: [FluidVelocity],
     oracle: crate::oracle::porous::drag_kick,
     bound: 4e-6,
-    twin: [pass("couple::exchange_fluid", Fluid, FROM_CONTROLS)],
+    twin: [pass("couple::exchange_fluid", Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

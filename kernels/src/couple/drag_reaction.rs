@@ -22,7 +22,7 @@ declare! {
     writes: [NodeDrag, NodeDragMoment],
     oracle: crate::oracle::porous::drag_reaction,
     bound: 2e-5,
-    twin: [pass(NAME, Controls, FROM_FLUID)],
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {

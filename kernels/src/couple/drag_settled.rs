@@ -7,7 +7,12 @@
 //! While drag answers to the motion that a sponge is given, `pbd::momentum` moves the mass of the fluid as well. The last motion must leave
 //! the nodes with the impulses that the particles lose, to rounding: it moves the sponge alone, and nothing asks for the drag again.
 
-use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
+use crate::{
+    columns::{Columns, lane},
+    cpu::Cpu,
+    kernel::declare,
+    params::Params,
+};
 
 declare! {
     needs: [Fluid, Solver(Vbd), Incompressible, Porous],
@@ -15,9 +20,11 @@ declare! {
     writes: [NodeDrag],
     oracle: crate::oracle::porous::drag_settled,
     bound: 1e-12,
-    twin: [pass(NAME, Nodes, FROM_FLUID)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
-    cpu.for_chunks(&mut columns.nodes.drag[..], |_, drag| drag.iter_mut().for_each(|row| row[3] = 0.0));
+    cpu.for_chunks(&mut columns.nodes.drag[..], |_, drag| {
+        drag.iter_mut().for_each(|row| row[lane::nodes::drag::MASS] = 0.0)
+    });
 }

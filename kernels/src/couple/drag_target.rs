@@ -17,7 +17,7 @@
 //! it is one mass, the node's own and that of the fluid, which is drawn to the mean of both targets.
 
 use crate::{
-    columns::{Columns, Controls},
+    columns::{Columns, Controls, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
@@ -33,7 +33,9 @@ declare! {
     oracle: crate::oracle::porous::drag_target,
     // Few particles hardly move the target of a node.
     bound: 1.5e-4,
-    twin: [pass(NAME, Controls, FROM_FLUID)],
+    // Weights are computed where they are needed.
+    twin_reads: [FluidPosition],
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -60,11 +62,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     nodes.target.clone_from(&nodes.free);
     for ((node, place), moved) in node.iter().zip(position).zip(&moved) {
         let (free, target) = (nodes.free[*node as usize], &mut nodes.target[*node as usize]);
-        let mass = free[3] + moved[3];
-        if free[3] > 0.0 {
-            let share = moved[3] / mass;
+        let mass = free[lane::nodes::free::MASS] + moved[lane::fluid::drag::MASS];
+        if free[lane::nodes::free::MASS] > 0.0 {
+            let share = moved[lane::fluid::drag::MASS] / mass;
             (0..3).for_each(|axis| target[axis] += (place[axis] + moved[axis] - free[axis]) * share);
-            target[3] = mass;
+            target[lane::nodes::target::MASS] = mass;
         }
     }
 }

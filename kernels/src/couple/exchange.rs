@@ -26,7 +26,9 @@ declare! {
     oracle: crate::oracle::couple::exchange,
     bound: 2e-6,
     twin_bound: 5e-6,
-    twin: [pass(NAME, Controls, FROM_FLUID), pass("couple::exchange_fluid", Fluid, FROM_CONTROLS)],
+    // Weights are computed where they are needed.
+    twin_reads: [FluidPosition, ControlPosition],
+    twin: [pass(NAME, Controls), pass("couple::exchange_fluid", Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

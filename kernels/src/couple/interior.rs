@@ -12,7 +12,7 @@
 use super::solid_yield::following;
 use crate::{
     column::{FAR_ROW, padded},
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     grid::{cells::Cells, neighbors::Neighbors, sort::permute},
     kernel::declare,
@@ -27,7 +27,7 @@ declare! {
     writes: [FluidControlWeights, FluidInterior, FluidDragRate],
     oracle: crate::oracle::couple::interior,
     bound: 2e-6,
-    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -37,12 +37,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let mut pores = vec![[0.0; 4]; controls.len()];
     for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
         *pores = columns.nodes.pores[*node as usize];
-        pores[0] *= following(pores[3]);
+        pores[0] *= following(pores[lane::nodes::pores::POROSITY]);
     }
     let has_wetting = !columns.nodes.wetting.is_empty();
     if has_wetting {
         for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
-            pores[3] = columns.nodes.wetting[*node as usize][3];
+            pores[lane::nodes::pores::POROSITY] =
+                columns.nodes.wetting[*node as usize][lane::nodes::wetting::MOBILITY];
         }
     }
     interior.resize(position.len(), 0.0);
@@ -95,7 +96,7 @@ pub fn node_interior(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<f32> 
     let mut sorted = vec![FAR_ROW; padded(count)];
     permute(cpu, &cells.order, &nodes.position, &mut sorted);
     for (row, node) in sorted.iter_mut().zip(&cells.order) {
-        row[3] = nodes.volume[*node as usize];
+        row[lane::controls::position::VOLUME] = nodes.volume[*node as usize];
     }
     let mut lists = Neighbors::default();
     lists.build(cpu, (&sorted, count), (&sorted, count), &cells, (params.coupling.support_radius, None));
@@ -107,7 +108,7 @@ pub fn node_interior(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<f32> 
             .map(|other| {
                 let (a, b) = (sorted[row], sorted[other as usize]);
                 let square: f64 = (0..3).map(|axis| f64::from(a[axis] - b[axis]).powi(2)).sum();
-                f64::from(b[3]) * Wendland::value_f64(radius, square.sqrt())
+                f64::from(b[lane::controls::position::VOLUME]) * Wendland::value_f64(radius, square.sqrt())
             })
             .sum();
         interior[*node as usize] = sum as f32;

@@ -12,7 +12,7 @@ declare! {
     writes: [ControlVelocity],
     oracle: crate::oracle::porous::node_velocity,
     bound: 4e-6,
-    twin: [pass(NAME, Nodes, FROM_FLUID)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

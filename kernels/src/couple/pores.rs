@@ -28,7 +28,7 @@ declare! {
     writes: [NodePores],
     oracle: crate::oracle::porous::pores,
     bound: 1e-5,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 /// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.

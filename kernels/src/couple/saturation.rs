@@ -8,7 +8,7 @@
 //! `p_e` and so holds its water; a dry one sucks more strongly, by the gain g.
 
 use crate::{
-    columns::{Columns, Controls},
+    columns::{Columns, Controls, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
@@ -22,7 +22,7 @@ declare! {
     oracle: crate::oracle::couple::saturation,
     bound: 3e-6,
     twin_bound: 1e-5,
-    twin: [pass(NAME, Controls, FROM_FLUID)],
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -61,7 +61,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let dry = 1.0 - saturation[row];
             let dry = if dry > 0.0 { dry } else { 0.0 };
             let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
-            suction[row] = pressure * nodes.suction[node] * position[first + row][3];
+            suction[row] =
+                pressure * nodes.suction[node] * position[first + row][lane::controls::position::VOLUME];
         }
     });
     nodes.saturation.clear();

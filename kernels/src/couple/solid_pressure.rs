@@ -17,7 +17,7 @@
 
 use crate::{
     column::padded,
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
@@ -33,7 +33,7 @@ declare! {
     writes: [FluidAcceleration, ControlSolid],
     oracle: crate::oracle::porous::solid_pressure,
     bound: 2e-5,
-    twin: [pass("couple::expect_solid", Nodes, FROM_FLUID), pass(NAME, Fluid, FROM_CONTROLS)],
+    twin: [pass("couple::expect_solid", Nodes), pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -76,11 +76,16 @@ fn expect(params: &Params, columns: &mut Columns) {
     for (solid, node) in controls.solid.iter_mut().zip(&controls.node) {
         let node = *node as usize;
         let (x, v, a) = (nodes.position[node], nodes.velocity[node], nodes.acceleration[node]);
-        let share = if x[3] > 0.0 { v[3] } else { 0.0 };
+        let share = if x[lane::nodes::position::INVERSE_MASS] > 0.0 {
+            v[lane::nodes::velocity::FOLLOWED_SHARE]
+        } else {
+            0.0
+        };
         for axis in 0..3 {
             solid[axis] = x[axis] + step * (v[axis] + step * share * a[axis]);
         }
         // Of the dry node: swelling makes wider pores, not more material.
-        solid[3] = (1.0 - params.sponges[nodes.sponge[node] as usize].porosity) * nodes.volume[node];
+        solid[lane::controls::solid::VOLUME] =
+            (1.0 - params.sponges[nodes.sponge[node] as usize].porosity) * nodes.volume[node];
     }
 }

@@ -8,7 +8,7 @@
 //! that follows has to bear.
 
 use crate::{
-    columns::Columns,
+    columns::{Columns, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
@@ -25,7 +25,7 @@ declare! {
     writes: [NodeAcceleration],
     oracle: crate::oracle::porous::solid_reaction,
     bound: 4e-6,
-    twin: [pass(NAME, Controls, FROM_FLUID)],
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -62,7 +62,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
     for (node, force) in controls.node.iter().zip(&force) {
         let node = *node as usize;
-        let inverse_mass = nodes.position[node][3];
+        let inverse_mass = nodes.position[node][lane::nodes::position::INVERSE_MASS];
         (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * inverse_mass);
     }
 }

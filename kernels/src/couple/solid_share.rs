@@ -20,7 +20,7 @@ declare! {
     writes: [FluidBoundary],
     oracle: crate::oracle::porous::solid_share,
     bound: 5e-5,
-    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

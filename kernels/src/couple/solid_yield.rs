@@ -24,10 +24,10 @@ use crate::{
 declare! {
     needs: [Fluid, Sponge, Incompressible, Porous],
     reads: [FluidPredicted, FluidNeighbors, FluidPairs, FluidDragRate],
-    writes: [FluidYield],
+    writes: [FluidSolidYield],
     oracle: crate::oracle::incompressible::solid_yield,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 /// How far the material follows, over as much water, and the most that it does over the water beside it \[1\]. Sponges of a porosity of

@@ -20,7 +20,7 @@ declare! {
     writes: [FluidAcceleration],
     oracle: crate::oracle::couple::suction,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FROM_CONTROLS)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -23,7 +23,9 @@ declare! {
     oracle: crate::oracle::couple::velocity_filter,
     bound: 2e-6,
     twin_bound: 5e-6,
-    twin: [pass(NAME, Controls, FROM_FLUID)],
+    // Weights are computed where they are needed.
+    twin_reads: [FluidPosition, ControlPosition],
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {

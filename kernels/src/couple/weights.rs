@@ -1,7 +1,7 @@
 //! Weights of the coupling on the host, where a device has made the lists: it keeps none that could be fetched.
 
 use crate::{
-    columns::{Column, Columns},
+    columns::{Column, Columns, lane},
     cpu::CHUNK,
     lanes::LANES,
     params::Params,
@@ -31,7 +31,11 @@ pub fn weigh(params: &Params, columns: &mut Columns, column: Column) {
             return 0.0;
         };
         let square: f64 = (0..3).map(|axis| f64::from(query[axis] - target[axis]).powi(2)).sum();
-        let volume = if is_of_fluid { target[3] } else { query[3] };
+        let volume = if is_of_fluid {
+            target[lane::controls::position::VOLUME]
+        } else {
+            query[lane::controls::position::VOLUME]
+        };
         (f64::from(volume) * Wendland::value_f64(radius, square.sqrt())) as f32
     };
     for (chunk, values) in values.match_lists(lists).0.iter_mut().enumerate() {

@@ -21,7 +21,7 @@
 //! water that sways within a part B of the pores stays as lively as it is.
 
 use crate::{
-    columns::Columns,
+    columns::{Columns, lane},
     cpu::Cpu,
     kernel::declare,
     params::{Params, SpongeParams},
@@ -35,7 +35,7 @@ declare! {
     writes: [ControlSaturation, ControlSuction, NodeSaturation, NodeWetting],
     oracle: crate::oracle::wetting::wetting,
     bound: 5e-5,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 /// Change of the saturation over which the suction goes from that of advancing water to that of receding water.
@@ -63,7 +63,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let (wetting, pressure) = of_node(sponge, before, filled, params.step);
             now[row] = wetting;
             saturation[row] = filled;
-            suction[row] = pressure * nodes.suction[node] * position[first + row][3];
+            suction[row] =
+                pressure * nodes.suction[node] * position[first + row][lane::controls::position::VOLUME];
         }
     });
     nodes.saturation.clear();

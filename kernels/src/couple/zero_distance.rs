@@ -10,7 +10,7 @@
 //! itself off the water it drinks.
 
 use crate::{
-    columns::Columns,
+    columns::{Columns, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
@@ -28,7 +28,7 @@ declare! {
     oracle: crate::oracle::couple::zero_distance,
     bound: 6e-6,
     twin_bound: 1.5e-5,
-    twin: [pass(NAME, Controls, FROM_FLUID)],
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -59,7 +59,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
     for (node, force) in controls.node.iter().zip(&force) {
         let node = *node as usize;
-        let scale = params.sponges[nodes.sponge[node] as usize].reaction * nodes.position[node][3];
+        let scale = params.sponges[nodes.sponge[node] as usize].reaction
+            * nodes.position[node][lane::nodes::position::INVERSE_MASS];
         (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * scale);
     }
 }

@@ -40,8 +40,14 @@ pub use program::{Program, Stage};
 pub use read::Pending;
 pub use resident::Resident;
 pub use sums::{FluidSums, NodeSums, Sums, TetSums};
-pub use transfer::{column_bytes, is_internal, make_room};
+pub use transfer::{column_bytes, make_room};
 pub use wgpu;
+
+/// Names of the variables that a text binds.
+#[cfg(test)]
+pub(crate) fn bindings(source: &'static str) -> Vec<&'static str> {
+    pipeline::bindings(source).into_iter().map(|binding| binding.name).collect()
+}
 
 #[cfg(test)]
 mod tests {

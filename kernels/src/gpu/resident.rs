@@ -135,8 +135,8 @@ impl Resident {
     pub fn particle_buffers(&self) -> (&Buffer, &Buffer) {
         let name = |sorted, plain| if self.sorted { sorted } else { plain };
         (
-            self.buffer(name("fluid_position_sorted", "fluid_position")),
-            self.buffer(name("fluid_velocity_sorted", "fluid_velocity")),
+            self.buffer(name("fluid_position", "fluid_position_next")),
+            self.buffer(name("fluid_velocity", "fluid_velocity_next")),
         )
     }
 
@@ -160,9 +160,7 @@ impl Resident {
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
-        let wetted = if self.params.has_wetting() { nodes } else { 0 };
         let thick = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
-        let tense = if self.params.fluid.cohesion.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
         let touching = if self.params.has_touch() { nodes } else { 0 };
         let stars = pack::star_words(&columns.nodes, self.rows.nodes, self.params.has_touch());
@@ -173,7 +171,7 @@ impl Resident {
         let groups = |rows: u64| rows.div_ceil(256) * bodies * 32;
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
-        vec![
+        let own = vec![
             ("params", 448, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
             ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
@@ -183,30 +181,9 @@ impl Resident {
             ("batch", BATCH_STRIDE * BATCHES as u64, uniform | plain),
             ("extremes", 48, plain),
             ("convergence", 16, plain),
-            ("fluid_position", fluid * 16, plain),
-            ("fluid_velocity", fluid * 16, plain),
-            ("fluid_id", fluid * 4, plain),
-            ("fluid_position_sorted", fluid * 16, plain),
-            ("fluid_velocity_sorted", fluid * 16, plain),
-            ("fluid_id_sorted", fluid * 4, plain),
-            ("fluid_density", fluid * 4, plain),
-            ("fluid_acceleration", fluid * 16, plain),
-            ("fluid_predicted", solved * 16, plain),
-            ("fluid_boundary", solved * 16, plain),
-            ("fluid_deficit", tense * 4, plain),
-            ("fluid_factors", solved * 16, plain),
-            ("fluid_pressure_rows", solved * 16, plain),
-            ("fluid_correction", solved * 16, plain),
-            ("fluid_yield", solved * 4, plain),
-            ("solve", SOLVE_BYTES, plain),
+            ("fluid_pressure_solve", SOLVE_BYTES, plain),
             ("solve_sums", most_groups(solved) * 32, plain),
-            ("fluid_friction", thick * 16, plain),
-            ("fluid_friction_between", thick * 16, plain),
-            ("fluid_viscosity_residual", thick * 16, plain),
-            ("fluid_viscosity_direction", thick * 16, plain),
-            ("fluid_viscosity_product", thick * 16, plain),
-            ("fluid_viscosity_change", thick * 16, plain),
-            ("viscosity_solve", SOLVE_BYTES, plain),
+            ("fluid_viscosity_solve", SOLVE_BYTES, plain),
             ("viscosity_sums", most_groups(thick) * 16, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
@@ -216,27 +193,9 @@ impl Resident {
             ("fluid_page_sums", fluid_cells / 1024, plain),
             ("fluid_neighbors", list(fluid, self.capacities[0]), plain),
             ("fluid_controls", list(inside, self.capacities[1]), plain),
-            ("fluid_interior", inside * 4, plain),
-            ("fluid_drag_rate", inside * 16, plain),
-            ("fluid_drag", inside * 16, plain),
-            ("node_position", nodes * 16, plain),
-            ("node_velocity", nodes * 16, plain),
-            ("node_acceleration", nodes * 16, plain),
-            ("node_predicted", nodes * 16, plain),
-            ("node_free", nodes * 16, plain),
-            ("node_target", nodes * 16, plain),
-            ("node_drag", nodes * 16, plain),
-            ("node_drag_moment", nodes * 16, plain),
-            ("node_reaction", nodes * 16, plain),
-            ("node_pores", nodes * 16, plain),
-            ("node_wetting", wetted * 16, plain),
             ("node_stars", stars as u64 * 4, plain),
             ("node_rest", touching * 16, plain),
-            ("node_normal", touching * 16, plain),
             ("node_pairs", list(touching, self.capacities[3]), plain),
-            ("node_touch", touching * 16, plain),
-            ("node_touch_stiffness", touching * 16, plain),
-            ("node_touch_between", touching * 16, plain),
             ("pair_cells", touching * 4, plain),
             ("pair_slots", touching * 4, plain),
             ("pair_grouped", touching * 4, plain),
@@ -246,22 +205,10 @@ impl Resident {
             ("sponge_ranges", sponges * RANGES as u64 * 8, plain),
             ("sponge_boxes", sponges * 32, plain),
             ("sponge_motions", sponges * 48, plain),
-            ("node_volume", nodes * 4, plain),
-            ("node_sponge", nodes * 4, plain),
             ("node_traits", nodes * 16, plain),
-            ("node_grip", nodes * 4, plain),
-            ("node_grip_offset", nodes * 16, plain),
-            ("node_saturation", nodes * 4, plain),
             ("tets", tets as u64 * 16, plain),
             ("tet_sponge", tets as u64 * 4, plain),
             ("tet_weight", tets as u64 * 4, plain),
-            ("control_node", controls * 4, plain),
-            ("control_position", controls * 16, plain),
-            ("control_velocity", controls * 16, plain),
-            ("control_unfiltered", controls * 16, plain),
-            ("control_solid", controls * 16, plain),
-            ("control_saturation", controls * 4, plain),
-            ("control_suction", controls * 4, plain),
             ("control_cells", controls * 4, plain),
             ("control_slots", controls * 4, plain),
             ("control_grouped", controls * 4, plain),
@@ -269,15 +216,17 @@ impl Resident {
             ("control_starts", control_cells * 4, plain),
             ("control_page_sums", control_cells / 1024, plain),
             ("control_fluid", list(controls, self.capacities[2]), plain),
-            ("bodies", bodies * BODY_BYTES, plain),
+            ("body_states", bodies * BODY_BYTES, plain),
             ("planes", planes * 16, plain),
-            ("fluid_wrenches", groups(fluid), plain),
-            ("node_wrenches", groups(nodes), plain),
+            ("body_fluid_wrenches", groups(fluid), plain),
+            ("body_node_wrenches", groups(nodes), plain),
             ("body_wrenches", bodies * WRENCH_BYTES, plain),
             ("node_mass", nodes * 4, plain),
             ("partial_sums", sum_groups(self.rows) * SUM_BYTES, plain),
             ("totals", 3 * SUM_BYTES, plain),
-        ]
+        ];
+        let columns = self.plain_buffers();
+        own.into_iter().chain(columns.into_iter().map(|(name, size)| (name, size, plain))).collect()
     }
 
     /// Makes a buffer, zeroed. One row at least: nothing can be bound to an empty buffer.
@@ -348,7 +297,7 @@ impl Resident {
     pub fn upload_bodies(&mut self, bodies: &[Body]) {
         let fastest = bodies.iter().map(Body::fastest).fold(0.0, f32::max);
         let (bytes, planes) = pack::bodies(bodies);
-        self.write("bodies", &bytes);
+        self.write("body_states", &bytes);
         self.write("planes", &planes);
         self.gpu.queue.write_buffer(self.buffer("clock"), BODY_SPEED_AT, &fastest.to_ne_bytes());
         // The clock has chosen the next step before the bodies moved.
@@ -368,9 +317,9 @@ impl Resident {
         self.write("sponges", &pack::sponges(&self.params, &self.first_nodes));
         self.fill_params();
         // Nobody renews what was given by those whose phases are left out.
-        let mut stale = vec!["fluid_wrenches", "node_wrenches"];
+        let mut stale = vec!["body_fluid_wrenches", "body_node_wrenches"];
         if is_outside {
-            stale.extend(["fluid_interior", "fluid_yield"]);
+            stale.extend(["fluid_interior", "fluid_solid_yield"]);
         }
         for name in stale {
             self.write(name, &vec![0; self.buffer(name).size() as usize]);

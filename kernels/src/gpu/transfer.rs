@@ -7,126 +7,48 @@ use super::{
 };
 use crate::{
     body::Wrench,
-    column::{FAR_ROW, padded},
+    column::{Plain, PlainMut, padded},
     columns::{Column, Columns, RowCounts},
     cpu::CHUNK,
     grid::neighbors::Neighbors,
+    need::Need,
     params::Params,
     reduce::{Extreme, Extremes, Wrenches},
 };
 
-/// The data of a column that is a plain array.
-enum Plain<'a> {
-    Rows(&'a mut Vec<[f32; 4]>, [f32; 4]),
-    Values(&'a mut Vec<f32>),
-    Words(&'a mut Vec<u32>, u32),
+/// Particles as `sph::advect` leaves them, which the next step sorts.
+const NEXT: [(Column, &str); 3] = [
+    (Column::FluidPosition, "fluid_position_next"),
+    (Column::FluidVelocity, "fluid_velocity_next"),
+    (Column::FluidId, "fluid_id_next"),
+];
+
+/// The buffer of a column; `sorted` says that the particles are in the order of this step.
+fn buffer_name(column: Column, sorted: bool) -> &'static str {
+    let next = NEXT.iter().find(|(next, _)| *next == column && !sorted);
+    next.map_or_else(|| column.buffer(), |(_, name)| name)
 }
 
-/// A column that is a plain array, with its buffer and what padding rows hold.
-fn plain(columns: &mut Columns, column: Column, sorted: bool) -> Option<(&'static str, Plain<'_>)> {
-    use Plain::{Rows, Values, Words};
-    let (fluid, nodes, controls) = (&mut columns.fluid, &mut columns.nodes, &mut columns.controls);
-    let at = |sorted_name, name| if sorted { sorted_name } else { name };
-    let zero = [0.0; 4];
-    Some(match column {
-        Column::FluidPosition => {
-            (at("fluid_position_sorted", "fluid_position"), Rows(&mut fluid.position, FAR_ROW))
-        }
-        Column::FluidVelocity => {
-            (at("fluid_velocity_sorted", "fluid_velocity"), Rows(&mut fluid.velocity, zero))
-        }
-        Column::FluidId => (at("fluid_id_sorted", "fluid_id"), Words(&mut fluid.id, u32::MAX)),
-        Column::FluidDensity => ("fluid_density", Values(&mut fluid.density)),
-        Column::FluidAcceleration => ("fluid_acceleration", Rows(&mut fluid.acceleration, zero)),
-        Column::FluidInterior => ("fluid_interior", Values(&mut fluid.interior)),
-        Column::FluidDragRate => ("fluid_drag_rate", Rows(&mut fluid.drag_rate, zero)),
-        Column::FluidFriction => ("fluid_friction", Rows(&mut fluid.friction, zero)),
-        Column::FluidFrictionBetween => ("fluid_friction_between", Rows(&mut fluid.friction_between, zero)),
-        Column::FluidViscosityResidual => {
-            ("fluid_viscosity_residual", Rows(&mut fluid.viscosity_residual, zero))
-        }
-        Column::FluidViscosityDirection => {
-            ("fluid_viscosity_direction", Rows(&mut fluid.viscosity_direction, zero))
-        }
-        Column::FluidViscosityProduct => {
-            ("fluid_viscosity_product", Rows(&mut fluid.viscosity_product, zero))
-        }
-        Column::FluidViscosityChange => ("fluid_viscosity_change", Rows(&mut fluid.viscosity_change, zero)),
-        Column::FluidDrag => ("fluid_drag", Rows(&mut fluid.drag, zero)),
-        Column::FluidPredicted => ("fluid_predicted", Rows(&mut fluid.predicted, FAR_ROW)),
-        Column::FluidBoundary => ("fluid_boundary", Rows(&mut fluid.boundary, zero)),
-        Column::FluidYield => ("fluid_yield", Values(&mut fluid.solid_yield)),
-        Column::FluidDeficit => ("fluid_deficit", Values(&mut fluid.deficit)),
-        Column::FluidFactors => ("fluid_factors", Rows(&mut fluid.factors, zero)),
-        // Padding rows have a diagonal, by which they are divided.
-        Column::FluidPressureRows => {
-            ("fluid_pressure_rows", Rows(&mut fluid.pressure_rows, [0.0, 0.0, 1.0, 0.0]))
-        }
-        Column::FluidCorrection => ("fluid_correction", Rows(&mut fluid.correction, zero)),
-        Column::NodePosition => ("node_position", Rows(&mut nodes.position, FAR_ROW)),
-        Column::NodeVelocity => ("node_velocity", Rows(&mut nodes.velocity, zero)),
-        Column::NodeVolume => ("node_volume", Values(&mut nodes.volume)),
-        Column::NodeSponge => ("node_sponge", Words(&mut nodes.sponge, 0)),
-        Column::NodeGrip => ("node_grip", Words(&mut nodes.grip, u32::MAX)),
-        Column::NodeGripOffset => ("node_grip_offset", Rows(&mut nodes.grip_offset, zero)),
-        Column::NodePredicted => ("node_predicted", Rows(&mut nodes.predicted, FAR_ROW)),
-        Column::NodeFree => ("node_free", Rows(&mut nodes.free, zero)),
-        Column::NodeTarget => ("node_target", Rows(&mut nodes.target, zero)),
-        Column::NodePores => ("node_pores", Rows(&mut nodes.pores, zero)),
-        Column::NodeWetting => ("node_wetting", Rows(&mut nodes.wetting, zero)),
-        Column::NodeDrag => ("node_drag", Rows(&mut nodes.drag, zero)),
-        Column::NodeDragMoment => ("node_drag_moment", Rows(&mut nodes.drag_moment, zero)),
-        Column::NodeNormal => ("node_normal", Rows(&mut nodes.normal, zero)),
-        Column::NodeTouch => ("node_touch", Rows(&mut nodes.touch, zero)),
-        Column::NodeTouchStiffness => ("node_touch_stiffness", Rows(&mut nodes.touch_stiffness, zero)),
-        Column::NodeTouchBetween => ("node_touch_between", Rows(&mut nodes.touch_between, zero)),
-        Column::NodeReaction => ("node_reaction", Rows(&mut nodes.reaction, zero)),
-        Column::NodeAcceleration => ("node_acceleration", Rows(&mut nodes.acceleration, zero)),
-        Column::NodeSaturation => ("node_saturation", Values(&mut nodes.saturation)),
-        Column::ControlNode => ("control_node", Words(&mut controls.node, u32::MAX)),
-        Column::ControlPosition => ("control_position", Rows(&mut controls.position, FAR_ROW)),
-        Column::ControlVelocity => ("control_velocity", Rows(&mut controls.velocity, zero)),
-        Column::ControlUnfiltered => ("control_unfiltered", Rows(&mut controls.unfiltered, zero)),
-        Column::ControlSolid => ("control_solid", Rows(&mut controls.solid, zero)),
-        Column::ControlSaturation => ("control_saturation", Values(&mut controls.saturation)),
-        Column::ControlSuction => ("control_suction", Values(&mut controls.suction)),
-        _ => return None,
-    })
+/// Whether a column is a plain array that devices hold.
+fn is_plain(column: Column) -> bool {
+    column.element().bytes() > 0 && !column.is_on_host_only()
 }
 
-impl Plain<'_> {
-    fn bytes(&self, rows: usize) -> &[u8] {
-        match self {
-            Self::Rows(data, _) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
-            Self::Values(data) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
-            Self::Words(data, _) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
-        }
+/// The words of the first rows of a plain array.
+fn bytes(columns: &Columns, column: Column, rows: usize) -> &[u8] {
+    match columns.data(column).plain() {
+        Some(Plain::Rows(data)) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        Some(Plain::Values(data)) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        Some(Plain::Words(data)) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        None => &[],
     }
+}
 
-    fn row_bytes(&self) -> usize {
-        if matches!(self, Self::Rows(..)) { 16 } else { 4 }
-    }
-
-    /// Takes over rows, and pads them.
-    fn take(self, words: &[u32], rows: usize, to: usize) {
-        match self {
-            Self::Rows(data, padding) => {
-                data.resize(rows, padding);
-                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
-                data.resize(to, padding);
-            }
-            Self::Values(data) => {
-                data.resize(rows, 0.0);
-                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
-                data.resize(to, 0.0);
-            }
-            Self::Words(data, padding) => {
-                data.resize(rows, padding);
-                bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
-                data.resize(to, padding);
-            }
-        }
-    }
+/// Takes over the words of rows, and pads them.
+fn take_rows<T: bytemuck::Pod>(data: &mut Vec<T>, words: &[u32], padding: T, to: usize) {
+    data.resize(size_of_val(words) / size_of::<T>(), padding);
+    bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
+    data.resize(to, padding);
 }
 
 /// The lists of a column: which of the four they are.
@@ -150,46 +72,31 @@ fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usize, usize) 
     }
 }
 
-/// Columns that a device never holds, because it computes them anew or keeps them in another form.
-#[must_use]
-pub fn is_internal(column: Column) -> bool {
-    matches!(
-        column,
-        Column::FluidCells
-            | Column::ControlCells
-            | Column::FluidPairs
-            | Column::FluidControlWeights
-            | Column::ControlFluidWeights
-            | Column::NodeRest
-            | Column::NodeTopology
-            | Column::NodeStars
-            | Column::NodeSuction
-            | Column::NodeInterior
-    )
-}
-
 /// Columns that the passes of vertex block descent find beside the stars, for want of bindings.
 fn is_beside_stars(column: Column) -> bool {
     let touch = [Column::NodeTouch, Column::NodeTouchStiffness, Column::NodeTouchBetween];
     column == Column::NodeWetting || touch.contains(&column)
 }
 
-/// Columns that some scenes do without.
-fn is_optional(column: Column) -> bool {
-    is_beside_stars(column) || matches!(column, Column::NodeNormal | Column::NodePairs)
-}
-
-/// Columns that this scene does without.
-fn is_absent(params: &Params, column: Column) -> bool {
-    let has = if column == Column::NodeWetting { params.has_wetting() } else { params.has_touch() };
-    is_optional(column) && !has
+/// Whether a scene has rows of a column.
+fn is_there(params: &Params, rows: RowCounts, column: Column) -> bool {
+    match column.need() {
+        Some(Need::Fluid) => rows.fluid > 0,
+        Some(Need::Sponge) => rows.nodes > 0,
+        Some(Need::Incompressible) => params.fluid.incompressible.is_some(),
+        Some(Need::Cohesion) => params.fluid.cohesion.is_some(),
+        Some(Need::ImplicitViscosity) => params.fluid.implicit_viscosity.is_some(),
+        Some(Need::Touch) => params.has_touch(),
+        Some(Need::Wetting) => params.has_wetting(),
+        _ => true,
+    }
 }
 
 /// What weights of the coupling are functions of.
 const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
 
 impl Resident {
-    /// Sends columns to the device; those that it does not hold ([`is_internal`]) are left out. `sorted` says that the
+    /// Sends columns to the device; those that it does not hold ([`Column::is_on_host_only`]) are left out. `sorted` says that the
     /// particles are in the order of this step already, for kernels that come after `grid::sort_fluid`.
     ///
     /// # Errors
@@ -201,9 +108,9 @@ impl Resident {
             |column: &Column| matches!(column, Column::FluidControlWeights | Column::ControlFluidWeights);
         let points = if which.iter().any(weighs) { POINTS } else { &[] };
         for column in which.iter().chain(points) {
-            if let Some((name, data)) = plain(columns, *column, sorted) {
-                let rows = columns_rows(self, *column);
-                self.write(name, data.bytes(rows));
+            if is_plain(*column) {
+                let rows = self.rows_of(*column);
+                self.write(buffer_name(*column, sorted), bytes(columns, *column, rows));
                 if is_beside_stars(*column) && rows > 0 {
                     let stars = pack::stars(&columns.nodes, self.rows.nodes, self.params.has_touch());
                     self.write("node_stars", bytemuck::cast_slice(&stars));
@@ -254,17 +161,23 @@ impl Resident {
         match column {
             Column::BodyStates => self.upload_bodies(&columns.bodies.states.0),
             Column::BodyNodeWrenches => {
-                self.upload_wrenches("node_wrenches", &columns.bodies.node_wrenches, bodies)
+                self.upload_wrenches("body_node_wrenches", &columns.bodies.node_wrenches, bodies)
             }
             Column::BodyFluidWrenches => {
-                self.upload_wrenches("fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
+                self.upload_wrenches("body_fluid_wrenches", &columns.bodies.fluid_wrenches, bodies);
             }
             Column::FluidExtremes | Column::NodeExtremes => self.upload_extremes(columns, column),
             Column::FluidPressureSolve => {
-                self.write("solve", bytemuck::cast_slice(&columns.fluid.pressure_solve.words()));
+                self.write(
+                    "fluid_pressure_solve",
+                    bytemuck::cast_slice(&columns.fluid.pressure_solve.words()),
+                );
             }
             Column::FluidViscositySolve => {
-                self.write("viscosity_solve", bytemuck::cast_slice(&columns.fluid.viscosity_solve.words()));
+                self.write(
+                    "fluid_viscosity_solve",
+                    bytemuck::cast_slice(&columns.fluid.viscosity_solve.words()),
+                );
             }
             _ => {}
         }
@@ -306,17 +219,17 @@ impl Resident {
     pub fn download(&self, columns: &mut Columns, which: &[Column]) -> Result<(), GpuError> {
         let mut wanted = Vec::new();
         for column in which {
-            if let Some((name, data)) = plain(columns, *column, self.sorted) {
-                wanted.push((*column, name, columns_rows(self, *column) * data.row_bytes()));
+            if let Some(buffer) = self.plain_buffer(*column) {
+                wanted.push(buffer);
             } else if let Some((name, list)) = list_of(*column) {
                 let rows = lists(columns, list).1;
                 wanted.push((*column, name, rows * (self.capacities[list] as usize + 1) * 4));
             } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
                 wanted.push((*column, "extremes", 32));
             } else if *column == Column::FluidPressureSolve {
-                wanted.push((*column, "solve", SOLVE_BYTES as usize));
+                wanted.push((*column, "fluid_pressure_solve", SOLVE_BYTES as usize));
             } else if *column == Column::FluidViscositySolve {
-                wanted.push((*column, "viscosity_solve", SOLVE_BYTES as usize));
+                wanted.push((*column, "fluid_viscosity_solve", SOLVE_BYTES as usize));
             } else if let Some((name, size)) = self.wrench_buffer(*column) {
                 wanted.push((*column, name, size));
             }
@@ -329,20 +242,32 @@ impl Resident {
         Ok(())
     }
 
+    /// Rows of a column that the device holds.
+    fn rows_of(&self, column: Column) -> usize {
+        if is_there(&self.params, self.rows, column) { self.rows.of(column.store()) } else { 0 }
+    }
+
+    /// Name and bytes of the buffers of all columns that are plain arrays.
+    pub(super) fn plain_buffers(&self) -> Vec<(&'static str, u64)> {
+        let columns = Column::ALL.iter().copied().filter(|column| is_plain(*column));
+        let size = |column: Column| (self.rows_of(column) * column.element().bytes()) as u64;
+        let own = columns.map(|column| (column.buffer(), size(column)));
+        own.chain(NEXT.map(|(column, name)| (name, size(column)))).collect()
+    }
+
     fn wrench_buffer(&self, column: Column) -> Option<(&'static str, usize)> {
         let groups = |rows: usize| rows.div_ceil(256) * self.rows.bodies * 32;
         match column {
-            Column::BodyFluidWrenches => Some(("fluid_wrenches", groups(self.rows.fluid))),
-            Column::BodyNodeWrenches => Some(("node_wrenches", groups(self.rows.nodes))),
+            Column::BodyFluidWrenches => Some(("body_fluid_wrenches", groups(self.rows.fluid))),
+            Column::BodyNodeWrenches => Some(("body_node_wrenches", groups(self.rows.nodes))),
             _ => None,
         }
     }
 
     /// A column that is a plain array, with its buffer and its bytes.
     pub(super) fn plain_buffer(&self, column: Column) -> Option<(Column, &'static str, usize)> {
-        let mut none = Columns::default();
-        let (name, data) = plain(&mut none, column, self.sorted)?;
-        Some((column, name, columns_rows(self, column) * data.row_bytes()))
+        let size = self.rows_of(column) * column.element().bytes();
+        is_plain(column).then(|| (column, buffer_name(column, self.sorted), size))
     }
 
     fn take(&self, columns: &mut Columns, column: Column, words: &[u32]) {
@@ -386,12 +311,15 @@ pub fn make_room(columns: &mut Columns, column: Column) {
         // There from the beginning, or not at all.
         return;
     }
-    let rows = padded(columns.rows.of(column.store()));
-    match plain(columns, column, false) {
-        Some((_, Plain::Rows(data, padding))) if data.len() < rows => data.resize(rows, padding),
-        Some((_, Plain::Values(data))) if data.len() < rows => data.resize(rows, 0.0),
-        Some((_, Plain::Words(data, padding))) if data.len() < rows && column != Column::ControlNode => {
-            data.resize(rows, padding);
+    if !is_plain(column) {
+        return;
+    }
+    let (rows, padding) = (padded(columns.rows.of(column.store())), column.padding());
+    match columns.data_mut(column).plain_mut() {
+        Some(PlainMut::Rows(data)) if data.len() < rows => data.resize(rows, padding.row()),
+        Some(PlainMut::Values(data)) if data.len() < rows => data.resize(rows, 0.0),
+        Some(PlainMut::Words(data)) if data.len() < rows && column != Column::ControlNode => {
+            data.resize(rows, padding.word());
         }
         _ => {}
     }
@@ -399,15 +327,23 @@ pub fn make_room(columns: &mut Columns, column: Column) {
 
 /// Takes over a column that is a plain array, if it is one.
 pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) -> bool {
-    let rows = columns.rows.of(column.store());
-    let Some((_, data)) = plain(columns, column, false) else { return false };
-    if is_optional(column) && words.is_empty() {
+    if !is_plain(column) {
+        return false;
+    }
+    if words.is_empty() && column.need().is_some() {
         // The scene does without.
         return true;
     }
+    let rows = columns.rows.of(column.store());
     // The one column that the CPU does not pad.
     let to = if column == Column::ControlNode { rows } else { padded(rows) };
-    data.take(words, rows, to);
+    let padding = column.padding();
+    match columns.data_mut(column).plain_mut() {
+        Some(PlainMut::Rows(data)) => take_rows(data, words, padding.row(), to),
+        Some(PlainMut::Values(data)) => take_rows(data, words, 0.0, to),
+        Some(PlainMut::Words(data)) => take_rows(data, words, padding.word(), to),
+        None => return false,
+    }
     true
 }
 
@@ -445,11 +381,11 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
 pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     let count = rows.of(column.store()) as u64;
     let groups = |rows: usize| rows.div_ceil(256) as u64 * count * 32;
-    if is_absent(params, column) {
+    if !is_there(params, rows, column) {
         return 0;
     }
-    if let Some((_, data)) = plain(&mut Columns::default(), column, false) {
-        return count * data.row_bytes() as u64;
+    if is_plain(column) {
+        return count * column.element().bytes() as u64;
     }
     if let Some((_, which)) = list_of(column) {
         return count * (u64::from(capacities(params, rows)[which]) + 1) * 4;
@@ -462,12 +398,4 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
         Column::BodyNodeWrenches => groups(rows.nodes),
         _ => 0,
     }
-}
-
-/// Rows of a column that the device holds.
-fn columns_rows(resident: &Resident, column: Column) -> usize {
-    if is_absent(&resident.params, column) {
-        return 0;
-    }
-    resident.rows.of(column.store())
 }

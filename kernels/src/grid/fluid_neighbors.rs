@@ -13,7 +13,9 @@ declare! {
     writes: [FluidNeighbors],
     oracle: crate::oracle::grid::fluid_neighbors,
     bound: 0.0,
-    twin: [pass(NAME, Fluid, FLUID), CHECK],
+    // The search has every pair at hand, and notes the longest list that does not fit.
+    twin_writes: [FluidDensity, FluidExtremes],
+    twin: [pass(NAME, Fluid), CHECK],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -16,11 +16,11 @@ declare! {
     oracle: crate::oracle::grid::sort_fluid,
     bound: 0.0,
     twin: [
-        pass("grid::count", Fluid, SORT),
-        pass("grid::scan_sums", FluidScan, SORT),
-        pass("grid::scan_pages", FluidPages, SORT),
-        pass("grid::scatter", Fluid, SORT),
-        pass(NAME, Fluid, SORT),
+        pass("grid::count", Fluid).on(FLUID_CELLS),
+        pass("grid::scan_sums", FluidScan).on(FLUID_CELLS),
+        pass("grid::scan_pages", FluidPages).on(FLUID_CELLS),
+        pass("grid::scatter", Fluid).on(FLUID_CELLS),
+        pass(NAME, Fluid),
     ],
 }
 

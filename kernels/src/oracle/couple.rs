@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::{gradient, grid, row, smoothing, vector, vectors, wetting};
+use super::{gradient, grid, keep, row, smoothing, vector, vectors, wetting};
 use crate::{
     column::FAR_ROW,
-    columns::Columns,
+    columns::{Columns, lane},
     cpu::CHUNK,
     grid::neighbors::{ListValues, Neighbors},
     lanes::LANES,
@@ -26,7 +26,7 @@ impl Pairs {
         Self {
             particles: vectors(&columns.fluid.position, columns.rows.fluid),
             controls: vectors(controls, columns.rows.nodes),
-            volume: controls.iter().map(|row| f64::from(row[3])).collect(),
+            volume: controls.iter().map(|row| f64::from(row[lane::controls::position::VOLUME])).collect(),
             radius: params.coupling.support_radius,
         }
     }
@@ -136,11 +136,16 @@ pub(crate) fn interior(params: &Params, columns: &mut Columns) {
             chi += weight;
             let node = columns.controls.node[control] as usize;
             let pores = columns.nodes.pores[node];
-            let porosity = f64::from(pores[3]);
+            let porosity = f64::from(pores[lane::nodes::pores::POROSITY]);
             follows += weight * f64::from(pores[0]) * (0.7 * (1.0 - porosity) / porosity).min(1.0).sqrt();
             linear += weight * f64::from(pores[1]);
             inertial += weight * f64::from(pores[2]);
-            mobile += weight * columns.nodes.wetting.get(node).map_or(1.0, |row| f64::from(row[3]));
+            mobile += weight
+                * columns
+                    .nodes
+                    .wetting
+                    .get(node)
+                    .map_or(1.0, |row| f64::from(row[lane::nodes::wetting::MOBILITY]));
         }
         let slower = if mobile > 0.0 { chi / mobile } else { 1.0 };
         (linear, inertial) = (linear * slower, inertial * slower.sqrt());
@@ -160,7 +165,7 @@ pub(crate) fn suction(params: &Params, columns: &mut Columns) {
         }
         let old = columns.fluid.acceleration[particle];
         let total = vector(old) + force / f64::from(params.fluid.particle_mass);
-        columns.fluid.acceleration[particle] = row(total, f64::from(old[3]));
+        columns.fluid.acceleration[particle] = keep(old, total);
     }
 }
 
@@ -175,7 +180,7 @@ pub(crate) fn zero_distance(params: &Params, columns: &mut Columns) {
             force += suction * rest_volume(params) * pairs.gradient(particle, control);
         }
         let reaction = f64::from(sponge(params, columns, control).reaction);
-        let inverse_mass = f64::from(columns.nodes.position[node][3]);
+        let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         let total = vector(columns.nodes.acceleration[node]) + force * reaction * inverse_mass;
         columns.nodes.acceleration[node] = row(total, 0.0);
     }
@@ -194,8 +199,10 @@ pub(crate) fn control_velocity(params: &Params, columns: &mut Columns) {
     columns.fluid.drag = vec![[0.0; 4]; columns.fluid.position.len()];
     for control in 0..columns.rows.nodes {
         let node = columns.controls.node[control] as usize;
-        let (velocity, inverse_mass) =
-            (vector(columns.nodes.velocity[node]), f64::from(columns.nodes.position[node][3]));
+        let (velocity, inverse_mass) = (
+            vector(columns.nodes.velocity[node]),
+            f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]),
+        );
         let share = |particle| pairs.weight(particle, control) * weight_inside(columns, particle);
         let shared: f64 = (0..columns.rows.fluid).map(share).sum();
         columns.controls.velocity[control] = row(velocity, shared * inverse_mass);
@@ -212,7 +219,8 @@ pub(crate) fn drag(params: &Params, columns: &mut Columns) {
         for control in 0..columns.rows.nodes {
             let weight = pairs.weight(particle, control) * inverse;
             sponge += weight * vector(columns.controls.velocity[control]);
-            shared += weight * f64::from(columns.controls.velocity[control][3]);
+            shared +=
+                weight * f64::from(columns.controls.velocity[control][lane::controls::velocity::DRAG_SHARE]);
         }
         let rate = f64::from(params.step) * f64::from(columns.fluid.drag_rate[particle][0]);
         let strength = mass * rate / (1.0 + rate);
@@ -233,8 +241,9 @@ pub(crate) fn velocity_filter(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for control in 0..columns.rows.nodes {
         let old = columns.controls.unfiltered[control];
-        let new = vector(old) + received(&pairs, columns, control) * f64::from(old[3]);
-        columns.controls.velocity[control] = row(new, f64::from(columns.controls.velocity[control][3]));
+        let new = vector(old)
+            + received(&pairs, columns, control) * f64::from(old[lane::controls::unfiltered::INVERSE_MASS]);
+        columns.controls.velocity[control] = keep(columns.controls.velocity[control], new);
     }
 }
 
@@ -243,10 +252,10 @@ pub(crate) fn exchange(params: &Params, columns: &mut Columns) {
     for control in 0..columns.rows.nodes {
         let impulse = received(&pairs, columns, control);
         let old = columns.controls.unfiltered[control];
-        let new = vector(old) + impulse * f64::from(old[3]);
-        columns.controls.velocity[control] = row(new, f64::from(old[3]));
+        let new = vector(old) + impulse * f64::from(old[lane::controls::unfiltered::INVERSE_MASS]);
+        columns.controls.velocity[control] = keep(old, new);
         let node = columns.controls.node[control] as usize;
-        columns.nodes.velocity[node] = row(new, f64::from(columns.nodes.velocity[node][3]));
+        columns.nodes.velocity[node] = keep(columns.nodes.velocity[node], new);
     }
     kick(params, columns);
 }
@@ -257,6 +266,6 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
         let chi = f64::from(columns.fluid.interior[particle]);
         let lost = chi * vector(columns.fluid.drag[particle]) / f64::from(params.fluid.particle_mass);
         let old = columns.fluid.velocity[particle];
-        columns.fluid.velocity[particle] = row(vector(old) - lost, f64::from(old[3]));
+        columns.fluid.velocity[particle] = keep(old, vector(old) - lost);
     }
 }

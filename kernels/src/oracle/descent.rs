@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{obstacles, pbd::SHAPE, row, shapes, touch, vector, wetting};
+use super::{keep, obstacles, pbd::SHAPE, row, shapes, touch, vector, wetting};
 use crate::{
     body::{Body, Wrench},
-    columns::{BodyStore, Columns, Nodes},
+    columns::{BodyStore, Columns, Nodes, lane},
     params::{Params, Solver},
 };
 
@@ -14,7 +14,8 @@ pub(crate) fn guess(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     nodes.target = nodes.predicted.clone();
     for node in &mut nodes.target {
-        node[3] = if node[3] > 0.0 { 1.0 / node[3] } else { 0.0 };
+        node[lane::nodes::free::MASS] =
+            if node[lane::nodes::free::MASS] > 0.0 { 1.0 / node[lane::nodes::free::MASS] } else { 0.0 };
     }
     nodes.free = nodes.target.clone();
     let none = vec![[0.0; 4]; nodes.predicted.len()];
@@ -22,10 +23,10 @@ pub(crate) fn guess(params: &Params, columns: &mut Columns) {
     (nodes.touch, nodes.touch_stiffness, nodes.touch_between) = (Vec::new(), Vec::new(), Vec::new());
     for node in 0..columns.rows.nodes {
         let y = nodes.predicted[node];
-        let share = f64::from(nodes.velocity[node][3]);
-        if y[3] > 0.0 && descends(params, nodes, node) {
+        let share = f64::from(nodes.velocity[node][lane::nodes::velocity::FOLLOWED_SHARE]);
+        if y[lane::nodes::predicted::INVERSE_MASS] > 0.0 && descends(params, nodes, node) {
             let lacking = h * h * (1.0 - share) * vector(nodes.acceleration[node]);
-            nodes.predicted[node] = row(vector(y) - lacking, f64::from(y[3]));
+            nodes.predicted[node] = keep(y, vector(y) - lacking);
         }
     }
 }
@@ -113,7 +114,7 @@ fn least(
 ) -> (DVec3, DMat3) {
     let (force, stiffness) = local(params, (nodes, node), places, before, tets);
     let h = f64::from(params.step);
-    let inertia = f64::from(nodes.target[node][3]) / (h * h);
+    let inertia = f64::from(nodes.target[node][lane::nodes::target::MASS]) / (h * h);
     let stiffness = stiffness + DMat3::IDENTITY * inertia;
     let pull = force + inertia * (vector(nodes.target[node]) - places[node]);
     (places[node] + stiffness.inverse() * pull, stiffness)
@@ -223,7 +224,9 @@ pub(crate) fn vbd(params: &Params, columns: &mut Columns) {
     let mut places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
     // Rows are in the order of the colours, and nodes of a colour do not know each other.
     for node in 0..columns.rows.nodes {
-        if columns.nodes.predicted[node][3] > 0.0 && descends(params, &columns.nodes, node) {
+        if columns.nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS] > 0.0
+            && descends(params, &columns.nodes, node)
+        {
             let at = (&places[..], &before[..]);
             let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
             let way = point - places[node];
@@ -240,7 +243,7 @@ pub(crate) fn vbd(params: &Params, columns: &mut Columns) {
     }
     let rows = columns.rows.nodes;
     for (predicted, place) in columns.nodes.predicted[..rows].iter_mut().zip(places) {
-        *predicted = row(place, f64::from(predicted[3]));
+        *predicted = keep(*predicted, place);
     }
 }
 
@@ -293,7 +296,7 @@ pub(crate) fn reaction(params: &Params, columns: &mut Columns) {
         }
         let (force, stiffness) = local(params, (&columns.nodes, node), &places, &before, &incidence[node]);
         let resists = -h * h / 3.0 * (stiffness.x_axis.x + stiffness.y_axis.y + stiffness.z_axis.z);
-        let w = f64::from(columns.nodes.predicted[node][3]);
+        let w = f64::from(columns.nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS]);
         if w <= 0.0 {
             reaction[node] = row(-h * force, resists);
             continue;
@@ -329,8 +332,8 @@ pub(crate) fn momentum(params: &Params, columns: &mut Columns) {
         // What several lack that touch each other, they lack together.
         let is_own = |node: &usize| joined[index].contains(&(nodes.sponge[*node] as usize));
         let own: Vec<usize> = (0..columns.rows.nodes).filter(is_own).collect();
-        let weight = |node: usize| match f64::from(nodes.reaction[node][3]) {
-            weight if weight > 0.0 => weight + f64::from(nodes.drag[node][3]),
+        let weight = |node: usize| match f64::from(nodes.reaction[node][lane::nodes::reaction::MASS]) {
+            weight if weight > 0.0 => weight + f64::from(nodes.drag[node][lane::nodes::drag::MASS]),
             weight => -weight,
         };
         let mass: f64 = own.iter().map(|node| weight(*node)).sum();
@@ -339,7 +342,7 @@ pub(crate) fn momentum(params: &Params, columns: &mut Columns) {
         let (mut lacking, mut moment, mut inertia) = (DVec3::ZERO, DVec3::ZERO, DMat3::ZERO);
         for node in own.iter().copied() {
             let arm = vector(nodes.position[node]) - centre;
-            let w = f64::from(nodes.predicted[node][3]);
+            let w = f64::from(nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS]);
             let gained = vector(nodes.predicted[node]) - vector(nodes.free[node]);
             let own = if w > 0.0 { gained / (w * h) } else { DVec3::ZERO };
             let of_fluid = |row: [f32; 4]| if w > 0.0 { vector(row) } else { DVec3::ZERO };
@@ -351,9 +354,9 @@ pub(crate) fn momentum(params: &Params, columns: &mut Columns) {
         let turn = inertia.inverse() * moment;
         for node in own {
             let (x, y, v) = (nodes.position[node], nodes.predicted[node], nodes.velocity[node]);
-            let w = f64::from(y[3]);
+            let w = f64::from(y[lane::nodes::predicted::INVERSE_MASS]);
             let change = lacking / mass + turn.cross(vector(x) - centre);
-            let resists = -f64::from(nodes.reaction[node][3]);
+            let resists = -f64::from(nodes.reaction[node][lane::nodes::reaction::MASS]);
             if resists > 0.0 {
                 nodes.reaction[node] = row(vector(nodes.reaction[node]) - resists * change, -resists);
             }
@@ -375,7 +378,8 @@ pub(crate) fn momentum(params: &Params, columns: &mut Columns) {
             nodes.predicted[node] = row(place, w);
             let a = vector(nodes.acceleration[node]);
             let gained = (place - vector(x)) / h - vector(v);
-            nodes.velocity[node][3] = (gained.dot(a) / (h * a.length_squared())).clamp(0.0, 1.0) as f32;
+            nodes.velocity[node][lane::nodes::velocity::FOLLOWED_SHARE] =
+                (gained.dot(a) / (h * a.length_squared())).clamp(0.0, 1.0) as f32;
         }
     }
     columns.bodies.node_wrenches.0 = wrenches;

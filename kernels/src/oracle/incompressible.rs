@@ -2,10 +2,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{apart, closeness, row, shapes, smoothing, vector, vectors};
+use super::{apart, closeness, keep, row, shapes, smoothing, vector, vectors};
 use crate::{
     body::{Body, Wrench},
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     params::Params,
 };
 
@@ -44,11 +44,16 @@ pub(crate) fn predict(params: &Params, columns: &mut Columns) {
         let end = box_inside(params).map_or(end, |(low, high)| end.clamp(low, high));
         fluid.predicted[i] = row(end, 0.0);
         let share = prompt_roughness(params) / f64::from(params.fluid.roughness);
-        let [w, asked] = [fluid.velocity[i][3], fluid.acceleration[i][3]].map(f64::from);
+        let [w, asked] = [
+            fluid.velocity[i][lane::fluid::velocity::ALLOWED_COMPRESSION],
+            fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION],
+        ]
+        .map(f64::from);
         let before = if w.abs() <= 1.0 { w } else { 0.0 };
         let allowed = (1.0 - share) * before + share * asked;
-        fluid.velocity[i][3] = allowed as f32;
-        fluid.acceleration[i][3] = ((1.0 - share) * allowed + share * asked) as f32;
+        fluid.velocity[i][lane::fluid::velocity::ALLOWED_COMPRESSION] = allowed as f32;
+        fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION] =
+            ((1.0 - share) * allowed + share * asked) as f32;
     }
 }
 
@@ -123,14 +128,15 @@ pub(crate) fn boundary_pressure(params: &Params, columns: &mut Columns) {
     let momentum = f64::from(params.fluid.particle_mass) * f64::from(params.step);
     for i in 0..columns.rows.fluid {
         let x = vector(fluid.position[i]);
-        let pressure = f64::from(fluid.position[i][3]) * f64::from(params.fluid.rest_density);
+        let pressure = f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY])
+            * f64::from(params.fluid.rest_density);
         let mut slope = walls(params, x).0;
         for (body, wrench) in bodies.iter().zip(&mut wrenches) {
             let own = solid(params, body, x).0;
             slope += own;
             wrench.add(own * (pressure * momentum), x - body.state.position.as_dvec3());
         }
-        let allowed = f64::from(fluid.acceleration[i][3]);
+        let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - pressure * slope, allowed);
     }
     columns.bodies.fluid_wrenches.0 = wrenches;
@@ -144,7 +150,7 @@ pub(crate) fn boundary_reaction(params: &Params, columns: &mut Columns) {
         (0..bodies.len()).map(|body| columns.bodies.fluid_wrenches.total(body, bodies.len())).collect();
     for i in 0..columns.rows.fluid {
         let x = vector(fluid.predicted[i]);
-        let impulse = f64::from(fluid.predicted[i][3]) * momentum;
+        let impulse = f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE]) * momentum;
         for (body, wrench) in bodies.iter().zip(&mut wrenches) {
             wrench.add(solid(params, body, x).0 * impulse, x - body.state.position.as_dvec3());
         }
@@ -166,7 +172,7 @@ pub(crate) fn factors(params: &Params, columns: &mut Columns) {
     let mut squares = 0.0;
     for i in 0..count {
         let mut own = -vector(fluid.boundary[i]);
-        let (mut others, mut share) = (0.0, f64::from(fluid.boundary[i][3]));
+        let (mut others, mut share) = (0.0, f64::from(fluid.boundary[i][lane::fluid::boundary::SHARE]));
         let mut rough = 0.0;
         for (j, c) in &near[i] {
             let offset = apart(params, end[i], end[*j]);
@@ -176,11 +182,14 @@ pub(crate) fn factors(params: &Params, columns: &mut Columns) {
             share += volume * smoothing(params.fluid.smoothing.support_radius, offset.length());
         }
         let most = f64::from(solve.correction_speed) * step / spacing;
-        let compression = (share - 1.0 + f64::from(fluid.acceleration[i][3])).min(most);
+        let compression = (share - 1.0
+            + f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]))
+        .min(most);
         let wide = (own.length_squared() + others).max(f64::from(solve.lattice_diagonal) / 3.0);
         let diagonal = wide * step * step + rough;
         fluid.factors[i] = row(own, compression);
-        let pressure = f64::from(fluid.position[i][3]) * density;
+        let pressure =
+            f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]) * density;
         fluid.pressure_rows[i] = [pressure as f32, 0.0, diagonal as f32, compression as f32];
         squares += end[i].distance_squared(x[i]);
     }
@@ -209,7 +218,9 @@ pub(crate) fn pressure_update(params: &Params, columns: &mut Columns) {
         let next = (pressure + length * compression / diagonal).clamp(0.0, most);
         fluid.pressure_rows[i][0] = next as f32;
         fluid.pressure_rows[i][1] = (next - pressure) as f32;
-        fluid.predicted[i][3] = (next - density * f64::from(fluid.position[i][3])) as f32;
+        fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE] = (next
+            - density * f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]))
+            as f32;
     }
 }
 
@@ -221,11 +232,14 @@ pub(crate) fn pressure_acceleration(params: &Params, columns: &mut Columns) {
     let roughness = prompt_roughness(params) / f64::from(params.step).powi(2);
     fluid.correction.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..count {
-        let mut sum = f64::from(fluid.predicted[i][3]) * vector(fluid.factors[i]);
+        let mut sum =
+            f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE]) * vector(fluid.factors[i]);
         for (j, c) in &near[i] {
-            sum += *c * f64::from(fluid.predicted[*j][3]) * apart(params, end[i], end[*j]);
+            sum += *c
+                * f64::from(fluid.predicted[*j][lane::fluid::predicted::PRESSURE_CHANGE])
+                * apart(params, end[i], end[*j]);
         }
-        let allowed = f64::from(fluid.predicted[i][3]) * roughness;
+        let allowed = f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE]) * roughness;
         fluid.correction[i] = row(sum, sum.dot(end[i] - origin) - allowed);
     }
 }
@@ -235,7 +249,7 @@ pub(crate) fn solid_yield(params: &Params, columns: &mut Columns) {
     let near = pairs(params, fluid, count);
     fluid.solid_yield.resize(fluid.position.len(), 0.0);
     let follows = |row: usize| f64::from(fluid.drag_rate[row][2]);
-    let change = |row: usize| f64::from(fluid.predicted[row][3]);
+    let change = |row: usize| f64::from(fluid.predicted[row][lane::fluid::predicted::PRESSURE_CHANGE]);
     for (i, near) in near.iter().enumerate() {
         let sum: f64 = near.iter().map(|(j, c)| c * follows(*j) * (change(*j) - change(i))).sum();
         fluid.solid_yield[i] = (2.0 * follows(i) * sum) as f32;
@@ -254,11 +268,13 @@ pub(crate) fn pressure_residual(params: &Params, columns: &mut Columns) {
         let mut smoother = 0.0;
         for (j, c) in &near[i] {
             change += *c * a[*j].dot(apart(params, end[i], end[*j]));
-            smoother += *c * (f64::from(fluid.predicted[*j][3]) - f64::from(fluid.predicted[i][3]));
+            smoother += *c
+                * (f64::from(fluid.predicted[*j][lane::fluid::predicted::PRESSURE_CHANGE])
+                    - f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE]));
         }
         let allowed = prompt_roughness(params) * smoother;
         change += fluid.solid_yield.get(i).map_or(0.0, |yields| f64::from(*yields));
-        let left = f64::from(fluid.factors[i][3]) + square * change + allowed;
+        let left = f64::from(fluid.factors[i][lane::fluid::factors::COMPRESSION]) + square * change + allowed;
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;
         sums[0] += if left > 0.0 { left } else { (-left).min(pressure * diagonal) };
@@ -266,7 +282,7 @@ pub(crate) fn pressure_residual(params: &Params, columns: &mut Columns) {
         sums[2] += step * response;
         sums[3] += response * response / diagonal;
         sums[4] += pressure * pressure;
-        fluid.pressure_rows[i][3] = left as f32;
+        fluid.pressure_rows[i][lane::fluid::pressure_rows::COMPRESSION] = left as f32;
     }
     fluid.pressure_solve.finish_with(sums, count, solve);
 }
@@ -276,8 +292,9 @@ pub(crate) fn pressure_kick(params: &Params, columns: &mut Columns) {
     let density = f64::from(params.fluid.rest_density);
     for i in 0..columns.rows.fluid {
         let v = vector(fluid.velocity[i]) + f64::from(params.step) * vector(fluid.correction[i]);
-        fluid.velocity[i] = row(v, f64::from(fluid.velocity[i][3]));
-        fluid.position[i][3] = (f64::from(fluid.pressure_rows[i][0]) / density) as f32;
+        fluid.velocity[i] = keep(fluid.velocity[i], v);
+        fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] =
+            (f64::from(fluid.pressure_rows[i][0]) / density) as f32;
     }
 }
 
@@ -288,7 +305,7 @@ pub(crate) fn position_correction(params: &Params, columns: &mut Columns) {
         let change = step * vector(fluid.correction[i]);
         let end = vector(fluid.predicted[i]) + step * change;
         let end = box_inside(params).map_or(end, |(low, high)| end.clamp(low, high));
-        fluid.predicted[i] = row(end, f64::from(fluid.predicted[i][3]));
-        fluid.velocity[i] = row(vector(fluid.velocity[i]) + change, f64::from(fluid.velocity[i][3]));
+        fluid.predicted[i] = keep(fluid.predicted[i], end);
+        fluid.velocity[i] = keep(fluid.velocity[i], vector(fluid.velocity[i]) + change);
     }
 }

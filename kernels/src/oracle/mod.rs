@@ -45,6 +45,11 @@ fn row(vector: DVec3, w: f64) -> [f32; 4] {
     [vector.x as f32, vector.y as f32, vector.z as f32, w as f32]
 }
 
+/// A row with another vector and the scalar that it has.
+fn keep(old: [f32; 4], vector: DVec3) -> [f32; 4] {
+    row(vector, f64::from(old[3]))
+}
+
 /// 1 - r / H, not below zero.
 fn closeness(support_radius: f32, distance: f64) -> f64 {
     (1.0 - distance / f64::from(support_radius)).max(0.0)

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::{row, shapes, vector};
+use super::{keep, row, shapes, vector};
 use crate::{
     body::{Body, Wrench},
-    columns::Columns,
+    columns::{Columns, lane},
     params::Params,
     sweep,
 };
@@ -75,7 +75,7 @@ pub(crate) fn sweep_fluid(params: &Params, columns: &mut Columns) {
             v += moved / h;
             wrench.add(-mass * moved / h, x + h * v - pair[1].state.position.as_dvec3());
         }
-        columns.fluid.velocity[i] = row(v, f64::from(columns.fluid.velocity[i][3]));
+        columns.fluid.velocity[i] = keep(columns.fluid.velocity[i], v);
     }
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
@@ -119,7 +119,7 @@ pub(crate) fn wall_friction(params: &Params, columns: &mut Columns) {
             sum += own;
             wrench.add(own * (mass * h), x - body.state.position.as_dvec3());
         }
-        let allowed = f64::from(fluid.acceleration[i][3]);
+        let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - sum, allowed);
     }
     columns.bodies.fluid_wrenches.0 = wrenches;

@@ -2,10 +2,10 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::{obstacles, row, shapes, vector};
+use super::{keep, obstacles, row, shapes, vector};
 use crate::{
     body::{Body, Wrench},
-    columns::Columns,
+    columns::{Columns, lane},
     params::{Params, Solver, SpongeParams},
     pbd::lattice::COLORS,
     reduce::{Extreme, Extremes},
@@ -31,7 +31,7 @@ pub(crate) fn predict(params: &Params, columns: &mut Columns) {
             }
             None => vector(x) + h * (vector(v) + h * vector(a)),
         };
-        nodes.predicted[node] = row(y, f64::from(x[3]));
+        nodes.predicted[node] = keep(x, y);
     }
     columns.bodies.node_wrenches.0 = vec![Wrench::default(); bodies.len()];
 }
@@ -68,7 +68,7 @@ fn sweep(
             let mut state = Tet {
                 p: tet.map(|node| predicted[node]),
                 old: tet.map(|node| vector(nodes.position[node])),
-                w: tet.map(|node| f64::from(nodes.predicted[node][3])),
+                w: tet.map(|node| f64::from(nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS])),
                 weight: f64::from(*weight),
             };
             solve(&mut state, sponge, f64::from(params.step));
@@ -76,7 +76,7 @@ fn sweep(
         }
     }
     for (node, y) in predicted.into_iter().enumerate().take(columns.rows.nodes) {
-        nodes.predicted[node] = row(y, f64::from(nodes.predicted[node][3]));
+        nodes.predicted[node] = keep(nodes.predicted[node], y);
     }
 }
 
@@ -175,7 +175,7 @@ pub(crate) fn contact(params: &Params, columns: &mut Columns) {
         }
     }
     for node in 0..columns.rows.nodes {
-        let w = f64::from(nodes.predicted[node][3]);
+        let w = f64::from(nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS]);
         if w <= 0.0 || params.sponges[nodes.sponge[node] as usize].solver == Solver::Vbd {
             continue;
         }
@@ -230,7 +230,7 @@ pub(crate) fn velocity(params: &Params, columns: &mut Columns) {
         if !v.is_finite() && extreme.not_finite == 0 {
             extreme.not_finite = node as u32 + 1;
         }
-        nodes.velocity[node] = row(v, f64::from(nodes.velocity[node][3]));
+        nodes.velocity[node] = keep(nodes.velocity[node], v);
         nodes.position[node] = y;
     }
     extreme.speed_squared = largest as f32;

@@ -4,9 +4,12 @@ use glam::DVec3;
 
 use super::{
     couple::{Pairs, sponge, weight_inside},
-    gradient, row, smoothing, vector, wetting,
+    gradient, keep, row, smoothing, vector, wetting,
 };
-use crate::{columns::Columns, params::Params};
+use crate::{
+    columns::{Columns, lane},
+    params::Params,
+};
 
 /// Support radius of the volume of the material.
 fn solid_radius(params: &Params) -> f32 {
@@ -19,7 +22,11 @@ pub(crate) fn solid_pressure(params: &Params, columns: &mut Columns) {
     for control in 0..columns.rows.nodes {
         let (nodes, node) = (&columns.nodes, columns.controls.node[control] as usize);
         let (x, v) = (nodes.position[node], nodes.velocity[node]);
-        let share = if x[3] > 0.0 { f64::from(v[3]) } else { 0.0 };
+        let share = if x[lane::nodes::position::INVERSE_MASS] > 0.0 {
+            f64::from(v[lane::nodes::velocity::FOLLOWED_SHARE])
+        } else {
+            0.0
+        };
         let end = vector(x) + h * vector(v) + h * h * share * vector(nodes.acceleration[node]);
         let solid = 1.0 - f64::from(sponge(params, columns, control).porosity);
         columns.controls.solid[control] = row(end, solid * f64::from(nodes.volume[node]));
@@ -29,13 +36,15 @@ pub(crate) fn solid_pressure(params: &Params, columns: &mut Columns) {
         let slope: DVec3 = (0..columns.rows.nodes)
             .map(|control| {
                 let apart = pairs.particles[particle] - pairs.controls[control];
-                f64::from(columns.controls.solid[control][3]) * gradient(solid_radius(params), apart)
+                f64::from(columns.controls.solid[control][lane::controls::solid::VOLUME])
+                    * gradient(solid_radius(params), apart)
             })
             .sum();
         let over_density =
-            f64::from(columns.fluid.position[particle][3]) * f64::from(params.fluid.rest_density);
+            f64::from(columns.fluid.position[particle][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY])
+                * f64::from(params.fluid.rest_density);
         let old = columns.fluid.acceleration[particle];
-        columns.fluid.acceleration[particle] = row(vector(old) - over_density * slope, f64::from(old[3]));
+        columns.fluid.acceleration[particle] = keep(old, vector(old) - over_density * slope);
     }
 }
 
@@ -44,12 +53,13 @@ pub(crate) fn solid_share(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for particle in 0..columns.rows.fluid {
         let old = columns.fluid.boundary[particle];
-        let (mut slope, mut share) = (vector(old), f64::from(old[3]));
+        let (mut slope, mut share) = (vector(old), f64::from(old[lane::fluid::boundary::SHARE]));
         for control in (0..columns.rows.nodes).filter(|control| pairs.are_near(particle, *control)) {
             let solid = columns.controls.solid[control];
             let apart = vector(columns.fluid.predicted[particle]) - vector(solid);
-            slope += f64::from(solid[3]) * gradient(solid_radius(params), apart);
-            share += f64::from(solid[3]) * smoothing(solid_radius(params), apart.length());
+            slope += f64::from(solid[lane::controls::solid::VOLUME]) * gradient(solid_radius(params), apart);
+            share += f64::from(solid[lane::controls::solid::VOLUME])
+                * smoothing(solid_radius(params), apart.length());
         }
         columns.fluid.boundary[particle] = row(slope, share);
     }
@@ -63,17 +73,20 @@ pub(crate) fn solid_reaction(params: &Params, columns: &mut Columns) {
         let mut force = DVec3::ZERO;
         for particle in (0..columns.rows.fluid).filter(|particle| pairs.are_near(*particle, control)) {
             let before = pairs.particles[particle] - pairs.controls[control];
-            let pressure = f64::from(columns.fluid.position[particle][3]) * density;
+            let pressure = f64::from(
+                columns.fluid.position[particle][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY],
+            ) * density;
             force += pressure * gradient(solid_radius(params), before);
             let predicted = columns.fluid.predicted[particle];
             let after = vector(predicted) - vector(solid);
-            force += f64::from(predicted[3]) * gradient(solid_radius(params), after);
+            force += f64::from(predicted[lane::fluid::predicted::PRESSURE_CHANGE])
+                * gradient(solid_radius(params), after);
         }
         let node = columns.controls.node[control] as usize;
-        let inverse_mass = f64::from(columns.nodes.position[node][3]);
-        let gained = force * mass * f64::from(solid[3]) * inverse_mass;
+        let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
+        let gained = force * mass * f64::from(solid[lane::controls::solid::VOLUME]) * inverse_mass;
         let old = columns.nodes.acceleration[node];
-        columns.nodes.acceleration[node] = row(vector(old) + gained, f64::from(old[3]));
+        columns.nodes.acceleration[node] = keep(old, vector(old) + gained);
     }
 }
 
@@ -149,11 +162,11 @@ pub(crate) fn drag_target(params: &Params, columns: &mut Columns) {
         for particle in 0..columns.rows.fluid {
             let weight = pairs.weight(particle, control);
             impulse += weight * vector(columns.fluid.drag[particle]);
-            mass += weight * f64::from(columns.fluid.drag[particle][3]);
+            mass += weight * f64::from(columns.fluid.drag[particle][lane::fluid::drag::MASS]);
         }
         let node = columns.controls.node[control] as usize;
         let free = columns.nodes.free[node];
-        let (mut target, mut drawn) = (vector(free), f64::from(free[3]));
+        let (mut target, mut drawn) = (vector(free), f64::from(free[lane::nodes::free::MASS]));
         if drawn > 0.0 && mass > 1.0e-20 {
             let velocity = vector(columns.controls.velocity[control]) + impulse / mass;
             let by_fluid = pairs.controls[control] + f64::from(params.step) * velocity;
@@ -171,7 +184,8 @@ pub(crate) fn drag_reaction(params: &Params, columns: &mut Columns) {
     for control in 0..columns.rows.nodes {
         let (mut impulse, mut moment, mut mass) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for particle in 0..columns.rows.fluid {
-            mass += pairs.weight(particle, control) * f64::from(columns.fluid.drag[particle][3]);
+            mass += pairs.weight(particle, control)
+                * f64::from(columns.fluid.drag[particle][lane::fluid::drag::MASS]);
             let own = pairs.weight(particle, control) * vector(columns.fluid.drag[particle]);
             impulse += own;
             moment += (pairs.particles[particle] - pairs.controls[control]).cross(own);
@@ -184,7 +198,7 @@ pub(crate) fn drag_reaction(params: &Params, columns: &mut Columns) {
 
 pub(crate) fn drag_settled(_params: &Params, columns: &mut Columns) {
     for drag in &mut columns.nodes.drag {
-        drag[3] = 0.0;
+        drag[lane::nodes::drag::MASS] = 0.0;
     }
 }
 

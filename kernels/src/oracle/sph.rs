@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::{apart, closeness, gradient, pi_power, row, shapes, smoothing, vector, vectors};
+use super::{apart, closeness, gradient, keep, pi_power, row, shapes, smoothing, vector, vectors};
 use crate::{
     body::Wrench,
-    columns::Columns,
+    columns::{Columns, lane},
     params::{EquationOfState, Params},
     reduce::{Extreme, Extremes},
 };
@@ -32,8 +32,10 @@ pub(crate) fn pressure(params: &Params, columns: &mut Columns) {
             EquationOfState::Linear => square * (density - rest),
             EquationOfState::Tait => rest * square / 7.0 * ((density / rest).powi(7) - 1.0),
         };
-        fluid.position[row][3] = (pressure.max(0.0) / density.powi(2)) as f32;
-        fluid.velocity[row][3] = (f64::from(params.fluid.particle_mass) / density) as f32;
+        fluid.position[row][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] =
+            (pressure.max(0.0) / density.powi(2)) as f32;
+        fluid.velocity[row][lane::fluid::velocity::VOLUME] =
+            (f64::from(params.fluid.particle_mass) / density) as f32;
     }
 }
 
@@ -49,14 +51,22 @@ pub(crate) fn forces(params: &Params, columns: &mut Columns) {
         let mut roughness = 0.0;
         for j in 0..count {
             let offset = apart(params, x[i], x[j]);
-            let both = f64::from(fluid.position[i][3]) + f64::from(fluid.position[j][3]);
+            let both = f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY])
+                + f64::from(fluid.position[j][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]);
             pressure -= mass * both * gradient(radius, offset);
             let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, offset.length());
-            let volume = if solves { mass / rest } else { f64::from(fluid.velocity[j][3]) };
+            let volume = if solves {
+                mass / rest
+            } else {
+                f64::from(fluid.velocity[j][lane::fluid::velocity::VOLUME])
+            };
             viscosity += volume * laplacian * (v[j] - v[i]);
             let softened = offset.length_squared() + 0.0025 * f64::from(radius).powi(2);
             central -= 10.0 * volume * (v[j] - v[i]).dot(offset) / softened * gradient(radius, offset);
-            let (own, other) = (f64::from(fluid.position[i][3]), f64::from(fluid.position[j][3]));
+            let (own, other) = (
+                f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]),
+                f64::from(fluid.position[j][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]),
+            );
             if own > 0.0 && other > 0.0 {
                 let slope = 210.0 / pi_power(radius, 5) * closeness(radius, offset.length()).powi(3);
                 let beyond = rest * (other - own) + params.gravity.as_dvec3().dot(offset);
@@ -64,7 +74,11 @@ pub(crate) fn forces(params: &Params, columns: &mut Columns) {
             }
         }
         // mu / rho_i, where the velocity row holds m / rho_i.
-        let scale = if solves { 1.0 / rest } else { f64::from(fluid.velocity[i][3]) / mass };
+        let scale = if solves {
+            1.0 / rest
+        } else {
+            f64::from(fluid.velocity[i][lane::fluid::velocity::VOLUME]) / mass
+        };
         let viscosity = f64::from(params.fluid.viscosity) * viscosity;
         let central = f64::from(params.fluid.central_viscosity) * central;
         let sum = params.gravity.as_dvec3() + pressure + scale * (viscosity + central);
@@ -80,16 +94,16 @@ pub(crate) fn surface_tension(params: &Params, columns: &mut Columns) {
     for i in 0..count {
         let (mut normal, mut laplacian) = (DVec3::ZERO, 0.0);
         for j in 0..count {
-            let volume = f64::from(fluid.velocity[j][3]);
+            let volume = f64::from(fluid.velocity[j][lane::fluid::velocity::VOLUME]);
             let offset = apart(params, x[i], x[j]);
             normal += volume * gradient(radius, offset);
             let u = closeness(radius, offset.length());
             laplacian -= volume * 630.0 / pi_power(radius, 5) * u * u * (2.0 * u - 1.0);
         }
         if normal.length() * f64::from(radius) > 1.0 {
-            let strength = per_mass * f64::from(fluid.velocity[i][3]) * laplacian;
+            let strength = per_mass * f64::from(fluid.velocity[i][lane::fluid::velocity::VOLUME]) * laplacian;
             let change = strength * normal.normalize();
-            let allowed = f64::from(fluid.acceleration[i][3]);
+            let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
             fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - change, allowed);
         }
     }
@@ -122,7 +136,7 @@ pub(crate) fn repulsion(params: &Params, columns: &mut Columns) {
             let impulse = change * -f64::from(parameters.particle_mass) * f64::from(params.step);
             wrench.add(impulse, x - normal * distance - body.state.position.as_dvec3());
         }
-        fluid.acceleration[i] = row(sum, f64::from(fluid.acceleration[i][3]));
+        fluid.acceleration[i] = keep(fluid.acceleration[i], sum);
     }
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
@@ -133,7 +147,7 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
     for i in 0..columns.rows.fluid {
         let a = vector(fluid.acceleration[i]);
         largest = largest.max(a.length_squared());
-        let w = f64::from(fluid.velocity[i][3]);
+        let w = f64::from(fluid.velocity[i][lane::fluid::velocity::VOLUME]);
         fluid.velocity[i] = row(vector(fluid.velocity[i]) + f64::from(params.step) * a, w);
     }
     fluid.extremes = Extremes(vec![Extreme { acceleration_squared: largest as f32, ..Extreme::default() }]);
@@ -167,8 +181,8 @@ pub(crate) fn advect(params: &Params, columns: &mut Columns) {
         if !(v.is_finite() && x.is_finite()) && extreme.not_finite == 0 {
             extreme.not_finite = i as u32 + 1;
         }
-        fluid.position[i] = row(x, f64::from(fluid.position[i][3]));
-        fluid.velocity[i] = row(v, f64::from(fluid.velocity[i][3]));
+        fluid.position[i] = keep(fluid.position[i], x);
+        fluid.velocity[i] = keep(fluid.velocity[i], v);
     }
     extreme.speed_squared = largest as f32;
     fluid.extremes = Extremes(vec![extreme]);

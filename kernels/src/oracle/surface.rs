@@ -3,7 +3,11 @@
 use glam::DVec3;
 
 use super::{apart, gradient, incompressible, row, smoothing, vector, vectors};
-use crate::{columns::Columns, params::Params, sph::deficit};
+use crate::{
+    columns::{Columns, lane},
+    params::Params,
+    sph::deficit,
+};
 
 pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
@@ -31,7 +35,7 @@ pub(crate) fn cohesion(params: &Params, columns: &mut Columns) {
         let radius = cohesion.smoothing.support_radius;
         let pull = |j: usize| (weight(i) + weight(j)) * gradient(radius, apart(params, x[i], x[j]));
         let sum: DVec3 = (0..count).map(pull).sum();
-        let allowed = f64::from(fluid.acceleration[i][3]);
+        let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) + factor * sum, allowed);
     }
 }

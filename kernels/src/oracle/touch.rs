@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::{row, vector};
 use crate::{
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     grid::neighbors::Neighbors,
     params::{Params, Solver},
 };
@@ -38,7 +38,7 @@ fn normals(nodes: &Nodes, count: usize) -> Vec<(DVec3, f64)> {
             sums[tet[slot] as usize] -= sign * face / 6.0;
         }
     }
-    let weight = |node: usize| f64::from(nodes.rest[node][3]);
+    let weight = |node: usize| f64::from(nodes.rest[node][lane::nodes::rest::FLATNESS]);
     let weighted = |(node, sum): (usize, DVec3)| {
         let area = if weight(node) > 0.0 { sum.length() } else { 0.0 };
         (weight(node) * sum.normalize_or_zero(), area)
@@ -92,9 +92,10 @@ pub(crate) fn pairs(params: &Params, columns: &mut Columns) {
         let gap = n.dot(apart);
         gap > -edge && gap < 0.6 * edge && (apart - gap * n).length() < 1.5 * edge
     };
-    let surface: Vec<usize> = (0..count).filter(|node| normal[*node][3] > 0.0).collect();
+    let surface: Vec<usize> =
+        (0..count).filter(|node| normal[*node][lane::nodes::normal::AREA] > 0.0).collect();
     let list = |a: usize| {
-        let others = surface.iter().filter(|b| normal[a][3] > 0.0 && touches(a, **b));
+        let others = surface.iter().filter(|b| normal[a][lane::nodes::normal::AREA] > 0.0 && touches(a, **b));
         others.map(|b| *b as u32).collect()
     };
     let mut lists: Vec<Vec<u32>> = (0..count).map(list).collect();
@@ -126,7 +127,8 @@ pub(crate) fn touch(params: &Params, columns: &mut Columns) {
             let aside = (apart - n.dot(apart) * n).length() / reach;
             let share = 3.0 / (std::f64::consts::PI * reach * reach) * (1.0 - aside * aside).max(0.0).powi(2);
             let [m_a, m_b] = [own, other].map(|sponge| f64::from(sponge.lambda) + f64::from(sponge.mu));
-            let areas = f64::from(nodes.normal[a][3]) * f64::from(nodes.normal[b][3]);
+            let areas = f64::from(nodes.normal[a][lane::nodes::normal::AREA])
+                * f64::from(nodes.normal[b][lane::nodes::normal::AREA]);
             let modulus = 2.0 / (1.0 / m_a + 1.0 / m_b);
             let k = 10.0 * modulus / edge * (facing / 0.4).min(1.0) * areas * share;
             let push = k * (depth + 4.0 * depth.powi(3) / (edge * edge));
@@ -169,7 +171,8 @@ pub(super) fn joined(nodes: &Nodes, sponges: usize) -> Vec<Vec<usize>> {
     let mut groups: Vec<usize> = (0..sponges).collect();
     for column in [&nodes.touch, &nodes.touch_stiffness] {
         for (own, row) in nodes.sponge.iter().zip(column) {
-            let (own, other) = (groups[*own as usize], groups[row[3] as usize]);
+            let (own, other) =
+                (groups[*own as usize], groups[row[lane::nodes::touch::LOWEST_SPONGE] as usize]);
             groups.iter_mut().filter(|group| **group == other).for_each(|group| *group = own);
         }
     }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{
-    apart, closeness, gradient,
+    apart, closeness, gradient, keep,
     obstacles::{given, half_space},
     pi_power, row, shapes, vector, vectors,
 };
@@ -124,7 +124,7 @@ pub(crate) fn update(params: &Params, columns: &mut Columns) {
         sums[1] += y.length_squared();
         fluid.viscosity_residual[i] = row(r, 0.0);
         fluid.viscosity_change[i] = row(y, 0.0);
-        fluid.viscosity_direction[i] = row(r + share * p, f64::from(fluid.viscosity_direction[i][3]));
+        fluid.viscosity_direction[i] = keep(fluid.viscosity_direction[i], r + share * p);
     }
     fluid.viscosity_solve.finish_with(sums, count, implicit);
 }
@@ -150,6 +150,6 @@ pub(crate) fn kick(_params: &Params, columns: &mut Columns) {
     let share = if fluid.viscosity_solve.is_solved() { 1.0 } else { 0.0 };
     for i in 0..count {
         let change = vector(fluid.viscosity_change[i]) + share * vector(fluid.viscosity_residual[i]);
-        fluid.velocity[i] = row(vector(fluid.velocity[i]) + change, f64::from(fluid.velocity[i][3]));
+        fluid.velocity[i] = keep(fluid.velocity[i], vector(fluid.velocity[i]) + change);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::couple::sponge;
 use crate::{
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     params::{Params, SpongeParams},
 };
 
@@ -37,7 +37,7 @@ pub(crate) fn wetting(params: &Params, columns: &mut Columns) {
         let wetness = (f64::from(own.time) * wetness + h * filled) / (f64::from(own.time) + h);
         let pressure = f64::from(sponge.entry_pressure) + receding * f64::from(own.receding);
         let pressure = pressure * (1.0 + f64::from(sponge.saturation_gain) * (1.0 - saturation).max(0.0));
-        let volume = f64::from(columns.controls.position[control][3]);
+        let volume = f64::from(columns.controls.position[control][lane::controls::position::VOLUME]);
         let suction = -pressure * f64::from(columns.nodes.suction[node]) * volume;
         columns.nodes.wetting[node] = [wetness, filled, receding, mobility].map(|value| value as f32);
         columns.nodes.saturation[node] = saturation as f32;

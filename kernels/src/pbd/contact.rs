@@ -24,7 +24,7 @@ declare! {
     writes: [NodePredicted, BodyNodeWrenches],
     oracle: crate::oracle::pbd::contact,
     bound: 3e-5,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

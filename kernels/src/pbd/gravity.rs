@@ -8,7 +8,7 @@ declare! {
     writes: [NodeAcceleration],
     oracle: crate::oracle::pbd::gravity,
     bound: 0.0,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(_cpu: &Cpu, params: &Params, columns: &mut Columns) {

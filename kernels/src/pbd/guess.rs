@@ -11,7 +11,7 @@
 //! Fluid may draw the nodes as well: then `couple::drag_target` moves the target, by its mass. Sponges may touch: `pbd::touch`.
 
 use crate::{
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     cpu::Cpu,
     kernel::declare,
     params::{Params, Solver},
@@ -26,7 +26,7 @@ declare! {
     ],
     oracle: crate::oracle::descent::guess,
     bound: 2e-5,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -54,10 +54,21 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let square = params.step * params.step;
     cpu.for_chunks((&mut predicted[..], &mut target[..]), |first, (predicted, target)| {
         for (row, (y, z)) in predicted.iter_mut().zip(target).enumerate() {
-            *z = [y[0], y[1], y[2], if y[3] > 0.0 { 1.0 / y[3] } else { 0.0 }];
+            *z = [
+                y[0],
+                y[1],
+                y[2],
+                if y[lane::nodes::predicted::INVERSE_MASS] > 0.0 {
+                    1.0 / y[lane::nodes::predicted::INVERSE_MASS]
+                } else {
+                    0.0
+                },
+            ];
             let node = first + row;
-            if y[3] > 0.0 && params.solver(sponge[node]) == Some(Solver::Vbd) {
-                let lacking = square * (1.0 - velocity[node][3]);
+            if y[lane::nodes::predicted::INVERSE_MASS] > 0.0
+                && params.solver(sponge[node]) == Some(Solver::Vbd)
+            {
+                let lacking = square * (1.0 - velocity[node][lane::nodes::velocity::FOLLOWED_SHARE]);
                 (0..3).for_each(|axis| y[axis] -= lacking * acceleration[node][axis]);
             }
         }

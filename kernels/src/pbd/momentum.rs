@@ -30,7 +30,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use crate::{
     body::{Body, BodyState, Wrench, by_chunk},
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
     params::{Params, Solver},
@@ -48,9 +48,9 @@ declare! {
     oracle: crate::oracle::descent::momentum,
     bound: 5e-4,
     twin: [
-        pass("pbd::momentum_sums", Sponges, NODES),
-        pass(NAME, Nodes, NODES),
-        pass("pbd::momentum_bodies", Nodes, NODES),
+        pass("pbd::momentum_sums", Sponges),
+        pass(NAME, Nodes),
+        pass("pbd::momentum_bodies", Nodes),
     ],
 }
 
@@ -127,12 +127,12 @@ impl Task<'_> {
         if self.params.solver(own) != Some(Solver::Vbd) {
             return;
         }
-        let mass = reaction[3];
+        let mass = reaction[lane::nodes::reaction::MASS];
         if mass != 0.0 {
             let change = self.motions[own as usize].at(x);
             if mass < 0.0 {
                 (0..3).for_each(|axis| reaction[axis] += mass * change[axis]);
-                if y[3] > 0.0 {
+                if y[lane::nodes::predicted::INVERSE_MASS] > 0.0 {
                     self.give(node, y, change, mass, wrenches);
                 }
             } else {
@@ -142,8 +142,8 @@ impl Task<'_> {
                 }
             }
         }
-        if y[3] > 0.0 {
-            v[3] = followed(x, *y, *v, self.acceleration[node], step);
+        if y[lane::nodes::predicted::INVERSE_MASS] > 0.0 {
+            v[lane::nodes::velocity::FOLLOWED_SHARE] = followed(x, *y, *v, self.acceleration[node], step);
         }
     }
 
@@ -178,7 +178,7 @@ pub(crate) fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) 
     let mut first: Vec<usize> = (0..sponges).collect();
     for column in touches {
         for (own, row) in sponge.iter().zip(column) {
-            let [mut a, mut b] = [*own as usize, row[3] as usize];
+            let [mut a, mut b] = [*own as usize, row[lane::nodes::touch::LOWEST_SPONGE] as usize];
             if a == b {
                 continue;
             }
@@ -271,16 +271,16 @@ impl Sums {
     fn add(&mut self, rows: &Rows<'_>, node: usize, rate: f64) {
         let vector = |row: [f32; 4]| DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
         let x = vector(rows.position[node]);
-        let mut weight = f64::from(rows.reaction[node][3]);
+        let mut weight = f64::from(rows.reaction[node][lane::nodes::reaction::MASS]);
         if weight > 0.0 {
-            weight += f64::from(rows.drag[node][3]);
+            weight += f64::from(rows.drag[node][lane::nodes::drag::MASS]);
         }
         let mass = weight.abs();
         self.mass[0] += weight.max(0.0);
         self.mass[1] += mass;
         self.first += x * mass;
         self.second += DMat3::from_cols(x * (x.x * mass), x * (x.y * mass), x * (x.z * mass));
-        let inverse = f64::from(rows.predicted[node][3]);
+        let inverse = f64::from(rows.predicted[node][lane::nodes::predicted::INVERSE_MASS]);
         let own = if inverse > 0.0 { rate / inverse } else { 0.0 };
         let gained = (vector(rows.predicted[node]) - vector(rows.free[node])) * own;
         let mut lacking = vector(rows.reaction[node]) - gained;

@@ -26,7 +26,7 @@
 use glam::Vec3;
 
 use crate::{
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     cpu::Cpu,
     grid::cells::{Cells, Domain},
     kernel::declare,
@@ -57,14 +57,16 @@ declare! {
     writes: [NodeNormal, NodePairs],
     oracle: crate::oracle::touch::pairs,
     bound: 2e-6,
+    // The longest list that does not fit.
+    twin_writes: [NodeExtremes],
     twin: [
-        pass("pbd::boxes", Sponges, NODES),
-        pass("pbd::normals", Nodes, NODES),
-        pass("grid::count", Nodes, PAIRS),
-        pass("grid::scan_sums", PairScan, PAIRS),
-        pass("grid::scan_pages", PairPages, PAIRS),
-        pass("grid::scatter", Nodes, PAIRS),
-        pass(NAME, Nodes, NODES),
+        pass("pbd::boxes", Sponges),
+        pass("pbd::normals", Nodes),
+        pass("grid::count", Nodes).on(PAIR_CELLS),
+        pass("grid::scan_sums", PairScan).on(PAIR_CELLS),
+        pass("grid::scan_pages", PairPages).on(PAIR_CELLS),
+        pass("grid::scatter", Nodes).on(PAIR_CELLS),
+        pass(NAME, Nodes),
         CHECK,
     ],
 }
@@ -138,7 +140,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             normals(params, (stars, color, first), (position, rest), (sponge, near), normal);
         });
     }
-    let members: Vec<u32> = (0..count as u32).filter(|node| normal[*node as usize][3] > 0.0).collect();
+    let members: Vec<u32> =
+        (0..count as u32).filter(|node| normal[*node as usize][lane::nodes::normal::AREA] > 0.0).collect();
     let surface = Surface { params, radius, position, rest, sponge, normal };
     let points: Vec<[f32; 4]> = members.iter().map(|node| position[*node as usize]).collect();
     let mut cells = Cells::default();
@@ -146,7 +149,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let targets: Vec<u32> = cells.order.iter().map(|row| members[*row as usize]).collect();
     let padding = count as u32;
     pairs.fill(cpu, position.len(), padding, |spans: &mut Vec<[u32; 2]>, node, list| {
-        if surface.normal[node][3] <= 0.0 {
+        if surface.normal[node][lane::nodes::normal::AREA] <= 0.0 {
             return;
         }
         let x = position[node];
@@ -218,7 +221,7 @@ fn normals(
             let sponge = sponge[node];
             if near.has(sponge, vector(position[node])) {
                 let edge = params.sponges[sponge as usize].edge;
-                *normal = normal_of(group, lane, position, (edge, rest[node][3]));
+                *normal = normal_of(group, lane, position, (edge, rest[node][lane::nodes::rest::FLATNESS]));
             }
         }
     }

@@ -10,7 +10,7 @@ use glam::{Mat3, Vec3};
 
 use crate::{
     body::{Body, Wrench},
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     cpu::{CHUNK, Cpu},
     kernel::declare,
     params::Params,
@@ -22,7 +22,7 @@ declare! {
     writes: [NodePredicted, BodyNodeWrenches],
     oracle: crate::oracle::pbd::predict,
     bound: 2e-5,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -36,7 +36,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(&mut predicted[..], |first, predicted| {
         if params.asleep.has_all(first..first + predicted.len()) {
             predicted.copy_from_slice(&position[first..first + predicted.len()]);
-            predicted.iter_mut().for_each(|row| row[3] = 0.0);
+            predicted.iter_mut().for_each(|row| row[lane::nodes::predicted::INVERSE_MASS] = 0.0);
             return;
         }
         for (row, predicted) in predicted.iter_mut().enumerate() {
@@ -50,7 +50,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 Some(body) => held(body, grip_offset[node], h).to_array(),
                 None => [0, 1, 2].map(|axis| x[axis] + h * (v[axis] + h * a[axis])),
             };
-            *predicted = [y[0], y[1], y[2], x[3]];
+            *predicted = [y[0], y[1], y[2], x[lane::nodes::position::INVERSE_MASS]];
         }
     });
 }

@@ -34,7 +34,7 @@ declare! {
     writes: [NodeReaction, BodyNodeWrenches],
     oracle: crate::oracle::descent::reaction,
     bound: 1e-3,
-    twin: [pass(NAME, Nodes, NODES)],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

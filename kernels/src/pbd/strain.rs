@@ -46,7 +46,7 @@ declare! {
     oracle: crate::oracle::pbd::strain,
     // 6e-8 m: eight units in the last place of a position.
     bound: 5e-4,
-    twin: [pass(NAME, Colors, NODES)],
+    twin: [pass(NAME, Colors)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

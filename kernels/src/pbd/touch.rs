@@ -23,7 +23,7 @@
 use glam::{Mat3, Vec3};
 
 use crate::{
-    columns::{Columns, Nodes},
+    columns::{Columns, Nodes, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
@@ -48,7 +48,7 @@ declare! {
     writes: [NodeTouch, NodeTouchStiffness, NodeTouchBetween],
     oracle: crate::oracle::touch::touch,
     bound: 1e-4,
-    twin: [pass(NAME, Nodes, NODES), pass("pbd::touching", Sponges, NODES), pass("pbd::joining", One, NODES)],
+    twin: [pass(NAME, Nodes), pass("pbd::touching", Sponges), pass("pbd::joining", One)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -126,7 +126,7 @@ impl Task<'_> {
         let closeness = (1.0 - pair.aside / (reach * reach)).max(0.0);
         let share = 3.0 / std::f32::consts::PI / (reach * reach) * closeness * closeness;
         let facing = (pair.facing / TURN).min(1.0);
-        let area = normals[0][3] * normals[1][3];
+        let area = normals[0][lane::nodes::normal::AREA] * normals[1][lane::nodes::normal::AREA];
         let k = STIFFNESS * self.params.pair_modulus(own, other) / edge * facing * (area * share);
         let square = 4.0 * depth * depth / (edge * edge);
         let push = k * depth * (1.0 + square);

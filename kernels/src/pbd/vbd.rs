@@ -52,7 +52,7 @@ declare! {
     writes: [NodePredicted],
     oracle: crate::oracle::descent::vbd,
     bound: 5e-4,
-    twin: [pass(NAME, VertexColors, NODES)],
+    twin: [pass(NAME, VertexColors)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

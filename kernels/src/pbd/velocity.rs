@@ -18,7 +18,9 @@ declare! {
     writes: [NodePosition, NodeVelocity, NodeExtremes],
     oracle: crate::oracle::pbd::velocity,
     bound: 1e-6,
-    twin: [pass(NAME, Nodes, NODES)],
+    // Nodes of sponges that are asleep have an inverse mass on a device.
+    twin_reads: [NodeSponge],
+    twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -30,7 +30,7 @@ declare! {
     writes: [NodePredicted],
     oracle: crate::oracle::pbd::xpbd_neo_hookean,
     bound: 1.5e-4,
-    twin: [pass(NAME, Colors, NODES)],
+    twin: [pass(NAME, Colors)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -21,7 +21,9 @@ declare! {
     writes: [FluidPosition, FluidVelocity, FluidExtremes],
     oracle: crate::oracle::sph::advect,
     bound: 1e-5,
-    twin: [pass(NAME, Fluid, SORT)],
+    // What is sorted comes back to where the next step finds it.
+    twin_writes: [FluidId],
+    twin: [pass(NAME, Fluid)],
 }
 
 /// Distance from the walls at which a particle is stopped, over the spacing.

@@ -31,7 +31,7 @@ declare! {
     bound: 2e-5,
     // The sixth power of a distance over the range, a tenth of a millimetre where there are 65 537 particles: 2.6e-5.
     twin_bound: 1e-4,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -21,7 +21,7 @@ declare! {
     writes: [FluidAcceleration, BodyFluidWrenches],
     oracle: crate::oracle::incompressible::boundary_pressure,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

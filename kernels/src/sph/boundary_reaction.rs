@@ -25,7 +25,7 @@ declare! {
     bound: 2e-5,
     // Impulses of either sign, added up in f32 over 65 537 particles, on walls as thin as these are small: 4.9e-5.
     twin_bound: 1e-4,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

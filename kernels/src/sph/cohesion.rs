@@ -27,7 +27,7 @@ declare! {
     oracle: crate::oracle::surface::cohesion,
     // Weights of deficits are a tenth of the sums that they are differences of.
     bound: 1.5e-4,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

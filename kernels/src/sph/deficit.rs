@@ -32,7 +32,7 @@ declare! {
     oracle: crate::oracle::surface::deficit,
     // Weights of deficits are a tenth of the sums that they are differences of.
     bound: 4e-5,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 /// Share of the neighbourhood above which nothing lacks.

@@ -21,7 +21,7 @@ declare! {
     writes: [FluidDensity],
     oracle: crate::oracle::sph::density,
     bound: 2e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -36,10 +36,10 @@ use crate::{
 declare! {
     needs: [Fluid, Incompressible],
     reads: [FluidPosition, FluidPredicted, FluidNeighbors, FluidBoundary, FluidAcceleration],
-    writes: [FluidFactors, FluidPairs, FluidPressureRows, FluidYield, FluidPressureSolve],
+    writes: [FluidFactors, FluidPairs, FluidPressureRows, FluidSolidYield, FluidPressureSolve],
     oracle: crate::oracle::incompressible::factors,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID), pass("sph::solve_begin", One, FLUID)],
+    twin: [pass(NAME, Fluid), pass("sph::solve_begin", One)],
 }
 
 /// Least diagonal, over that of a lattice: a lone particle is not moved by its own pressure.

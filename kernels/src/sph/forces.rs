@@ -33,7 +33,7 @@ declare! {
     writes: [FluidAcceleration],
     oracle: crate::oracle::sph::forces,
     bound: 2e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

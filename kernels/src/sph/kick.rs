@@ -18,7 +18,7 @@ declare! {
     writes: [FluidVelocity, FluidExtremes],
     oracle: crate::oracle::sph::kick,
     bound: 1e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -21,7 +21,7 @@ declare! {
     writes: [FluidPredicted, FluidVelocity],
     oracle: crate::oracle::incompressible::position_correction,
     bound: 3e-5,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

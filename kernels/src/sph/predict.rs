@@ -18,7 +18,7 @@
 
 use crate::{
     column::FAR_ROW,
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     params::{FluidParams, Params},
@@ -30,7 +30,7 @@ declare! {
     writes: [FluidPredicted, FluidVelocity, FluidAcceleration],
     oracle: crate::oracle::incompressible::predict,
     bound: 1e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -51,12 +51,17 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let end = x[axis] + params.step * v[axis];
                 predicted[axis] = inside.map_or(end, |(low, high)| end.clamp(low[axis], high[axis]));
             }
-            predicted[3] = 0.0;
+            predicted[lane::fluid::predicted::PRESSURE_CHANGE] = 0.0;
             // More than all of the volume is no compression.
-            let before = if v[3].abs() <= 1.0 { v[3] } else { 0.0 };
-            let allowed = before + share * (a[3] - before);
-            v[3] = allowed;
-            a[3] = allowed + share * (a[3] - allowed);
+            let before = if v[lane::fluid::velocity::ALLOWED_COMPRESSION].abs() <= 1.0 {
+                v[lane::fluid::velocity::ALLOWED_COMPRESSION]
+            } else {
+                0.0
+            };
+            let allowed = before + share * (a[lane::fluid::acceleration::ALLOWED_COMPRESSION] - before);
+            v[lane::fluid::velocity::ALLOWED_COMPRESSION] = allowed;
+            a[lane::fluid::acceleration::ALLOWED_COMPRESSION] =
+                allowed + share * (a[lane::fluid::acceleration::ALLOWED_COMPRESSION] - allowed);
         }
     });
 }

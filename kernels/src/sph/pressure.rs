@@ -11,7 +11,7 @@
 //! Leaves p / rho^2 beside the position and m / rho beside the velocity, where neighbours read them.
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     params::{EquationOfState, FluidParams, Params},
@@ -23,7 +23,7 @@ declare! {
     writes: [FluidPosition, FluidVelocity],
     oracle: crate::oracle::sph::pressure,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -34,8 +34,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks((&mut position[..count], &mut velocity[..count]), |first, (position, velocity)| {
         let rows = position.iter_mut().zip(velocity).zip(&density[first..]);
         for ((position, velocity), density) in rows {
-            position[3] = pressure(fluid, *density) / (density * density);
-            velocity[3] = fluid.particle_mass / density;
+            position[lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] =
+                pressure(fluid, *density) / (density * density);
+            velocity[lane::fluid::velocity::VOLUME] = fluid.particle_mass / density;
         }
     });
 }

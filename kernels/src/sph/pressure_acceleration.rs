@@ -23,7 +23,7 @@ declare! {
     writes: [FluidCorrection],
     oracle: crate::oracle::incompressible::pressure_acceleration,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

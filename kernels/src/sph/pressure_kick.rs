@@ -5,7 +5,7 @@
 //! ```
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     params::Params,
@@ -17,7 +17,7 @@ declare! {
     writes: [FluidPosition, FluidVelocity],
     oracle: crate::oracle::incompressible::pressure_kick,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -31,7 +31,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let rows = position.iter_mut().zip(velocity).zip(&correction[first..]).zip(&pressure_rows[first..]);
         for (((position, velocity), a), pressure) in rows {
             (0..3).for_each(|axis| velocity[axis] += params.step * a[axis]);
-            position[3] = pressure[0] / density;
+            position[lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] = pressure[0] / density;
         }
     });
 }

@@ -26,12 +26,14 @@ declare! {
     needs: [Fluid, Incompressible],
     reads: [
         FluidPredicted, FluidCorrection, FluidNeighbors, FluidPairs, FluidFactors, FluidPressureRows,
-        FluidYield, FluidPressureSolve,
+        FluidSolidYield, FluidPressureSolve,
     ],
     writes: [FluidPressureRows, FluidPressureSolve],
     oracle: crate::oracle::incompressible::pressure_residual,
     bound: 1e-5,
-    twin: [pass(NAME, Fluid, FLUID), pass("sph::solve_round", One, FLUID)],
+    // The root mean square of the pressure, for the clock of the device.
+    twin_writes: [FluidExtremes],
+    twin: [pass(NAME, Fluid), pass("sph::solve_round", One)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -14,6 +14,7 @@
 //! that are longer than a few spacings are hardly damped below the tolerance: a pool would ring for ever at a speed in
 //! proportion to it.
 
+use crate::columns::lane;
 use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::Incompressible};
 
 /// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
@@ -55,7 +56,7 @@ impl Sums {
             sums.mixed += change * response;
             sums.response += response * response / diagonal;
             sums.pressure += pressure * pressure;
-            row[3] = *left;
+            row[lane::fluid::pressure_rows::COMPRESSION] = *left;
         }
         sums
     }

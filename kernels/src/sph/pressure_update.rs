@@ -11,7 +11,7 @@
 //! position, where neighbours read it.
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     params::Params,
@@ -23,7 +23,7 @@ declare! {
     writes: [FluidPredicted, FluidPressureRows],
     oracle: crate::oracle::incompressible::pressure_update,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 /// Speed of sound over the fastest speed that is expected.
@@ -43,7 +43,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let next = if next < most { next } else { most };
             row[0] = next;
             row[1] = next - pressure;
-            predicted[3] = next - density * position[3];
+            predicted[lane::fluid::predicted::PRESSURE_CHANGE] =
+                next - density * position[lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY];
         }
     });
 }

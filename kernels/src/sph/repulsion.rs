@@ -24,7 +24,7 @@ declare! {
     writes: [FluidAcceleration, BodyFluidWrenches],
     oracle: crate::oracle::sph::repulsion,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -26,7 +26,7 @@ declare! {
     writes: [FluidAcceleration],
     oracle: crate::oracle::sph::surface_tension,
     bound: 1e-5,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -29,7 +29,7 @@ declare! {
     writes: [FluidVelocity, BodyFluidWrenches],
     oracle: crate::oracle::obstacles::sweep_fluid,
     bound: 2e-3,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

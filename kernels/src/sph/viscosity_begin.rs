@@ -37,7 +37,7 @@ declare! {
     ],
     oracle: crate::oracle::viscosity::begin,
     bound: 4e-6,
-    twin: [pass("sph::viscosity_friction", Fluid, FLUID), pass(NAME, Fluid, FLUID)],
+    twin: [pass("sph::viscosity_friction", Fluid), pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

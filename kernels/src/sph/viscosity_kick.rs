@@ -21,7 +21,7 @@ declare! {
     writes: [FluidVelocity],
     oracle: crate::oracle::viscosity::kick,
     bound: 1e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {

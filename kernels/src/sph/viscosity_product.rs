@@ -30,7 +30,7 @@ declare! {
     bound: 1e-5,
     // Quotients of sums of either sign: 6.0e-6.
     twin_bound: 2e-5,
-    twin: [pass(NAME, Fluid, FLUID), pass("sph::viscosity_length", One, FLUID)],
+    twin: [pass(NAME, Fluid), pass("sph::viscosity_length", One)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

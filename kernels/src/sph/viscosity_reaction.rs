@@ -28,7 +28,7 @@ declare! {
     writes: [BodyFluidWrenches],
     oracle: crate::oracle::viscosity::reaction,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

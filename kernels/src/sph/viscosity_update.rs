@@ -19,7 +19,7 @@ declare! {
     writes: [FluidViscosityResidual, FluidViscosityDirection, FluidViscosityChange, FluidViscositySolve],
     oracle: crate::oracle::viscosity::update,
     bound: 1e-5,
-    twin: [pass(NAME, Fluid, FLUID), pass("sph::viscosity_round", One, FLUID)],
+    twin: [pass(NAME, Fluid), pass("sph::viscosity_round", One)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

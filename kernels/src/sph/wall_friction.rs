@@ -34,7 +34,7 @@ declare! {
     writes: [FluidAcceleration, BodyFluidWrenches],
     oracle: crate::oracle::obstacles::wall_friction,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid, FLUID)],
+    twin: [pass(NAME, Fluid)],
 }
 
 /// Least distance over H.

@@ -2,7 +2,8 @@
 
 use crate::{
     body::Wrench,
-    columns::{Column, Columns},
+    column::Plain,
+    columns::{Column, Columns, Store},
     cpu::CHUNK,
     grid::{
         cells::Cells,
@@ -118,29 +119,22 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
     let (fluid, nodes, controls) = (&columns.fluid, &columns.nodes, &columns.controls);
     let (ids, by_id, by_node) = (&fluid.id, by_id(columns), by_node(columns));
     let all_nodes: Vec<usize> = (0..columns.rows.nodes).collect();
+    let order = || match column.store() {
+        Store::Fluid => &by_id,
+        Store::Controls => &by_node,
+        Store::Nodes | Store::BodyStore => &all_nodes,
+    };
+    match columns.data(column).plain() {
+        Some(Plain::Rows(data)) => return rows(column, data, order()),
+        Some(Plain::Values(data)) => return values(data, order()),
+        Some(Plain::Words(_)) | None => {}
+    }
     let radii = [params.fluid.smoothing.support_radius, params.coupling.support_radius];
     match column {
-        Column::FluidPosition => rows(&fluid.position, &by_id),
-        Column::FluidVelocity => rows(&fluid.velocity, &by_id),
-        Column::FluidAcceleration => rows(&fluid.acceleration, &by_id),
-        Column::FluidPredicted => rows(&fluid.predicted, &by_id),
-        Column::FluidBoundary => rows(&fluid.boundary, &by_id),
-        Column::FluidYield if fluid.solid_yield.is_empty() => Content::Numbers(Vec::new()),
-        Column::FluidYield => values(&fluid.solid_yield, &by_id),
-        Column::FluidDeficit => values(&fluid.deficit, &by_id),
-        Column::FluidFactors => rows(&fluid.factors, &by_id),
-        Column::FluidCorrection => rows(&fluid.correction, &by_id),
-        Column::FluidPressureRows => planes(&fluid.pressure_rows, &by_id),
         Column::FluidPairs => list_values(&fluid.pairs, &fluid.neighbors, &by_id, ids, columns.rows.fluid),
         Column::FluidPressureSolve => {
             Content::Numbers(fluid.pressure_solve.numbers().map(|number| vec![number]).to_vec())
         }
-        Column::FluidFriction => rows(&fluid.friction, &by_id),
-        Column::FluidFrictionBetween => rows(&fluid.friction_between, &by_id),
-        Column::FluidViscosityResidual => rows(&fluid.viscosity_residual, &by_id),
-        Column::FluidViscosityDirection => rows(&fluid.viscosity_direction, &by_id),
-        Column::FluidViscosityProduct => rows(&fluid.viscosity_product, &by_id),
-        Column::FluidViscosityChange => rows(&fluid.viscosity_change, &by_id),
         Column::FluidViscositySolve => {
             let [rounds, converged, solved, length, share, residual, change] =
                 fluid.viscosity_solve.numbers();
@@ -148,11 +142,7 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
             let lone = [rounds, converged, solved, residual, change].map(|number| vec![number]);
             Content::Numbers([&lone[..], &[vec![length, share]]].concat())
         }
-        Column::FluidDrag => rows(&fluid.drag, &by_id),
         Column::FluidId => Content::Sets(vec![by_id.iter().map(|row| ids[*row]).collect()]),
-        Column::FluidDensity => values(&fluid.density, &by_id),
-        Column::FluidInterior => values(&fluid.interior, &by_id),
-        Column::FluidDragRate => planes(&fluid.drag_rate, &by_id),
         Column::FluidCells => boxes(&fluid.cells, &fluid.position, &by_id, ids, radii[0], brute),
         Column::ControlCells => {
             boxes(&controls.cells, &controls.position, &by_node, &controls.node, radii[1], brute)
@@ -167,32 +157,10 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
             list_values(&controls.fluid_weights, &controls.fluid, &by_node, ids, columns.rows.fluid)
         }
         Column::ControlNode => Content::Sets(vec![by_node.iter().map(|row| controls.node[*row]).collect()]),
-        Column::ControlPosition => rows(&controls.position, &by_node),
-        Column::ControlVelocity => rows(&controls.velocity, &by_node),
-        Column::ControlUnfiltered => rows(&controls.unfiltered, &by_node),
-        Column::ControlSolid => rows(&controls.solid, &by_node),
-        Column::ControlSaturation => values(&controls.saturation, &by_node),
-        Column::ControlSuction => values(&controls.suction, &by_node),
-        Column::NodePosition => rows(&nodes.position, &all_nodes),
-        Column::NodeVelocity => rows(&nodes.velocity, &all_nodes),
-        Column::NodePredicted => rows(&nodes.predicted, &all_nodes),
-        Column::NodeFree => rows(&nodes.free, &all_nodes),
-        Column::NodeTarget => rows(&nodes.target, &all_nodes),
-        Column::NodePores => planes(&nodes.pores, &all_nodes),
-        Column::NodeWetting => planes(&nodes.wetting, &all_nodes),
-        Column::NodeDrag => rows(&nodes.drag, &all_nodes),
-        Column::NodeDragMoment => rows(&nodes.drag_moment, &all_nodes),
-        Column::NodeNormal => rows(&nodes.normal, &all_nodes),
         Column::NodePairs => {
             let identity: Vec<u32> = (0..columns.rows.nodes as u32).collect();
             sets(&nodes.pairs, &all_nodes, &identity, columns.rows.nodes)
         }
-        Column::NodeTouch => rows_or_none(&nodes.touch, &all_nodes),
-        Column::NodeTouchStiffness => rows_or_none(&nodes.touch_stiffness, &all_nodes),
-        Column::NodeTouchBetween => rows_or_none(&nodes.touch_between, &all_nodes),
-        Column::NodeReaction => rows(&nodes.reaction, &all_nodes),
-        Column::NodeAcceleration => rows(&nodes.acceleration, &all_nodes),
-        Column::NodeSaturation => values(&nodes.saturation, &all_nodes),
         Column::FluidExtremes => extremes(fluid.extremes.total()),
         Column::NodeExtremes => extremes(nodes.extremes.total()),
         Column::BodyFluidWrenches => {
@@ -205,24 +173,18 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
     }
 }
 
-fn rows(data: &[[f32; 4]], order: &[usize]) -> Content {
-    let vectors = order.iter().flat_map(|row| data[*row][..3].iter().copied().map(f64::from));
-    let w = order.iter().map(|row| f64::from(data[*row][3]));
-    Content::Numbers(vec![vectors.collect(), w.collect()])
+/// Vectors in one group, every other lane in a group of its own; zeros where there are no rows.
+fn rows(column: Column, data: &[[f32; 4]], order: &[usize]) -> Content {
+    let row = |row: &usize| if data.is_empty() { [0.0; 4] } else { data[*row].map(f64::from) };
+    let plane = |k: usize| order.iter().map(|place| row(place)[k]).collect();
+    let vectors = order.iter().flat_map(|place| row(place)[..3].to_vec()).collect();
+    let is_vector = column.element().has_vector();
+    Content::Numbers(if is_vector { vec![vectors, plane(3)] } else { (0..4).map(plane).collect() })
 }
 
-/// Rows that are zero where there are none.
-fn rows_or_none(data: &[[f32; 4]], order: &[usize]) -> Content {
-    if data.is_empty() { rows(&vec![[0.0; 4]; order.len()], order) } else { rows(data, order) }
-}
-
-/// Rows of four numbers that have nothing to do with each other.
-fn planes(data: &[[f32; 4]], order: &[usize]) -> Content {
-    let plane = |k: usize| order.iter().map(|row| f64::from(data[*row][k])).collect();
-    Content::Numbers((0..4).map(plane).collect())
-}
-
+/// No numbers where there are no rows.
 fn values(data: &[f32], order: &[usize]) -> Content {
+    let order = if data.is_empty() { &[] } else { order };
     Content::Numbers(vec![order.iter().map(|row| f64::from(data[*row])).collect()])
 }
 

@@ -6,6 +6,7 @@ use super::{
     lattice::Lattice,
     scene::{FULL, Options, Scene, best, blocks},
 };
+use crate::columns::lane;
 use crate::{params::Solver, testing::Random};
 
 const EDGES: [f64; 2] = [0.01, 0.008];
@@ -14,7 +15,7 @@ const EDGES: [f64; 2] = [0.01, 0.008];
 fn free() -> Scene {
     let mut scene = Scene::new(Options { fluid: 0, bodies: false, walls: false, ..FULL });
     for (node, [x, y, z]) in Lattice::new(&blocks(), 8).position.into_iter().enumerate() {
-        let w = scene.columns.nodes.position[node][3];
+        let w = scene.columns.nodes.position[node][lane::nodes::position::INVERSE_MASS];
         scene.columns.nodes.position[node] = [x - 0.04, y - 0.02, z - 0.02, w];
         scene.columns.nodes.velocity[node] = [0.0; 4];
     }
@@ -48,7 +49,8 @@ fn momenta(scene: &Scene) -> [DVec3; 2] {
     let nodes = &scene.columns.nodes;
     let mut momenta = [DVec3::ZERO; 2];
     for node in 0..scene.columns.rows.nodes {
-        let momentum = vector(nodes.velocity[node]) / f64::from(nodes.position[node][3]);
+        let momentum = vector(nodes.velocity[node])
+            / f64::from(nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         momenta[0] += momentum;
         momenta[1] += vector(nodes.position[node]).cross(momentum);
     }
@@ -126,7 +128,7 @@ fn a_sweep_never_raises_the_energy() {
         let y: Vec<DVec3> = nodes.predicted.iter().map(|row| vector(*row)).collect();
         let inertia = |node: usize| {
             (y[node] - vector(nodes.target[node])).length_squared()
-                / (2.0 * h * h * f64::from(nodes.predicted[node][3]))
+                / (2.0 * h * h * f64::from(nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS]))
         };
         let elastic = |(tet, weight): (&[u32; 4], &f32)| {
             let sponge = nodes.sponge[tet[0] as usize] as usize;
@@ -202,7 +204,7 @@ fn recovered(spoil: impl Fn(usize, DVec3) -> DVec3) -> f64 {
     scene.params.sponges.iter_mut().for_each(|sponge| sponge.damping = 0.004);
     for node in 0..scene.columns.rows.nodes {
         let place = spoil(node, vector(scene.columns.nodes.position[node])).as_vec3();
-        let w = scene.columns.nodes.position[node][3];
+        let w = scene.columns.nodes.position[node][lane::nodes::position::INVERSE_MASS];
         scene.columns.nodes.position[node] = [place.x, place.y, place.z, w];
     }
     assert!(smallest_ratio(&scene) <= 0.0, "nothing is spoilt");

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::scene::{FULL, Options, Scene, best};
+use crate::columns::lane;
 
 /// Momentum, its magnitude, and kinetic energy of particles and nodes.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +17,8 @@ fn motion(scene: &Scene) -> Motion {
     let columns = &scene.columns;
     let particle = f64::from(scene.params.fluid.particle_mass);
     let fluid = columns.fluid.velocity[..columns.rows.fluid].iter().map(|v| (particle, *v));
-    let masses = columns.nodes.position.iter().map(|x| 1.0 / f64::from(x[3]));
+    let masses =
+        columns.nodes.position.iter().map(|x| 1.0 / f64::from(x[lane::nodes::position::INVERSE_MASS]));
     let nodes = masses.zip(columns.nodes.velocity.iter().copied()).take(columns.rows.nodes);
     let mut total = Motion { momentum: DVec3::ZERO, magnitude: 0.0, energy: 0.0 };
     for (mass, v) in fluid.chain(nodes) {
@@ -33,8 +35,8 @@ fn wet(strength: f32) -> Scene {
     let free = Options { bodies: false, walls: false, ..FULL };
     let mut scene = Scene::new(free);
     for (x, volume) in scene.columns.nodes.position.iter_mut().zip(&scene.columns.nodes.volume) {
-        if x[3] > 0.0 {
-            x[3] = 1.0 / (50.0 * volume);
+        if x[lane::nodes::position::INVERSE_MASS] > 0.0 {
+            x[lane::nodes::position::INVERSE_MASS] = 1.0 / (50.0 * volume);
         }
     }
     scene.params.sponges.iter_mut().for_each(|sponge| sponge.drag_rate *= strength);
@@ -98,7 +100,12 @@ fn drag_that_forgets_who_shares_a_node_is_not_stable() {
     let first = motion(&scene).energy;
     for _ in 0..5 {
         scene.run(&best(), &["couple::control_velocity"]);
-        scene.columns.controls.velocity.iter_mut().for_each(|velocity| velocity[3] = 0.0);
+        scene
+            .columns
+            .controls
+            .velocity
+            .iter_mut()
+            .for_each(|velocity| velocity[lane::controls::velocity::DRAG_SHARE] = 0.0);
         scene.run(&best(), &["couple::drag", "couple::exchange"]);
     }
     assert!(motion(&scene).energy > 10.0 * first);
@@ -116,7 +123,9 @@ fn impulses(sweeps: usize, flow: impl Fn([f32; 4]) -> [f32; 3]) -> Vec<f64> {
     let nodes = scene.columns.nodes.velocity.iter().zip(&scene.columns.nodes.position);
     nodes
         .take(scene.columns.rows.nodes)
-        .flat_map(|(v, x)| [0, 1, 2].map(|k| f64::from(v[k]) / f64::from(x[3])))
+        .flat_map(|(v, x)| {
+            [0, 1, 2].map(|k| f64::from(v[k]) / f64::from(x[lane::nodes::position::INVERSE_MASS]))
+        })
         .collect()
 }
 

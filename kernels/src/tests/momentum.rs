@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::scene::{FULL, Options, Scene, best};
 use crate::body::Wrench;
+use crate::columns::lane;
 
 fn vector(row: [f32; 4]) -> DVec3 {
     DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]))
@@ -100,7 +101,7 @@ fn suction_balance(reaction: f32) -> Balance {
     let mut balance = fluid_balance(&scene, DVec3::ZERO);
     let nodes = &scene.columns.nodes;
     for node in 0..scene.columns.rows.nodes {
-        let mass = 1.0 / f64::from(nodes.position[node][3]);
+        let mass = 1.0 / f64::from(nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         balance.add(mass * vector(nodes.acceleration[node]), vector(nodes.position[node]));
     }
     balance
@@ -147,7 +148,8 @@ fn contact_pushes_bodies_back() {
             let new = scene.columns.nodes.predicted[node];
             let change = vector(new) - vector(*old);
             if change != DVec3::ZERO {
-                let impulse = change / f64::from(old[3] * scene.params.step);
+                let impulse =
+                    change / f64::from(old[lane::nodes::position::INVERSE_MASS] * scene.params.step);
                 balance.add(impulse, vector(new));
             }
         }

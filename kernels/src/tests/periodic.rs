@@ -7,7 +7,11 @@ use super::{
     oracles::expected,
     scene::{CHAIN, CHANNEL, Options, Scene, TORUS, best},
 };
-use crate::{KERNELS, columns::Columns, oracle::apart};
+use crate::{
+    KERNELS,
+    columns::{Columns, lane},
+    oracle::apart,
+};
 
 /// The whole block: as many particles as fill the box.
 const FILLED: Options = Options { fluid: super::scene::BLOCK, ..TORUS };
@@ -38,7 +42,8 @@ fn unevenness(scene: &Scene) -> (f64, f64) {
     let density: Vec<f64> = fluid.density[..count].iter().map(|density| f64::from(*density)).collect();
     let (low, high) = density.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), d| (l.min(*d), h.max(*d)));
     let largest = fluid.acceleration[..count].iter().map(|row| vector(*row).length()).fold(0.0, f64::max);
-    let pressure = f64::from(fluid.position[0][3] * fluid.density[0]);
+    let pressure =
+        f64::from(fluid.position[0][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] * fluid.density[0]);
     (high / low - 1.0, largest * f64::from(scene.params.fluid.spacing) / pressure)
 }
 

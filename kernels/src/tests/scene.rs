@@ -7,7 +7,7 @@ use crate::{
     KERNELS,
     body::{Body, BodyKind, BodyState, Shape},
     column::{FAR_ROW, padded},
-    columns::{Column, Columns, RowCounts},
+    columns::{Column, Columns, RowCounts, lane},
     cpu::Cpu,
     grid::cells::Domain,
     kernel::{Kernel, Need},
@@ -156,8 +156,9 @@ impl Options {
     /// The same, with the pressure that the kernel is there for.
     pub(super) fn suiting(self, kernel: &Kernel) -> Self {
         // What fluid does to vertex block descent, it does with sponges as porous media.
-        let of_fluid =
-            |column: &Column| matches!(column, Column::NodeFree | Column::NodeTarget | Column::FluidYield);
+        let of_fluid = |column: &Column| {
+            matches!(column, Column::NodeFree | Column::NodeTarget | Column::FluidSolidYield)
+        };
         let touched = || kernel.reads.iter().chain(kernel.writes).any(of_fluid);
         let porous = kernel.needs.contains(&Need::Porous) || touched();
         // Walls and bodies are part of the surface where pressure is solved for.
@@ -350,7 +351,7 @@ impl Scene {
             for node in (0..count).step_by(40) {
                 let [x, y, z, _] = nodes.position[node];
                 let offset = body.state.rotation.inverse() * (Vec3::new(x, y, z) - body.state.position);
-                nodes.position[node][3] = 0.0;
+                nodes.position[node][lane::nodes::position::INVERSE_MASS] = 0.0;
                 nodes.grip[node] = GRIPPER as u32;
                 nodes.grip_offset[node] = [offset.x, offset.y, offset.z, 0.0];
             }

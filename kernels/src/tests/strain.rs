@@ -6,13 +6,14 @@ use super::{
     lattice::Lattice,
     scene::{FULL, Options, Scene, best, blocks},
 };
+use crate::columns::lane;
 
 /// Two free sponges without fluid, bodies and walls, at rest around the origin.
 fn free() -> Scene {
     let mut scene = Scene::new(Options { fluid: 0, bodies: false, walls: false, ..FULL });
     for (node, rest) in Lattice::new(&blocks(), 8).position.into_iter().enumerate() {
         let [x, y, z] = rest;
-        let w = scene.columns.nodes.position[node][3];
+        let w = scene.columns.nodes.position[node][lane::nodes::position::INVERSE_MASS];
         scene.columns.nodes.position[node] = [x - 0.04, y - 0.02, z - 0.02, w];
     }
     scene.columns.nodes.predicted = scene.columns.nodes.position.clone();
@@ -24,7 +25,7 @@ fn map(scene: &mut Scene, map: impl Fn(Vec3) -> Vec3) {
     let count = scene.columns.rows.nodes;
     for row in &mut scene.columns.nodes.predicted[..count] {
         let [x, y, z] = map(Vec3::new(row[0], row[1], row[2])).to_array();
-        *row = [x, y, z, row[3]];
+        *row = [x, y, z, row[lane::nodes::predicted::INVERSE_MASS]];
     }
 }
 
@@ -128,7 +129,7 @@ fn an_inverted_tet_recovers() {
     let inside_out = p[tet[0]] - 2.0 * normal * normal.dot(p[tet[0]] - p[tet[1]]);
     let [x, y, z] = inside_out.as_vec3().to_array();
     let row = &mut scene.columns.nodes.predicted[tet[0]];
-    *row = [x, y, z, row[3]];
+    *row = [x, y, z, row[lane::nodes::predicted::INVERSE_MASS]];
     scene.columns.nodes.position = scene.columns.nodes.predicted.clone();
     assert!((volume(&scene, tet) + 1.0).abs() < 1e-3);
     for _ in 0..50 {
@@ -142,7 +143,8 @@ fn imbalance(scene: &Scene, before: &[DVec3], after: &[DVec3]) -> (f64, f64) {
     let (mut linear, mut angular) = (DVec3::ZERO, DVec3::ZERO);
     let (mut linear_scale, mut angular_scale) = (0.0, 0.0);
     for (node, (old, new)) in before.iter().zip(after).enumerate() {
-        let momentum = (*new - *old) / f64::from(scene.columns.nodes.predicted[node][3]);
+        let momentum = (*new - *old)
+            / f64::from(scene.columns.nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS]);
         linear += momentum;
         linear_scale += momentum.length();
         // In the middle of its way the error of a node's place is of second order.
@@ -202,7 +204,8 @@ fn one_correction_keeps_angular_momentum_to_rounding() {
         let after = predicted(&scene);
         let moment = |points: &[DVec3]| -> (DVec3, f64) {
             let terms = tet.map(|node| {
-                let mass = 1.0 / f64::from(scene.columns.nodes.predicted[node][3]);
+                let mass = 1.0
+                    / f64::from(scene.columns.nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS]);
                 points[node].cross((after[node] - before[node]) * mass)
             });
             (terms.into_iter().sum(), terms.iter().map(|term| term.length()).sum())

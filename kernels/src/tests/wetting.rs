@@ -6,6 +6,7 @@ use super::{
     lattice::Lattice,
     scene::{FULL, Options, Scene, best, blocks},
 };
+use crate::columns::lane;
 use crate::params::{Solver, WettingParams};
 
 /// Fluid and sponges that nothing else touches, as porous media.
@@ -28,7 +29,7 @@ fn a_swollen_lattice_is_at_rest() {
         scene.params.sponges.iter_mut().for_each(|sponge| sponge.solver = Solver::Vbd);
         let nodes = &mut scene.columns.nodes;
         for (node, [x, y, z]) in Lattice::new(&blocks(), 8).position.into_iter().enumerate() {
-            let w = nodes.position[node][3];
+            let w = nodes.position[node][lane::nodes::position::INVERSE_MASS];
             nodes.position[node] = [1.1 * (x - 0.04), 1.1 * (y - 0.02), 1.1 * (z - 0.02), w];
         }
         nodes.velocity.fill([0.0; 4]);

@@ -1,6 +1,7 @@
 //! Kernels on the GPU against those on the CPU. A machine without an adapter fails here: lavapipe is one.
 
 mod asleep;
+mod declarations;
 mod device;
 mod faults;
 mod parity;
@@ -10,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use super::scene::Scene;
 use crate::{
     columns::{Column, Columns},
-    gpu::{Gpu, Resident, StepLimits, is_internal},
+    gpu::{Gpu, Resident, StepLimits},
     kernel::Kernel,
     kernel_named,
 };
@@ -56,7 +57,7 @@ fn after_on_all(gpu: &Arc<Gpu>, kernels: &[&'static Kernel], before: &Scene) -> 
     // Twins know by its sponge whether a node is asleep.
     reads.push(Column::NodeSponge);
     let mut writes: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.writes).copied().collect();
-    writes.retain(|column| !is_internal(*column));
+    writes.retain(|column| !column.is_on_host_only());
     resident.upload(&mut columns, &reads, sorted).unwrap_or_else(|error| panic!("{error}"));
     let mut program = resident.program(&kernels).unwrap_or_else(|error| panic!("{error}"));
     resident.run_kernels(&mut program, before.params.step).unwrap_or_else(|error| panic!("{error}"));
