@@ -59,7 +59,7 @@ kernels! {
         viscosity_kick, predict, boundary, factors, pressure_update, pressure_acceleration,
         pressure_residual, pressure_kick, position_correction, boundary_reaction, sweep, advect,
     } shared {
-        pub pressure_solve, pub(crate) viscosity, pub viscosity_solve,
+        pub(crate) container, pub(crate) friction, pub obstacles, pub pressure_solve, pub(crate) viscosity, pub viscosity_solve,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
     /// descent or by Neo-Hookean constraints, and contact of its nodes.
@@ -67,7 +67,7 @@ kernels! {
         pairs, gravity, predict, guess, touch, strain, xpbd_neo_hookean, vbd, contact, reaction, momentum,
         velocity,
     } shared {
-        descent, pub flatness, pub lattice, obstacles, pub stars, tets, pub wetted,
+        descent, pub flatness, pub lattice, pub meeting, obstacles, pub stars, tets, pub wetted,
     }
     /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
     couple {
@@ -75,7 +75,7 @@ kernels! {
         velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction, node_velocity,
         drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
     } shared {
-        #[cfg(feature = "gpu")] pub weights,
+        compliance, impulses, #[cfg(feature = "gpu")] pub weights,
     }
 }
 

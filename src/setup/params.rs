@@ -10,7 +10,7 @@ use sorb_kernels::{
     },
     periodic::Periodic,
     smoothing::Wendland,
-    sph::{boundary::boundary_profile, deficit::cohesion_stiffness, factors::lattice_diagonal},
+    sph::{deficit::cohesion_stiffness, factors::lattice_diagonal, obstacles::boundary_profile},
 };
 
 use crate::scene::{self, Scene};

@@ -111,7 +111,7 @@ impl World {
     ///
     /// With `wcsph` that of the equation of state. The solve of `dfsph` knows multipliers; what is given here is the stress
     /// that pairs of neighbours carry by them where water fills the space, see
-    /// [`pressure_moments`](sorb_kernels::sph::boundary::pressure_moments). Inside sponges neighbours fill the pores alone: the pressure
+    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill the pores alone: the pressure
     /// in the pores is this times the porosity, `1 - (1 - phi) / J` where the sponge has J of its volume at rest.
     #[must_use]
     pub fn particle_pressures(&self) -> Vec<f32> {
@@ -127,7 +127,7 @@ impl World {
             pressures.resize(count, 0.0);
             return pressures;
         };
-        let (inside, beside) = sph::boundary::pressure_moments(&parameters.smoothing, parameters.spacing);
+        let (inside, beside) = sph::obstacles::pressure_moments(&parameters.smoothing, parameters.spacing);
         // Of a particle of a lattice beside a wall, half a spacing away.
         let range = solve.boundary_range;
         let whole = solve.boundary_share * (1.0 - 0.5 * parameters.spacing / range).powi(6);

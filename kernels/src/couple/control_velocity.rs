@@ -10,7 +10,7 @@
 use crate::{
     column::padded,
     columns::{Columns, Controls},
-    couple::drag::weight_inside,
+    couple::impulses::weight_inside,
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},

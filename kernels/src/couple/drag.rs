@@ -18,10 +18,12 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    lanes::{self, LANES, with_lanes},
     params::Params,
     vector::{minus, plus, times},
 };
+
+use super::impulses::weight_inside;
 
 declare! {
     needs: [Fluid, Sponge],
@@ -35,17 +37,6 @@ declare! {
     // Weights are computed where they are needed.
     twin_reads: [FluidPosition, ControlPosition],
     twin: [pass(NAME, Fluid)],
-}
-
-/// Interior value below which a particle feels no drag.
-const OUTSIDE: f32 = 1.0e-3;
-
-/// 1 / chi, or 0 where a particle feels no drag.
-#[inline(always)]
-pub(super) fn weight_inside<S: Simd>(simd: S, chi: f32x8<S>) -> f32x8<S> {
-    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let inside = chi.simd_gt(lanes::splat(simd, OUTSIDE));
-    select(inside, one / select(inside, chi, one), zero)
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

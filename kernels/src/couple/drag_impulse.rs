@@ -20,7 +20,7 @@ use crate::{
     vector::{dot, minus, times},
 };
 
-use super::drag::weight_inside;
+use super::impulses::weight_inside;
 
 declare! {
     needs: [Fluid, Sponge, Incompressible, Porous],

@@ -16,5 +16,5 @@ declare! {
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    super::exchange::kick(cpu, params, &mut columns.fluid);
+    super::impulses::kick(cpu, params, &mut columns.fluid);
 }

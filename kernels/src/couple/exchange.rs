@@ -7,14 +7,14 @@
 //! Both sides use the same `J_i`, so that momentum is kept at any number of sweeps of the filter.
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::Columns,
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
 };
 
-use super::velocity_filter::received;
+use super::impulses::{kick, received};
 
 declare! {
     needs: [Fluid, Sponge],
@@ -49,16 +49,4 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let v = &mut nodes.velocity[*node as usize];
         (v[0], v[1], v[2]) = (velocity[0], velocity[1], velocity[2]);
     }
-}
-
-/// Takes the impulses from the particles.
-pub(super) fn kick(cpu: &Cpu, params: &Params, fluid: &mut Fluid) {
-    let Fluid { velocity, drag, interior, .. } = fluid;
-    let inverse_mass = 1.0 / params.fluid.particle_mass;
-    cpu.for_chunks(&mut velocity[..], |first, velocity| {
-        for ((v, drag), chi) in velocity.iter_mut().zip(&drag[first..]).zip(&interior[first..]) {
-            let scale = chi * inverse_mass;
-            (0..3).for_each(|axis| v[axis] -= drag[axis] * scale);
-        }
-    });
 }

@@ -9,7 +9,7 @@
 //! `gamma_i / sqrt(m_i)`. The mean is that of what conducts side by side, so that dry pores ahead of a front do not hold the
 //! water behind it.
 
-use super::solid_yield::following;
+use super::compliance::following;
 use crate::{
     column::{FAR_ROW, padded},
     columns::{Columns, Fluid, lane},

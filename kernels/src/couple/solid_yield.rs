@@ -30,16 +30,6 @@ declare! {
     twin: [pass(NAME, Fluid)],
 }
 
-/// How far the material follows, over as much water, and the most that it does over the water beside it \[1\]. Sponges of a porosity of
-/// 0.75 are calm with two thirds to twice of it (docs/porous.md).
-const FOLLOWING: f32 = 0.7;
-const MOST: f32 = 1.0;
-
-/// Root of how much the material around a node gives way, over the water \[1\].
-pub(crate) fn following(porosity: f32) -> f32 {
-    (FOLLOWING * (1.0 - porosity) / porosity).min(MOST).sqrt()
-}
-
 fn cpu(cpu: &Cpu, _: &Params, columns: &mut Columns) {
     let Fluid { predicted, neighbors, pairs, drag_rate, solid_yield, .. } = &mut columns.fluid;
     solid_yield.resize(predicted.len(), 0.0);

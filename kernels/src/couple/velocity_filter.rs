@@ -9,12 +9,13 @@
 use crate::{
     columns::{Columns, Controls},
     cpu::Cpu,
-    grid::neighbors::ChunkLists,
     kernel::declare,
-    lanes::{self, LANES, Simd, with_lanes},
+    lanes::{self, LANES, with_lanes},
     params::Params,
-    vector::{self, Vec3x8, plus, times},
+    vector::{plus, times},
 };
+
+use super::impulses::received;
 
 declare! {
     needs: [Fluid, Sponge],
@@ -43,21 +44,4 @@ fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
             }
         });
     });
-}
-
-/// Sum over the particles of eight controls of `V_a W_ia` times the drag row.
-#[inline(always)]
-pub(super) fn received<S: Simd>(
-    simd: S,
-    drag: &[[f32; 4]],
-    lists: &ChunkLists,
-    weights: &[[f32; LANES]],
-    row: usize,
-) -> Vec3x8<S> {
-    let mut sum = vector::splat(simd, [0.0; 3]);
-    for (entry, weight) in lists.group(row).iter().zip(&weights[lists.range(row)]) {
-        let [jx, jy, jz, _] = lanes::gather_rows(simd, drag, entry);
-        sum = plus(sum, times([jx, jy, jz], lanes::load(simd, weight, 0)));
-    }
-    sum
 }

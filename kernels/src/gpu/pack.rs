@@ -9,8 +9,8 @@ use crate::{
     params::{Cohesion, EquationOfState, Params, Solver},
     pbd::{
         lattice::{COLORS, Topology},
+        meeting::pair_radius,
         momentum::joined,
-        pairs::pair_radius,
         stars::{NEIGHBORS, TETS},
     },
     smoothing::Wendland,

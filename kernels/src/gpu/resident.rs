@@ -19,7 +19,7 @@ use crate::{
     body::Body,
     columns::{Columns, RowCounts},
     params::Params,
-    pbd::pairs::pair_radius,
+    pbd::meeting::pair_radius,
 };
 
 /// Bytes of what a solve keeps from round to round.

@@ -34,7 +34,7 @@ use crate::{
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
     params::{Params, Solver},
-    pbd::{reaction::MARGIN, stars::Piece},
+    pbd::{obstacles::MARGIN, stars::Piece},
 };
 
 declare! {

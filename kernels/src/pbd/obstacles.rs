@@ -23,6 +23,9 @@ use crate::{
     vector::{Vec3x8, dot, minus, plus, splat, times},
 };
 
+/// How close to an obstacle, in edges, a node is looked at.
+pub(super) const MARGIN: f32 = 1.0e-2;
+
 /// Distance that nodes keep from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
 pub(super) const CLEARANCE: f32 = 1.0e-3;
 /// What is left of the distance of a node from a body after rounding, at least \[1\].

@@ -35,21 +35,12 @@ use crate::{
     pbd::stars::{CORNERS, RINGS, StarGroup, Stars},
 };
 
-/// Scalar product of the normals, of opposite sign, above which two surfaces face each other \[1\].
-const FACING: f32 = 0.1;
-/// What is added to it for two nodes of rims, whose normals are known less well \[1\].
-const ALIKE: f32 = 0.6;
-/// How far the tangent planes of a pair may have passed each other, in edges.
-const DEEP: f32 = 1.0;
-/// How far they may be from each other, in edges.
-const NEAR: f32 = 0.6;
-/// Distance along the surface within which nodes push each other, in edges: nodes on a square of one edge then feel a surface
-/// that is stiff to 6 % everywhere.
-pub(super) const REACH: f32 = 1.5;
 /// Distance at rest of two nodes of one sponge, in edges, from which on they may touch.
 const APART: f32 = 4.0;
 /// Area of a node, over the square of the edge, below which it has no normal.
 const SMALLEST: f32 = 1.0e-3;
+
+use super::meeting::{Pair, pair_radius, vector};
 
 declare! {
     needs: [Sponge, Solver(Vbd), Touch],
@@ -69,61 +60,6 @@ declare! {
         pass(NAME, Nodes),
         CHECK,
     ],
-}
-
-/// A pair as both of its nodes see it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
-    /// From the second to the first.
-    pub(super) normal: Vec3,
-    /// By how much their normals are opposed more than they have to be \[1\].
-    pub(super) facing: f32,
-    /// Distance along the normal, at the beginning of the step \[m\].
-    pub(super) gap: f32,
-    /// Square of that along the surface \[m^2\].
-    pub(super) aside: f32,
-}
-
-impl Pair {
-    /// What two nodes are to each other, with weights as the lengths of their normals; none where their surfaces do not face each
-    /// other.
-    pub(super) fn new([a, b]: [[f32; 4]; 2], [normal_a, normal_b]: [[f32; 4]; 2]) -> Option<Self> {
-        let [x_a, x_b, n_a, n_b] = [a, b, normal_a, normal_b].map(vector);
-        let across = -n_a.dot(n_b);
-        // Most pairs are on the same side of a sponge.
-        if across <= 0.0 {
-            return None;
-        }
-        let (p_a, p_b) = (n_a.dot(n_a).sqrt(), n_b.dot(n_b).sqrt());
-        let facing = across / (p_a * p_b) - (FACING + ALIKE * (1.0 - p_a.max(p_b)));
-        if facing <= 0.0 {
-            return None;
-        }
-        let towards = n_b - n_a;
-        let normal = towards / towards.dot(towards).sqrt();
-        let apart = x_a - x_b;
-        let gap = normal.dot(apart);
-        Some(Self { normal, facing, gap, aside: apart.dot(apart) - gap * gap })
-    }
-
-    /// Whether the two may touch in this step.
-    fn is_near(&self, edge: f32) -> bool {
-        let reach = REACH * edge;
-        self.gap > -DEEP * edge && self.gap < NEAR * edge && self.aside < reach * reach
-    }
-}
-
-pub(super) fn vector(row: [f32; 4]) -> Vec3 {
-    Vec3::new(row[0], row[1], row[2])
-}
-
-/// How far apart the nodes of a pair can be \[m\].
-#[must_use]
-pub fn pair_radius(params: &Params) -> f32 {
-    // Of the cylinder that `Pair::is_near` describes.
-    let reach = (REACH * REACH + DEEP * DEEP).sqrt();
-    let edges = (0..).zip(&params.sponges).filter(|(index, _)| params.meets_any(*index));
-    edges.map(|(_, sponge)| sponge.contact_edge()).fold(0.0, f32::max) * reach
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -13,7 +13,7 @@ use crate::{
     params::Params,
     pbd::{
         descent::{Material, constants_of, local},
-        obstacles::{Obstacles, array, vector},
+        obstacles::{MARGIN, Obstacles, array, vector},
         stars::{StarGroup, Stars},
         touch::Touch,
         vbd::least,
@@ -21,9 +21,6 @@ use crate::{
     },
     vector::{choose, dot, negative, plus, times},
 };
-
-/// How close to an obstacle, in edges, a node is looked at.
-pub(super) const MARGIN: f32 = 1.0e-2;
 
 declare! {
     needs: [Sponge, Solver(Vbd)],

@@ -30,7 +30,7 @@ use crate::{
     params::Params,
     pbd::{
         descent::Local,
-        pairs::{Pair, REACH, vector},
+        meeting::{Pair, REACH, vector},
     },
     vector::plus,
 };

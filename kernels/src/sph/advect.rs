@@ -15,6 +15,8 @@ use crate::{
     params::Params,
 };
 
+use super::container::inside;
+
 declare! {
     needs: [Fluid],
     reads: [FluidPosition, FluidVelocity, FluidExtremes],
@@ -25,9 +27,6 @@ declare! {
     twin_writes: [FluidId],
     twin: [pass(NAME, Fluid)],
 }
-
-/// Distance from the walls at which a particle is stopped, over the spacing.
-pub(super) const STOP: f32 = 0.05;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
@@ -54,12 +53,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         }
         extreme.speed_squared = largest;
     });
-}
-
-/// Corners of the box that particles are kept in, out of reach along axes without walls.
-pub(super) fn inside(params: &Params) -> Option<([f32; 3], [f32; 3])> {
-    let margin = params.fluid.spacing * STOP;
-    params.walls.map(|(low, high)| ((low + margin).to_array(), (high - margin).to_array()))
 }
 
 fn clamp(x: &mut [f32; 4], v: &mut [f32; 4], low: [f32; 3], high: [f32; 3]) {

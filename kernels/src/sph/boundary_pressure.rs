@@ -13,7 +13,7 @@ use crate::{
     params::Params,
 };
 
-use super::boundary::{Profile, near};
+use super::obstacles::{Profile, near, per_chunk};
 
 declare! {
     needs: [Fluid, Obstacles, Incompressible],
@@ -38,14 +38,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let task = Task { params, profile, bodies, position, count };
         with_lanes!(cpu, simd => task.chunk(simd, first, acceleration, wrenches.0[0]));
     });
-}
-
-/// The wrenches of every chunk of `rows` rows.
-pub(super) fn per_chunk(wrenches: &mut [Wrench], rows: usize, bodies: usize) -> Vec<&mut [Wrench]> {
-    match bodies {
-        0 => (0..rows.div_ceil(CHUNK)).map(|_| &mut [][..]).collect(),
-        bodies => wrenches.chunks_exact_mut(bodies).collect(),
-    }
 }
 
 struct Task<'a> {

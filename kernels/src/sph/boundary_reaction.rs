@@ -13,8 +13,8 @@ use crate::{
 };
 
 use super::{
-    boundary::{Profile, at_end, near},
-    boundary_pressure::per_chunk,
+    obstacles::per_chunk,
+    obstacles::{Profile, at_end, near},
 };
 
 declare! {

@@ -23,7 +23,7 @@ use crate::{
     vector::dot,
 };
 
-use super::boundary::{Profile, near};
+use super::obstacles::{Profile, near};
 
 declare! {
     needs: [Fluid, Cohesion],

@@ -30,7 +30,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
     let count = columns.rows.fluid;
     let Fluid { predicted, velocity, correction, .. } = &mut columns.fluid;
-    let inside = super::advect::inside(params);
+    let inside = super::container::inside(params);
     let step = params.step;
     cpu.for_chunks((&mut predicted[..count], &mut velocity[..count]), |first, (predicted, velocity)| {
         for ((x, v), a) in predicted.iter_mut().zip(velocity).zip(&correction[first..]) {

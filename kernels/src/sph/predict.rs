@@ -41,7 +41,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, velocity, acceleration, predicted, .. } = &mut columns.fluid;
     predicted.resize(position.len(), FAR_ROW);
     predicted[count..].fill(FAR_ROW);
-    let inside = super::advect::inside(params);
+    let inside = super::container::inside(params);
     let share = prompt_share(&params.fluid, params.step);
     let rows = (&mut predicted[..count], &mut velocity[..count], &mut acceleration[..count]);
     cpu.for_chunks(rows, |first, (predicted, velocity, acceleration)| {

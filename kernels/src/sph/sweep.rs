@@ -18,9 +18,9 @@ use crate::{
 };
 
 use super::{
-    advect::STOP,
-    boundary::{at_end, give, near},
-    boundary_pressure::per_chunk,
+    container::STOP,
+    obstacles::per_chunk,
+    obstacles::{at_end, give, near},
 };
 
 declare! {

@@ -23,9 +23,9 @@ use crate::{
 };
 
 use super::{
-    boundary::near,
+    friction::{along, friction_rate},
+    obstacles::near,
     viscosity::Pairs,
-    wall_friction::{along, friction_rate},
 };
 
 declare! {

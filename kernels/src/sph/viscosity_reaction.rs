@@ -17,9 +17,9 @@ use crate::{
 };
 
 use super::{
-    boundary::{give, near},
-    boundary_pressure::per_chunk,
-    wall_friction::{along, friction_rate},
+    friction::{along, friction_rate},
+    obstacles::per_chunk,
+    obstacles::{give, near},
 };
 
 declare! {

@@ -6,6 +6,7 @@ mod descent;
 mod drag;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod imports;
 mod lattice;
 mod levels;
 mod momentum;

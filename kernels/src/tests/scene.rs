@@ -20,7 +20,7 @@ use crate::{
     pbd::{flatness::flatness, stars::Stars},
     periodic::Periodic,
     smoothing::Wendland,
-    sph::{boundary::boundary_profile, factors::lattice_diagonal},
+    sph::{factors::lattice_diagonal, obstacles::boundary_profile},
     testing::Random,
 };
 

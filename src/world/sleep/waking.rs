@@ -49,7 +49,7 @@ impl World {
         }
         for (index, sponge) in params.sponges.iter().enumerate() {
             let coupling = if self.stores.host.rows.fluid > 0 { params.coupling.support_radius } else { 0.0 };
-            let touch = pbd::pairs::pair_radius(params);
+            let touch = pbd::meeting::pair_radius(params);
             parts.push(part(Kind::Sponge(index), coupling.max(touch).max(2.0 * sponge.edge)));
         }
         for (index, body) in self.bodies().iter().enumerate() {
