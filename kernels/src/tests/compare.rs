@@ -184,7 +184,9 @@ fn rows(column: Column, data: &[[f32; 4]], order: &[usize]) -> Content {
 
 /// No numbers where there are no rows.
 fn values(data: &[f32], order: &[usize]) -> Content {
-    let order = if data.is_empty() { &[] } else { order };
+    if data.is_empty() {
+        return Content::Numbers(Vec::new());
+    }
     Content::Numbers(vec![order.iter().map(|row| f64::from(data[*row])).collect()])
 }
 
