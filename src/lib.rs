@@ -18,7 +18,7 @@ mod world;
 pub use clock::{Bound, Clock};
 pub use measure::Measures;
 pub use schedule::Offload;
-pub use sorb_kernels::{KERNELS, SimdLevel, body, columns, cpu, kernel, kernel_named, params};
+pub use sorb_kernels::{KERNELS, SimdLevel, body, columns, cpu, kernel, kernel_named, need, params};
 pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;

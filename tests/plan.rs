@@ -5,12 +5,13 @@ mod common;
 use common::NOTHING_OBSERVED;
 use sorb::{
     World,
-    columns::Column,
+    columns::{Column, RowCounts},
     cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::{Params, Solver},
+    kernel::Kernel,
+    need::{Contents, Need},
+    params::{Params, Solver, SpongeParams, WettingParams},
     scene::Scene,
-    schedule::{Content, POROUS_STEP, Phase, Plan, Runner, STEP, Verdict},
+    schedule::{POROUS_STEP, Phase, Plan, PlanError, Runner, STEP, Verdict},
 };
 
 fn plan(name: &str) -> Plan {
@@ -147,26 +148,14 @@ static SATURATION: Kernel = Kernel::bare(
     idle,
 );
 
-const WET: Content = Content {
-    touch: false,
-    fluid: true,
-    sponge: false,
-    solvers: [None; 3],
-    walls: false,
-    bodies: false,
-    surface_tension: false,
-    cohesion: false,
-    no_slip: false,
-    iterations: 0,
-    porous: false,
-    wetting: false,
-    rounds: 0,
-    projections: 0,
-    viscosity_rounds: 0,
-};
+/// Plans a small step for a scene.
+fn small_of(name: &str, step: &[Phase], observed: &[Column]) -> Result<Plan, PlanError> {
+    let world = common::world(&common::preset(name, 0.5));
+    Plan::new(step, &Contents::new(world.params(), world.columns()), observed)
+}
 
 fn small(step: &[Phase], observed: &[Column]) -> Plan {
-    Plan::new(step, WET, observed).unwrap_or_else(|error| panic!("{error}"))
+    small_of("water", step, observed).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
@@ -174,13 +163,13 @@ fn a_scratch_column_read_before_it_is_written_is_refused() {
     let honest = [Phase::Run(&DENSITY), Phase::Run(&ACCELERATION), Phase::Run(&VELOCITY)];
     assert_eq!(running(&small(&honest, NOTHING_OBSERVED)).len(), 3);
     let swapped = [Phase::Run(&ACCELERATION), Phase::Run(&DENSITY), Phase::Run(&VELOCITY)];
-    let error = Plan::new(&swapped, WET, NOTHING_OBSERVED).expect_err("density comes too late");
+    let error = small_of("water", &swapped, NOTHING_OBSERVED).expect_err("density comes too late");
     assert_eq!((error.kernel, error.column), ("test::acceleration", "fluid.density"));
     assert!(error.to_string().contains("test::acceleration reads fluid.density"), "{error}");
     let missing = [Phase::Run(&ACCELERATION), Phase::Run(&VELOCITY)];
-    assert!(Plan::new(&missing, WET, NOTHING_OBSERVED).is_err(), "nobody writes the density");
+    assert!(small_of("water", &missing, NOTHING_OBSERVED).is_err(), "nobody writes the density");
     // What the scene lacks altogether cannot be read too early.
-    assert!(Plan::new(&swapped, Content::default(), NOTHING_OBSERVED).is_ok());
+    assert!(small_of("empty", &swapped, NOTHING_OBSERVED).is_ok());
 }
 
 #[test]
@@ -198,39 +187,55 @@ fn what_nobody_reads_is_skipped_unless_it_is_observed() {
     assert_eq!(running(&small(&chain, &[Column::FluidAcceleration])).len(), 2);
 }
 
+/// Everything that phases may need, in a scene that has all of it.
+const EVERYTHING: [&str; 4] = [
+    "fluid.surface_tension=0.07",
+    "fluid.viscosity_integration=\"implicit\"",
+    "fluid.no_slip=true",
+    "sponges[0].swelling=0.1",
+];
+
 #[test]
 fn the_step_itself_is_consistent_for_every_content() {
     const SOLVERS: [Solver; 3] = [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean];
-    for bits in 0..2048_u32 {
-        let [fluid, sponge, walls, bodies, surface_tension] = [0, 1, 2, 3, 4].map(|bit| bits >> bit & 1 == 1);
-        let solvers = [0, 1, 2].map(|k| (bits >> (5 + k) & 1 == 1).then_some(SOLVERS[k]));
-        let (rounds, iterations, porous) = (bits >> 8 & 1, 1, false);
-        let (cohesion, no_slip) = (bits >> 9 & 1 == 1, bits >> 9 & 1 == 1);
-        let viscosity_rounds = bits >> 10;
-        let content = Content {
-            fluid,
-            sponge,
-            solvers,
-            walls,
-            bodies,
-            surface_tension,
-            cohesion,
-            no_slip,
-            iterations,
-            porous,
-            wetting: bodies,
-            touch: walls,
-            rounds,
-            projections: rounds * viscosity_rounds,
-            viscosity_rounds,
-        };
-        if let Err(error) = Plan::new(STEP, content, NOTHING_OBSERVED) {
-            panic!("{content:?}: {error}");
+    let world = common::world(&common::with(&common::preset("ball_drop", 0.5), &EVERYTHING));
+    let (all, rows) = (world.params(), world.columns().rows);
+    for bits in 0..8192_u32 {
+        let has = |bit: u32| bits >> bit & 1 == 1;
+        let mut params = all.clone();
+        let solvers = (0..3).filter(|k| has(5 + k)).map(|k| SOLVERS[k as usize]);
+        params.sponges = solvers.map(|solver| SpongeParams { solver, ..all.sponges[0].clone() }).collect();
+        params.walls = all.walls.filter(|_| has(2));
+        params.fluid.surface_tension = if has(4) { 0.07 } else { 0.0 };
+        params.fluid.cohesion = all.fluid.cohesion.clone().filter(|_| has(9));
+        params.no_slip = has(9);
+        params.fluid.incompressible = all.fluid.incompressible.clone().filter(|_| has(8));
+        if let Some(solve) = &mut params.fluid.incompressible {
+            solve.projections = has(11).then_some(4);
         }
-        let solvers = [None, Some(Solver::Vbd), None];
-        let porous = Content { sponge: true, solvers, porous: true, rounds: 1, ..content };
-        if let Err(error) = Plan::new(POROUS_STEP, porous, NOTHING_OBSERVED) {
-            panic!("{porous:?}: {error}");
+        params.fluid.implicit_viscosity = all.fluid.implicit_viscosity.filter(|_| has(10));
+        if !has(12) {
+            params.sponges.iter_mut().for_each(|sponge| sponge.wetting = WettingParams::default());
+        }
+        let count = |bit: u32, rows: usize| if has(bit) { rows } else { 0 };
+        let rows = RowCounts {
+            fluid: count(0, rows.fluid),
+            nodes: count(1, rows.nodes),
+            bodies: count(3, 1),
+            ..rows
+        };
+        let plain = Params { solid: None, ..params.clone() };
+        let contents = Contents { params: &plain, rows, bodies: &[], touch: has(2) };
+        if let Err(error) = Plan::new(STEP, &contents, NOTHING_OBSERVED) {
+            panic!("{contents:?}: {error}");
+        }
+        // Sponges as porous media need their solver, and a solve for the pressure.
+        params.sponges = vec![SpongeParams { solver: Solver::Vbd, ..all.sponges[0].clone() }];
+        params.fluid.incompressible = params.fluid.incompressible.or(all.fluid.incompressible.clone());
+        let rows = RowCounts { nodes: world.columns().rows.nodes, ..rows };
+        let contents = Contents { params: &params, rows, ..contents };
+        if let Err(error) = Plan::new(POROUS_STEP, &contents, NOTHING_OBSERVED) {
+            panic!("{contents:?}: {error}");
         }
     }
 }

@@ -16,7 +16,7 @@ use sorb_kernels::{
 use crate::{
     clock::Clock,
     rigid::RigidEngine,
-    schedule::{Place, Plan, Shares},
+    schedule::{Awake, Place, Plan, Plans, Shares},
 };
 
 /// Scratch columns that measures and pictures look at.
@@ -36,11 +36,11 @@ pub(crate) struct Device {
     gpu: Arc<Gpu>,
     limits: StepLimits,
     shares: Shares,
-    /// Stages of the steps that there are while parts are asleep, see [`Content::lesser`](crate::schedule::Content); none where the device
-    /// does not have all of a step.
+    /// Stages of the steps that there are while parts are asleep, in the order of [`Awake::ALL`]; none where the device does not have all
+    /// of a step.
     lesser: Vec<Vec<Stage>>,
-    /// Which of them the next steps have; 0 for the whole one.
-    lesser_plan: usize,
+    /// What the next steps go on with.
+    awake: Awake,
     /// What is read back when the host looks.
     looked_at: Vec<Column>,
     wants_times: bool,
@@ -76,13 +76,12 @@ struct On {
 impl Device {
     pub(crate) fn new(
         gpu: Arc<Gpu>,
-        plan: &Plan,
-        lesser: &[Plan],
+        plans: &Plans,
         limits: StepLimits,
         observed: &[Column],
         wants_times: bool,
     ) -> Self {
-        let shares = plan.shares(&looked_at(observed));
+        let shares = plans.whole().shares(&looked_at(observed));
         let written: Vec<Column> = shares.on_gpu().flat_map(|kernel| kernel.writes).copied().collect();
         let wanted = |column: &Column| {
             let is_state = column.life() == Life::State;
@@ -95,13 +94,14 @@ impl Device {
             let segments = plan.shares(&[]).segments;
             segments.into_iter().flat_map(|segment| segment.stages).collect()
         };
-        let lesser = if shares.are_all_on_gpu() { lesser.iter().map(stages).collect() } else { Vec::new() };
+        let lesser =
+            if shares.are_all_on_gpu() { plans.all().iter().map(stages).collect() } else { Vec::new() };
         Self {
             gpu,
             limits,
             shares,
             lesser,
-            lesser_plan: 0,
+            awake: Awake::EVERYTHING,
             looked_at,
             wants_times,
             resident: None,
@@ -120,7 +120,7 @@ impl Device {
             limits: self.limits,
             shares: self.shares.clone(),
             lesser: self.lesser.clone(),
-            lesser_plan: self.lesser_plan,
+            awake: self.awake,
             looked_at: self.looked_at.clone(),
             wants_times: self.wants_times,
             resident: None,
@@ -219,15 +219,9 @@ impl Device {
         Ok(())
     }
 
-    /// Makes the next steps go on without what is asleep, by one of the lesser plans. The time has to be set anew.
-    pub(crate) fn set_asleep(
-        &mut self,
-        asleep: &Asleep,
-        limits: StepLimits,
-        is_outside: bool,
-        lesser_plan: usize,
-    ) {
-        (self.limits, self.lesser_plan) = (limits, lesser_plan);
+    /// Makes the next steps go on without what is asleep, by the plan of that. The time has to be set anew.
+    pub(crate) fn set_asleep(&mut self, asleep: &Asleep, limits: StepLimits, is_outside: bool, awake: Awake) {
+        (self.limits, self.awake) = (limits, awake);
         if let Some(on) = &mut self.resident {
             on.resident.set_asleep(asleep, limits, is_outside);
         }
@@ -252,8 +246,9 @@ impl Device {
         self.leave(host);
         let refused = || GpuError::Refused { reason: "no state was uploaded".to_owned() };
         let On { resident, programs, lesser, profile } = self.resident.as_mut().ok_or_else(refused)?;
-        let program = match self.lesser.get(self.lesser_plan).zip(lesser.get_mut(self.lesser_plan)) {
-            Some((stages, program)) if self.lesser_plan > 0 => match program {
+        let index = self.awake.index();
+        let program = match self.lesser.get(index).zip(lesser.get_mut(index)) {
+            Some((stages, program)) if index > 0 => match program {
                 Some(program) => program,
                 None => program.insert(resident.program_of(stages.clone())?),
             },

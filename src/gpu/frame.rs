@@ -103,9 +103,9 @@ impl World {
 
     /// Tells the device what sleeps; what is awake of the fluid is outside of all sponges if they sleep.
     pub(crate) fn apply_sleep_on_device(&mut self, is_outside: bool) {
-        let (limits, lesser_plan) = (self.steps.limits(), self.lesser_plan());
+        let (limits, awake) = (self.steps.limits(), self.awake());
         if let Some(device) = &mut self.stores.device {
-            device.set_asleep(&self.params.asleep, limits, is_outside, lesser_plan);
+            device.set_asleep(&self.params.asleep, limits, is_outside, awake);
         }
     }
 
@@ -187,10 +187,8 @@ impl World {
             ..self.options.clone()
         };
         let rows = self.stores.host.rows;
-        let plans = (self.plan.clone(), self.lesser_plans.clone());
-        let ((plan, lesser), device) = placed(plans, rows, &self.params, &self.steps, &options)?;
-        (self.plan, self.lesser_plans) = (plan, lesser);
-        self.stores.device = device;
+        (self.plans, self.stores.device) =
+            placed(self.plans.clone(), rows, &self.params, &self.steps, &options)?;
         Ok(())
     }
 

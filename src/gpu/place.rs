@@ -11,7 +11,7 @@ use sorb_kernels::{
 use super::{Device, device::looked_at};
 use crate::{
     clock::Steps,
-    schedule::{Offload, Place, Placement, Plan, Transfer},
+    schedule::{Offload, Place, Placement, Plan, Plans, Transfer},
     world::{Options, WorldError},
 };
 
@@ -26,35 +26,29 @@ struct Request<'a> {
     options: &'a Options,
 }
 
-/// The plan of a whole step, and those of steps while parts are asleep.
-pub(crate) type Plans = (Plan, Vec<Plan>);
-
 /// Plans with their place, and the device if it is one.
 ///
 /// # Errors
 /// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
 pub(crate) fn placed(
-    (plan, lesser): Plans,
+    plans: Plans,
     rows: RowCounts,
     params: &Params,
     steps: &Steps,
     options: &Options,
 ) -> Result<(Plans, Option<Device>), WorldError> {
     if options.offload == Offload::Cpu {
-        let lesser = lesser.into_iter().map(Plan::unplaced).collect();
-        return Ok(((plan.unplaced(), lesser), None));
+        return Ok((plans.map(Plan::unplaced), None));
     }
-    let (placement, gpu) = Request { plan: &plan, rows, params, options }.place()?;
-    let place = |plan: Plan| {
+    let (placement, gpu) = Request { plan: plans.whole(), rows, params, options }.place()?;
+    let plans = plans.map(|plan| {
         let request = Request { plan: &plan, rows, params, options };
         let transfers = request.transfers(&placement.on_gpu);
         plan.placed(Placement { transfers, ..placement.clone() })
-    };
-    let lesser: Vec<Plan> = lesser.into_iter().map(place).collect();
-    let plan = plan.placed(placement.clone());
+    });
     let device =
-        gpu.map(|gpu| Device::new(gpu, &plan, &lesser, steps.limits(), &options.observed, options.gpu_times));
-    Ok(((plan, lesser), device))
+        gpu.map(|gpu| Device::new(gpu, &plans, steps.limits(), &options.observed, options.gpu_times));
+    Ok((plans, device))
 }
 
 type Placed = (Placement, Option<Arc<Gpu>>);

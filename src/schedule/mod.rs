@@ -1,5 +1,6 @@
 //! What runs, in which order, for which scene.
 
+mod awake;
 mod offload;
 mod plan;
 mod run;
@@ -7,8 +8,9 @@ mod run;
 mod shares;
 mod step;
 
+pub(crate) use awake::{Awake, Plans};
 pub use offload::{Offload, OffloadError, Place, PlaceError, Placement, Transfer};
-pub use plan::{Content, Plan, PlanError, PlanLine, Verdict};
+pub use plan::{Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
 #[cfg(feature = "gpu")]
 pub(crate) use shares::Shares;

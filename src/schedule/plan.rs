@@ -2,59 +2,17 @@
 
 use std::fmt;
 
-use sorb_kernels::{column::Life, columns::Column, kernel::Kernel, params::Solver};
+use sorb_kernels::{
+    column::Life,
+    columns::Column,
+    kernel::Kernel,
+    need::{Contents, Need},
+};
 
 use super::{
     offload::{Place, Placement},
-    step::{HostPhase, Phase, RIGID_NEEDS, Solve, Times, is_met},
+    step::{HostPhase, Phase, Times},
 };
-
-/// What a scene contains, as far as phases depend on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Content {
-    /// Fluid particles.
-    pub fluid: bool,
-    /// Sponges.
-    pub sponge: bool,
-    /// Solvers of the sponges, each once.
-    pub solvers: [Option<Solver>; 3],
-    /// Walls of a container.
-    pub walls: bool,
-    /// Rigid bodies.
-    pub bodies: bool,
-    /// Surface tension from the colour field.
-    pub surface_tension: bool,
-    /// Surface tension from an energy of the surface.
-    pub cohesion: bool,
-    /// Walls or bodies that the fluid does not slide along.
-    pub no_slip: bool,
-    /// Most solver iterations that a sponge asks for.
-    pub iterations: u32,
-    /// Sponges as porous media.
-    pub porous: bool,
-    /// Sponges with properties that depend on how wet they are.
-    pub wetting: bool,
-    /// Sponges that can touch each other or themselves.
-    pub touch: bool,
-    /// Most rounds of the pressure solve; 0 where pressure follows from an equation of state.
-    pub rounds: u32,
-    /// Rounds in which positions are moved; 0 where the pressure is solved for.
-    pub projections: u32,
-    /// Most rounds of the solve for the viscosity; 0 where it is explicit.
-    pub viscosity_rounds: u32,
-}
-
-impl Content {
-    /// What a step has to do while parts are asleep: with and without fluid, and with sponges of which none can touch another, with
-    /// those that can, and without sponges. The first is all of it.
-    pub(crate) fn lesser(self) -> [Self; 6] {
-        let apart = Self { touch: false, ..self };
-        let bare =
-            Self { sponge: false, solvers: [None; 3], porous: false, wetting: false, iterations: 0, ..apart };
-        let dry = |content| Self { fluid: false, ..content };
-        [self, apart, bare, dry(self), dry(apart), dry(bare)]
-    }
-}
 
 /// What becomes of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,9 +66,9 @@ impl Plan {
     ///
     /// # Errors
     /// A phase reads a scratch column that no phase before it has written.
-    pub fn new(step: &[Phase], content: Content, observed: &[Column]) -> Result<Self, PlanError> {
+    pub fn new(step: &[Phase], contents: &Contents<'_>, observed: &[Column]) -> Result<Self, PlanError> {
         let mut plan = Self { lines: Vec::new(), placement: None };
-        plan.collect(step, content, None, &mut 0);
+        plan.collect(step, contents, None, &mut 0);
         plan.drop_dead(observed);
         plan.check()?;
         Ok(plan)
@@ -152,52 +110,24 @@ impl Plan {
     fn collect(
         &mut self,
         phases: &[Phase],
-        content: Content,
+        contents: &Contents<'_>,
         repeat: Option<(usize, u32)>,
         groups: &mut usize,
     ) {
         for phase in phases {
             match phase {
-                Phase::Run(kernel) => {
-                    let missing = kernel.needs.iter().find(|need| !is_met(**need, content));
-                    let verdict = missing.map_or(Verdict::Runs, |need| Verdict::Skipped(need.missing()));
-                    let work = Work::Kernel(kernel);
-                    self.lines.push(PlanLine {
-                        name: kernel.name,
-                        verdict,
-                        repeat,
-                        until_converged: false,
-                        work,
-                    });
-                }
+                Phase::Run(kernel) => self.lines.push(PlanLine::new(Work::Kernel(kernel), contents, repeat)),
+                Phase::Host(host) => self.lines.push(PlanLine::new(Work::Host(host), contents, repeat)),
                 Phase::Repeat { times, phases } => {
                     *groups += 1;
-                    let number = match times {
-                        Times::SolverIterations => content.iterations,
-                        Times::Fixed(times) => *times,
-                        Times::Projections => content.projections,
-                        Times::UntilConverged(Solve::Pressure) => content.rounds,
-                        Times::UntilConverged(Solve::Viscosity) => content.viscosity_rounds,
-                    };
                     let first = self.lines.len();
-                    self.collect(phases, content, Some((*groups, number)), groups);
+                    self.collect(phases, contents, Some((*groups, times.number(contents))), groups);
                     let until_converged = matches!(times, Times::UntilConverged(_));
                     self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
                 }
                 Phase::KeepDensity { solve, projection } => {
-                    let phases = if content.projections > 0 { projection } else { solve };
-                    self.collect(phases, content, repeat, groups);
-                }
-                Phase::Host(host) => {
-                    let verdict = if content.bodies { Verdict::Runs } else { Verdict::Skipped(RIGID_NEEDS) };
-                    let work = Work::Host(host);
-                    self.lines.push(PlanLine {
-                        name: host.name,
-                        verdict,
-                        repeat,
-                        until_converged: false,
-                        work,
-                    });
+                    let is_projected = Times::Projections.number(contents) > 0;
+                    self.collect(if is_projected { projection } else { solve }, contents, repeat, groups);
                 }
             }
         }
@@ -248,7 +178,43 @@ impl Plan {
     }
 }
 
+impl Work {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Kernel(kernel) => kernel.name,
+            Self::Host(host) => host.name,
+        }
+    }
+
+    fn needs(self) -> &'static [Need] {
+        match self {
+            Self::Kernel(kernel) => kernel.needs,
+            Self::Host(host) => host.needs,
+        }
+    }
+
+    pub(super) fn reads(self) -> &'static [Column] {
+        match self {
+            Self::Kernel(kernel) => kernel.reads,
+            Self::Host(host) => host.reads,
+        }
+    }
+
+    pub(super) fn writes(self) -> &'static [Column] {
+        match self {
+            Self::Kernel(kernel) => kernel.writes,
+            Self::Host(host) => host.writes,
+        }
+    }
+}
+
 impl PlanLine {
+    fn new(work: Work, contents: &Contents<'_>, repeat: Option<(usize, u32)>) -> Self {
+        let missing = work.needs().iter().find_map(|need| need.missing(contents));
+        let verdict = missing.map_or(Verdict::Runs, Verdict::Skipped);
+        Self { name: work.name(), verdict, repeat, until_converged: false, work }
+    }
+
     /// The group that the line is repeated in.
     pub(super) fn group(&self) -> Option<usize> {
         self.repeat.map(|(group, _)| group)
@@ -257,19 +223,13 @@ impl PlanLine {
     /// Columns that the phase reads.
     #[must_use]
     pub fn reads(&self) -> &'static [Column] {
-        match self.work {
-            Work::Kernel(kernel) => kernel.reads,
-            Work::Host(host) => host.reads,
-        }
+        self.work.reads()
     }
 
     /// Columns that the phase writes.
     #[must_use]
     pub fn writes(&self) -> &'static [Column] {
-        match self.work {
-            Work::Kernel(kernel) => kernel.writes,
-            Work::Host(host) => host.writes,
-        }
+        self.work.writes()
     }
 }
 

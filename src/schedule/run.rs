@@ -4,7 +4,10 @@ use std::time::Instant;
 
 use sorb_kernels::{columns::Columns, cpu::Cpu, kernel::has_converged, params::Params};
 
-use super::plan::{Plan, Verdict, Work};
+use super::{
+    awake::Awake,
+    plan::{Plan, Verdict, Work},
+};
 
 /// Times of a phase that are kept for its median.
 const RECENT: usize = 512;
@@ -63,7 +66,7 @@ struct Group {
 /// Plans, flattened to what is left of them.
 #[derive(Clone, Debug)]
 pub struct Runner {
-    /// Of every plan, in their order.
+    /// Of every plan, in the order of [`Awake::ALL`]; of one alone for a runner of that.
     sequences: Vec<Sequence>,
     times: Vec<PhaseTime>,
     step: PhaseTime,
@@ -90,10 +93,10 @@ impl Runner {
         Self { sequences, times, step: PhaseTime::new("step") }
     }
 
-    /// Runs all phases of a plan in order; `host` does the host phases.
+    /// Runs all phases of the plan of what is awake in order; `host` does the host phases.
     pub(crate) fn run(
         &mut self,
-        plan: usize,
+        awake: Awake,
         (cpu, params): (&Cpu, &Params),
         columns: &mut Columns,
         host: impl FnMut(&mut Columns) + Send,
@@ -101,7 +104,7 @@ impl Runner {
         let Self { sequences, times, step } = self;
         let start = Instant::now();
         // Waking the threads would be all the cost of an empty scene.
-        if let Some(sequence) = sequences.get(plan).filter(|sequence| !sequence.kernels.is_empty()) {
+        if let Some(sequence) = sequences.get(awake.index()).filter(|sequence| !sequence.kernels.is_empty()) {
             cpu.enter(|| sequence.run((cpu, params), columns, host, times));
         }
         step.record(start);

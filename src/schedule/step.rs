@@ -3,8 +3,8 @@
 use sorb_kernels::{
     columns::Column,
     couple, grid,
-    kernel::{Kernel, Need},
-    params::Solver,
+    kernel::Kernel,
+    need::{Contents, Need},
     pbd, sph,
 };
 
@@ -53,11 +53,35 @@ pub enum Solve {
     Viscosity,
 }
 
+impl Times {
+    /// How often for a scene; for rounds until convergence at most.
+    pub(super) fn number(self, contents: &Contents<'_>) -> u32 {
+        let fluid = &contents.params.fluid;
+        match self {
+            Self::SolverIterations => {
+                contents.sponges().iter().map(|sponge| sponge.iterations).max().unwrap_or(0)
+            }
+            Self::Projections => {
+                fluid.incompressible.as_ref().and_then(|solve| solve.projections).unwrap_or(0)
+            }
+            Self::Fixed(times) => times,
+            Self::UntilConverged(Solve::Pressure) => {
+                fluid.incompressible.as_ref().map_or(0, |solve| solve.rounds)
+            }
+            Self::UntilConverged(Solve::Viscosity) => {
+                fluid.implicit_viscosity.map_or(0, |implicit| implicit.rounds)
+            }
+        }
+    }
+}
+
 /// A phase that is not a kernel.
 #[derive(Debug, PartialEq, Eq)]
 pub struct HostPhase {
     /// `family::name`.
     pub name: &'static str,
+    /// What the scene must contain; all of these.
+    pub needs: &'static [Need],
     /// What it changes.
     pub writes: &'static [Column],
     /// What it uses of what was written before it, if anything was.
@@ -67,6 +91,7 @@ pub struct HostPhase {
 /// The rigid bodies take what fluid and sponges gave them, and move.
 pub static RIGID: HostPhase = HostPhase {
     name: "rigid::step",
+    needs: &[Need::Bodies],
     writes: &[Column::BodyStates],
     reads: &[Column::BodyFluidWrenches, Column::BodyNodeWrenches],
 };
@@ -243,31 +268,3 @@ pub static POROUS_STEP: &[Phase] = &[
     Run(&sph::advect::KERNEL),
     Host(&RIGID),
 ];
-
-/// What the scene must contain for a host phase to have work.
-pub(super) const RIGID_NEEDS: &str = "no bodies";
-
-/// Whether a need is met.
-pub(super) fn is_met(need: Need, content: super::Content) -> bool {
-    match need {
-        Need::Fluid => content.fluid,
-        Need::Sponge => content.sponge,
-        Need::Solver(solver) => content.solvers.contains(&Some(solver)),
-        Need::Projection => {
-            let projects = |solver: &Option<Solver>| solver.is_some_and(|solver| solver != Solver::Vbd);
-            content.solvers.iter().any(projects)
-        }
-        Need::Obstacles => content.walls || content.bodies,
-        Need::Bodies => content.bodies,
-        Need::SurfaceTension => content.surface_tension,
-        Need::Cohesion => content.cohesion,
-        Need::NoSlip => content.no_slip,
-        Need::ExplicitViscosity => content.viscosity_rounds == 0,
-        Need::ImplicitViscosity => content.viscosity_rounds > 0,
-        Need::EquationOfState => content.rounds == 0,
-        Need::Incompressible => content.rounds > 0,
-        Need::Porous => content.porous,
-        Need::Wetting => content.wetting,
-        Need::Touch => content.touch,
-    }
-}

@@ -30,7 +30,7 @@ impl World {
     /// Whether a kernel is part of a step.
     fn runs(&self, kernel: &Kernel) -> bool {
         let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
-        self.plan.lines().iter().any(runs)
+        self.plan().lines().iter().any(runs)
     }
 
     /// Columns with the density, and the share of walls and bodies, at the present positions: a solve for the pressure needs

@@ -1,6 +1,5 @@
 //! The world: the one object that a host builds, steps and looks at.
 
-mod content;
 mod error;
 #[cfg(all(test, feature = "serde"))]
 mod failing;
@@ -19,6 +18,7 @@ use sorb_kernels::{
     SimdLevel,
     columns::{Column, Columns},
     cpu::Cpu,
+    need::Contents,
     params::Params,
 };
 
@@ -26,13 +26,12 @@ use crate::{
     clock::{Bound, Clock, Dormant, Steps, within},
     rigid::{LightBodies, RigidEngine},
     scene::Scene,
-    schedule::{Offload, POROUS_STEP, Plan, Runner, STEP},
+    schedule::{Offload, POROUS_STEP, Plans, Runner, STEP},
     setup::Setup,
     sponge::Lattice,
     stores::Stores,
 };
 
-use content::content;
 pub use error::{StepError, WorldError};
 pub(crate) use moving::move_bodies;
 use moving::{column_pressure, fastest, fastest_body, wrenches};
@@ -101,9 +100,7 @@ pub struct World {
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
     pub(crate) light: LightBodies,
-    pub(crate) plan: Plan,
-    /// The same while parts are asleep, see [`Content::lesser`](crate::schedule::Content).
-    pub(crate) lesser_plans: Vec<Plan>,
+    pub(crate) plans: Plans,
     pub(crate) runner: Runner,
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
@@ -146,11 +143,8 @@ impl World {
         let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
         let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
         let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu)?;
-        let content = content(&columns, &params);
-        let phases = if content.porous { POROUS_STEP } else { STEP };
-        let plan = Plan::new(phases, content, &options.observed)?;
-        let lesser = content.lesser().map(|content| Plan::new(phases, content, &options.observed));
-        let lesser_plans = lesser.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let step = if params.solid.is_some() { POROUS_STEP } else { STEP };
+        let plans = Plans::new(step, &Contents::new(&params, &columns), &options.observed)?;
         let bodies = &columns.bodies.states.0;
         let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
         #[cfg(not(feature = "gpu"))]
@@ -158,15 +152,14 @@ impl World {
             return Err(WorldError::NeedsGpu(options.offload.clone()));
         }
         #[cfg(feature = "gpu")]
-        let ((plan, lesser_plans), device) =
-            crate::gpu::placed((plan, lesser_plans), columns.rows, &params, &steps, options)?;
+        let (plans, device) = crate::gpu::placed(plans, columns.rows, &params, &steps, options)?;
         let stores = Stores {
             host: columns,
             #[cfg(feature = "gpu")]
             device,
         };
         let mut world = Self {
-            runner: Runner::of_all(&lesser_plans),
+            runner: Runner::of_all(plans.all()),
             sleep: sleep::Sleep::new(scene, &params),
             steps,
             scene: scene.clone(),
@@ -176,8 +169,7 @@ impl World {
             lattice,
             engine,
             light: LightBodies::new(scene),
-            plan,
-            lesser_plans,
+            plans,
             clock: Clock::default(),
             failed: None,
             #[cfg(feature = "gpu")]
@@ -308,7 +300,7 @@ impl World {
 
     /// All phases of a step of given length.
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
-        let lesser = self.lesser_plan();
+        let awake = self.awake();
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
         let Self { runner, cpu, params, stores, engine, light, .. } = self;
         let mut rigid = Ok(());
@@ -328,7 +320,7 @@ impl World {
             }
             return rigid.map_err(|error| StepError::Rigid(error.to_string()));
         }
-        runner.run(lesser, (cpu, params), &mut stores.host, &mut host);
+        runner.run(awake, (cpu, params), &mut stores.host, &mut host);
         rigid.map_err(|error| StepError::Rigid(error.to_string()))
     }
 

@@ -29,16 +29,13 @@ impl World {
     /// What runs in a step, and what is skipped and why.
     #[must_use]
     pub fn plan(&self) -> &Plan {
-        &self.plan
+        self.plans.whole()
     }
 
     /// What runs in the next step: [`Self::plan`] without what has nothing to do as long as parts are asleep.
     #[must_use]
     pub fn step_plan(&self) -> &Plan {
-        match self.lesser_plan() {
-            0 => &self.plan,
-            lesser => &self.lesser_plans[lesser],
-        }
+        self.plans.of(self.awake())
     }
 
     /// Time spent in every phase that runs.

@@ -10,9 +10,10 @@ use crate::{
     columns::{Column, Columns, RowCounts, lane},
     cpu::Cpu,
     grid::cells::Domain,
-    kernel::{Kernel, Need},
+    kernel::Kernel,
     kernel_named,
     lanes::SimdLevel,
+    need::{Contents, Need},
     params::{
         Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
         SpongeParams, WettingParams,
@@ -271,25 +272,9 @@ impl Scene {
 
     /// Whether the scene meets the needs of a kernel.
     pub(super) fn has_work(&self, kernel: &Kernel) -> bool {
-        let sponges = &self.params.sponges;
-        kernel.needs.iter().all(|need| match need {
-            Need::Fluid => self.options.fluid > 0,
-            Need::Sponge => self.options.sponges,
-            Need::Solver(solver) => sponges.iter().any(|sponge| sponge.solver == *solver),
-            Need::Projection => sponges.iter().any(|sponge| sponge.solver != Solver::Vbd),
-            Need::Obstacles => self.options.walls || self.options.bodies,
-            Need::Bodies => self.options.bodies,
-            Need::SurfaceTension => self.params.fluid.surface_tension > 0.0,
-            Need::Cohesion => self.params.fluid.cohesion.is_some(),
-            Need::NoSlip => self.params.no_slip,
-            Need::ExplicitViscosity => self.params.fluid.implicit_viscosity.is_none(),
-            Need::ImplicitViscosity => self.params.fluid.implicit_viscosity.is_some(),
-            Need::EquationOfState => !self.options.incompressible,
-            Need::Incompressible => self.options.incompressible,
-            Need::Porous => self.options.porous,
-            Need::Wetting => self.options.wetting,
-            Need::Touch => self.options.touch && self.params.has_touch(),
-        })
+        let all = Contents::new(&self.params, &self.columns);
+        let contents = Contents { touch: all.touch && self.options.touch, ..all };
+        kernel.needs.iter().all(|need| need.missing(&contents).is_none())
     }
 
     fn add_fluid(&mut self, random: &mut Random) {

@@ -14,6 +14,7 @@ use super::{Bounds, Kind, Part, is_active};
 use crate::{
     clock::{Dormant, Steps},
     scene::Motion,
+    schedule::Awake,
     world::{World, fastest_body},
 };
 
@@ -177,20 +178,16 @@ impl World {
         self.apply_sleep();
     }
 
-    /// Which of the lesser plans the next step has; 0 for the whole one.
-    pub(crate) fn lesser_plan(&self) -> usize {
+    /// What the next step goes on with.
+    pub(crate) fn awake(&self) -> Awake {
         let dormant = self.sleep.dormant();
         if self.sleeps_as_a_whole() || dormant == Dormant::default() {
-            return 0;
+            return Awake::EVERYTHING;
         }
         let all = 0..self.params.sponges.len() as u32;
         let awake: Vec<u32> = all.filter(|index| !dormant.sponges.contains(&(*index as usize))).collect();
-        let of_sponges = match (awake.is_empty(), self.params.has_touch_among(&awake)) {
-            (true, _) => 2,
-            (false, false) => 1,
-            (false, true) => 0,
-        };
-        if dormant.fluid { 3 + of_sponges } else { of_sponges }
+        let touch = self.params.has_touch_among(&awake);
+        Awake { fluid: !dormant.fluid, sponges: !awake.is_empty(), touch }
     }
 
     /// Makes the next steps go on without what sleeps.

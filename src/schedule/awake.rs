@@ -1,0 +1,93 @@
+//! What steps go on with while parts of a scene are asleep.
+
+use sorb_kernels::{columns::Column, need::Contents};
+
+use super::{
+    plan::{Plan, PlanError},
+    step::Phase,
+};
+
+/// The parts that are awake, as far as phases depend on them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Awake {
+    /// The fluid.
+    pub(crate) fluid: bool,
+    /// Any sponge.
+    pub(crate) sponges: bool,
+    /// Sponges that can touch each other or themselves.
+    pub(crate) touch: bool,
+}
+
+impl Awake {
+    /// Nothing sleeps.
+    pub(crate) const EVERYTHING: Self = Self { fluid: true, sponges: true, touch: true };
+
+    /// All that differ.
+    pub(crate) const ALL: [Self; 6] = [
+        Self::EVERYTHING,
+        Self { fluid: true, sponges: true, touch: false },
+        Self { fluid: true, sponges: false, touch: false },
+        Self { fluid: false, sponges: true, touch: true },
+        Self { fluid: false, sponges: true, touch: false },
+        Self { fluid: false, sponges: false, touch: false },
+    ];
+
+    /// Place in [`Self::ALL`].
+    pub(crate) fn index(self) -> usize {
+        Self::ALL.iter().position(|other| *other == self).unwrap_or(0)
+    }
+
+    /// What is awake of a scene.
+    pub(crate) fn of<'a>(self, all: &Contents<'a>) -> Contents<'a> {
+        let mut awake = *all;
+        if !self.fluid {
+            awake.rows.fluid = 0;
+        }
+        if !self.sponges {
+            awake.rows.nodes = 0;
+        }
+        awake.touch &= self.touch;
+        awake
+    }
+}
+
+/// The plans of a scene: of the whole step, and of steps while parts are asleep.
+#[derive(Clone, Debug)]
+pub(crate) struct Plans(Vec<Plan>);
+
+impl Plans {
+    /// Plans `step` for a scene, by all that may be awake.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub(crate) fn new(
+        step: &[Phase],
+        contents: &Contents<'_>,
+        observed: &[Column],
+    ) -> Result<Self, PlanError> {
+        let plan = |awake: Awake| Plan::new(step, &awake.of(contents), observed);
+        Awake::ALL.into_iter().map(plan).collect::<Result<_, _>>().map(Self)
+    }
+
+    /// The plan of the whole step.
+    pub(crate) fn whole(&self) -> &Plan {
+        self.of(Awake::EVERYTHING)
+    }
+
+    /// The plan of a step of what is awake.
+    pub(crate) fn of(&self, awake: Awake) -> &Plan {
+        &self.0[awake.index()]
+    }
+
+    /// All of them, in the order of [`Awake::ALL`].
+    pub(crate) fn all(&self) -> &[Plan] {
+        &self.0
+    }
+
+    /// The same with every plan changed.
+    #[cfg(feature = "gpu")]
+    #[must_use]
+    pub(crate) fn map(self, change: impl FnMut(Plan) -> Plan) -> Self {
+        Self(self.0.into_iter().map(change).collect())
+    }
+}
