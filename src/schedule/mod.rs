@@ -1,6 +1,7 @@
 //! What runs, in which order, for which scene.
 
 mod awake;
+mod blocks;
 mod offload;
 mod plan;
 mod run;
@@ -14,4 +15,4 @@ pub use plan::{Plan, PlanError, PlanLine, Verdict};
 pub use run::{PhaseTime, Runner};
 #[cfg(feature = "gpu")]
 pub(crate) use shares::Shares;
-pub use step::{HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times};
+pub use step::{Block, HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times};

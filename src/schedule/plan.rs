@@ -116,6 +116,7 @@ impl Plan {
     ) {
         for phase in phases {
             match phase {
+                Phase::Part(block) => self.collect(block.phases, contents, repeat, groups),
                 Phase::Run(kernel) => self.lines.push(PlanLine::new(Work::Kernel(kernel), contents, repeat)),
                 Phase::Host(host) => self.lines.push(PlanLine::new(Work::Host(host), contents, repeat)),
                 Phase::Repeat { times, phases } => {

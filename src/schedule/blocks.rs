@@ -1,0 +1,198 @@
+//! The blocks that a step is made of.
+
+use sorb_kernels::{couple, grid, pbd, sph};
+
+use super::step::{
+    Block,
+    Phase::{self, Host, KeepDensity, Repeat, Run},
+    RIGID, Solve, Times,
+};
+
+/// Particles in the order of their cells, their neighbours and their density.
+pub(super) static SEARCH: Block = Block {
+    name: "search",
+    phases: &[
+        Run(&grid::sort_fluid::KERNEL),
+        Run(&grid::fluid_neighbors::KERNEL),
+        Run(&sph::density::KERNEL),
+    ],
+};
+
+/// Nodes as control particles of the fluid, what nodes of sponges may touch, and how much water is around them.
+pub(super) static CONTROLS: Block = Block {
+    name: "controls",
+    phases: &[Run(&couple::controls::KERNEL), Run(&pbd::pairs::KERNEL), Run(&couple::saturation::KERNEL)],
+};
+
+/// How open the pores are, which particles are in them, and how sponges are drawn to the water that they suck in.
+pub(super) static PORES: Block = Block {
+    name: "pores",
+    phases: &[
+        Run(&couple::pores::KERNEL),
+        Run(&couple::interior::KERNEL),
+        Run(&pbd::gravity::KERNEL),
+        Run(&couple::zero_distance::KERNEL),
+    ],
+};
+
+/// Forces between particles, and of sponges on them.
+pub(super) static FORCES: Block = Block {
+    name: "forces",
+    phases: &[
+        Run(&sph::forces::KERNEL),
+        Run(&sph::surface_tension::KERNEL),
+        Run(&sph::deficit::KERNEL),
+        Run(&sph::cohesion::KERNEL),
+        Run(&couple::suction::KERNEL),
+    ],
+};
+
+/// Forces of walls and bodies on particles.
+pub(super) static WALLS: Block = Block {
+    name: "walls",
+    phases: &[Run(&sph::boundary_pressure::KERNEL), Run(&sph::wall_friction::KERNEL)],
+};
+
+/// Velocities by the forces, and by a solve for the viscosity where that is implicit.
+pub(super) static VISCOSITY: Block = Block {
+    name: "viscosity",
+    phases: &[
+        Run(&sph::kick::KERNEL),
+        Run(&sph::viscosity_begin::KERNEL),
+        Repeat {
+            times: Times::UntilConverged(Solve::Viscosity),
+            phases: &[Run(&sph::viscosity_product::KERNEL), Run(&sph::viscosity_update::KERNEL)],
+        },
+        Run(&sph::viscosity_reaction::KERNEL),
+        Run(&sph::viscosity_kick::KERNEL),
+    ],
+};
+
+/// What keeps the density where that is no matter of an equation of state.
+pub(super) static PRESSURE: Block = Block {
+    name: "pressure",
+    phases: &[Run(&sph::predict::KERNEL), KeepDensity { solve: SOLVE, projection: PROJECTION }],
+};
+
+/// The density by a solve for the pressure \[BK17\].
+static SOLVE: &[Phase] = &[
+    Run(&sph::boundary::KERNEL),
+    Run(&couple::solid_share::KERNEL),
+    Run(&sph::factors::KERNEL),
+    Repeat {
+        times: Times::UntilConverged(Solve::Pressure),
+        phases: &[
+            Run(&sph::pressure_update::KERNEL),
+            Run(&sph::pressure_acceleration::KERNEL),
+            Run(&couple::solid_yield::KERNEL),
+            Run(&sph::pressure_residual::KERNEL),
+        ],
+    },
+    // While the position still has the pressure of the step before beside it.
+    Run(&couple::solid_reaction::KERNEL),
+    Run(&sph::pressure_kick::KERNEL),
+    Run(&sph::boundary_reaction::KERNEL),
+];
+
+/// The density by moving particles \[MM13\]: every round begins at the positions that the one before has left.
+static PROJECTION: &[Phase] = &[Repeat {
+    times: Times::Projections,
+    phases: &[
+        Run(&sph::boundary::KERNEL),
+        Run(&couple::solid_share::KERNEL),
+        Run(&sph::factors::KERNEL),
+        Run(&sph::pressure_update::KERNEL),
+        Run(&sph::pressure_acceleration::KERNEL),
+        Run(&couple::solid_reaction::KERNEL),
+        Run(&sph::boundary_reaction::KERNEL),
+        Run(&sph::position_correction::KERNEL),
+    ],
+}];
+
+/// Sponges by any of the solvers, with what they touch.
+pub(super) static ELASTIC: Block = Block {
+    name: "elastic",
+    phases: &[
+        Run(&pbd::predict::KERNEL),
+        Run(&pbd::guess::KERNEL),
+        Repeat {
+            times: Times::SolverIterations,
+            phases: &[
+                Run(&pbd::strain::KERNEL),
+                Run(&pbd::xpbd_neo_hookean::KERNEL),
+                Run(&pbd::touch::KERNEL),
+                Run(&pbd::vbd::KERNEL),
+                Run(&pbd::contact::KERNEL),
+            ],
+        },
+        Run(&pbd::touch::KERNEL),
+        Run(&pbd::reaction::KERNEL),
+        Run(&pbd::momentum::KERNEL),
+        Run(&pbd::velocity::KERNEL),
+    ],
+};
+
+/// Sweeps of the drag before the last: for water that weighs 20 times as much as the sponge it fills, two leave the
+/// impulses of a uniform flow within 6 % and of a shear flow within 8 % of the converged ones. Momentum is exact and
+/// energy falls at any number.
+const FILTER_SWEEPS: u32 = 2;
+
+/// The drag between fluid and sponges, after all else.
+pub(super) static DRAG: Block = Block {
+    name: "drag",
+    phases: &[
+        Run(&couple::control_velocity::KERNEL),
+        Repeat {
+            times: Times::Fixed(FILTER_SWEEPS),
+            phases: &[Run(&couple::drag::KERNEL), Run(&couple::velocity_filter::KERNEL)],
+        },
+        Run(&couple::drag::KERNEL),
+        Run(&couple::exchange::KERNEL),
+    ],
+};
+
+/// How often the momenta of sponges are balanced before the drag is settled: it answers to the rigid motion that a sponge is given, at
+/// places that lie around its nodes somehow.
+const BALANCES: u32 = 2;
+
+/// Sponges by vertex block descent, with the drag of the fluid and what they touch.
+pub(super) static ELASTIC_WITH_DRAG: Block = Block {
+    name: "elastic with drag",
+    phases: &[
+        Run(&pbd::predict::KERNEL),
+        Run(&pbd::guess::KERNEL),
+        Repeat {
+            times: Times::SolverIterations,
+            phases: &[
+                Run(&couple::node_velocity::KERNEL),
+                Run(&couple::drag_impulse::KERNEL),
+                Run(&couple::drag_target::KERNEL),
+                Run(&pbd::touch::KERNEL),
+                Run(&pbd::vbd::KERNEL),
+            ],
+        },
+        Run(&couple::node_velocity::KERNEL),
+        Run(&couple::drag_impulse::KERNEL),
+        Run(&couple::drag_target::KERNEL),
+        Run(&pbd::touch::KERNEL),
+        Run(&pbd::reaction::KERNEL),
+        Repeat {
+            times: Times::Fixed(BALANCES),
+            phases: &[
+                Run(&couple::drag_reaction::KERNEL),
+                Run(&pbd::momentum::KERNEL),
+                Run(&couple::node_velocity::KERNEL),
+                Run(&couple::drag_impulse::KERNEL),
+            ],
+        },
+        Run(&couple::drag_reaction::KERNEL),
+        Run(&couple::drag_settled::KERNEL),
+        Run(&pbd::momentum::KERNEL),
+        Run(&couple::drag_kick::KERNEL),
+        Run(&pbd::velocity::KERNEL),
+    ],
+};
+
+/// Particles and bodies where they are at the end of the step.
+pub(super) static MOTION: Block =
+    Block { name: "motion", phases: &[Run(&sph::sweep::KERNEL), Run(&sph::advect::KERNEL), Host(&RIGID)] };
