@@ -77,30 +77,6 @@ impl Bound {
     }
 }
 
-impl Bound {
-    /// All bounds, by the numbers that shaders know them by.
-    #[cfg(feature = "gpu")]
-    const ALL: [Self; 11] = [
-        Self::Maximum,
-        Self::Frame,
-        Self::Courant,
-        Self::Acceleration,
-        Self::Viscosity,
-        Self::SurfaceTension,
-        Self::Suction,
-        Self::Elasticity,
-        Self::SpongeSpeed,
-        Self::Pressure,
-        Self::BodySpeed,
-    ];
-
-    /// The bound of a number; the first for numbers that no shader gives.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn from_index(index: u32) -> Self {
-        Self::ALL.get(index as usize).copied().unwrap_or(Self::Maximum)
-    }
-}
-
 /// Time since the start, and what the last step found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
@@ -124,7 +100,7 @@ pub struct Clock {
 
 /// Step over the time in which pressure moves a particle by a spacing. At twice that the lattice of a pool at rest buckles
 /// (docs/pressure-solve.md).
-const PRESSURE_COURANT: f32 = 0.4;
+pub(crate) const PRESSURE_COURANT: f32 = 0.4;
 
 /// Step over the time in which the shortest capillary wave turns. At twice that particles at the surface of a drop do not come
 /// to rest.
@@ -152,10 +128,10 @@ pub(crate) struct Dormant {
 /// Bounds that do not change from step to step.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps {
-    time: Time,
-    constant: (f32, Bound),
-    edge: f32,
-    has_fluid: bool,
+    pub(crate) time: Time,
+    pub(crate) constant: (f32, Bound),
+    pub(crate) edge: f32,
+    pub(crate) has_fluid: bool,
 }
 
 impl Steps {
@@ -245,20 +221,6 @@ impl Steps {
         // A script may move a body at any speed; what is faster than this is swept.
         bounds.push((crossing.max(SHORTEST_BY_BODY * self.time.minimum_step), Bound::BodySpeed));
         smallest(&bounds)
-    }
-
-    /// What a device needs to choose steps itself.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn limits(&self) -> sorb_kernels::gpu::StepLimits {
-        sorb_kernels::gpu::StepLimits {
-            courant: self.time.courant,
-            pressure_courant: PRESSURE_COURANT,
-            edge: self.edge,
-            has_fluid: self.has_fluid,
-            minimum: self.time.minimum_step,
-            constant: self.constant.0,
-            constant_bound: Bound::ALL.iter().position(|bound| *bound == self.constant.1).unwrap_or(0) as u32,
-        }
     }
 
     /// Shortest step that is allowed \[s\].

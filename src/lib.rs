@@ -4,6 +4,9 @@ mod clock;
 mod digest;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(not(feature = "gpu"))]
+#[path = "no_gpu.rs"]
+pub mod gpu;
 mod measure;
 #[cfg(feature = "render")]
 pub mod render;

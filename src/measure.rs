@@ -52,11 +52,8 @@ pub struct Measures {
 impl Measures {
     pub(crate) fn of(world: &World) -> Self {
         let mut measures = Self { time: world.clock().time, ..Self::default() };
-        #[cfg(feature = "gpu")]
-        let is_summed_up = measures.add_sums(world);
-        #[cfg(not(feature = "gpu"))]
-        let is_summed_up = false;
-        if !is_summed_up {
+        let device = world.stores.device.as_ref();
+        if !device.is_some_and(|device| device.add_sums(world, &mut measures)) {
             measures.add_water(world);
             measures.add_sponges(world);
         }

@@ -2,34 +2,27 @@
 
 use sorb_kernels::columns::Columns;
 
+use crate::gpu::Device;
+
 /// Columns on the host, and what keeps them on a device.
 #[derive(Debug)]
 pub(crate) struct Stores {
     /// What the host works with: all of the state where the step runs on the CPU; where it runs on a device, what never
     /// changes, the bodies, and the rest as it was read back last.
     pub(crate) host: Columns,
-    #[cfg(feature = "gpu")]
-    pub(crate) device: Option<crate::gpu::Device>,
+    pub(crate) device: Option<Device>,
 }
 
 impl Stores {
     /// The present state.
     pub(crate) fn view(&self) -> &Columns {
-        #[cfg(feature = "gpu")]
-        if let Some(device) = &self.device {
-            return device.view(&self.host);
-        }
-        &self.host
+        self.device.as_ref().map_or(&self.host, |device| device.view(&self.host))
     }
 }
 
 impl Clone for Stores {
     /// The copy holds the state on the host, and uploads it when it steps: it outlives the device of the original.
     fn clone(&self) -> Self {
-        Self {
-            host: self.view().clone(),
-            #[cfg(feature = "gpu")]
-            device: self.device.as_ref().map(crate::gpu::Device::another),
-        }
+        Self { host: self.view().clone(), device: self.device.as_ref().map(Device::another) }
     }
 }

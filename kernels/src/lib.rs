@@ -20,6 +20,7 @@ pub mod params;
 pub mod periodic;
 pub mod reduce;
 pub mod smoothing;
+pub mod stage;
 mod sweep;
 #[cfg(test)]
 mod testing;

@@ -8,15 +8,16 @@ use sorb_kernels::{
     columns::{Column, Columns},
     couple::weights::weigh,
     cpu::Cpu,
-    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Stage, Start, StepLimits, make_room},
-    kernel::has_converged,
+    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, StepLimits, make_room},
     params::Params,
+    stage::Stage,
 };
 
+use super::shares::Shares;
 use crate::{
-    clock::Clock,
+    clock::{Clock, Steps},
     rigid::RigidEngine,
-    schedule::{Awake, Place, Plan, Plans, Shares},
+    schedule::{Awake, Place, Plan, Plans},
 };
 
 /// Scratch columns that measures and pictures look at.
@@ -94,8 +95,7 @@ impl Device {
             let segments = plan.shares(&[]).segments;
             segments.into_iter().flat_map(|segment| segment.stages).collect()
         };
-        let lesser =
-            if shares.are_all_on_gpu() { plans.all().iter().map(stages).collect() } else { Vec::new() };
+        let lesser = if shares.are_all_on_gpu() { plans.0.iter().map(stages).collect() } else { Vec::new() };
         Self {
             gpu,
             limits,
@@ -219,11 +219,12 @@ impl Device {
         Ok(())
     }
 
-    /// Makes the next steps go on without what is asleep, by the plan of that. The time has to be set anew.
-    pub(crate) fn set_asleep(&mut self, asleep: &Asleep, limits: StepLimits, is_outside: bool, awake: Awake) {
-        (self.limits, self.awake) = (limits, awake);
+    /// Makes the next steps go on with what is awake alone; what is awake of the fluid may be outside of all sponges. The time has to be
+    /// set anew.
+    pub(crate) fn set_asleep(&mut self, awake: Awake, asleep: &Asleep, steps: &Steps, is_outside: bool) {
+        (self.limits, self.awake) = (steps.limits(), awake);
         if let Some(on) = &mut self.resident {
-            on.resident.set_asleep(asleep, limits, is_outside);
+            on.resident.set_asleep(asleep, self.limits, is_outside);
         }
     }
 
@@ -279,7 +280,9 @@ impl Device {
             match share.place {
                 Place::Cpu => {
                     fetch(resident, host, params, &share.needs)?;
-                    share.stages.iter().for_each(|stage| run(stage, cpu, params, host));
+                    for stage in &share.stages {
+                        stage.run(host, |_, kernel, host| cpu.enter(|| (kernel.cpu)(cpu, params, host)));
+                    }
                 }
                 Place::Gpu => {
                     resident.upload(host, &share.needs, share.is_sorted)?;
@@ -296,22 +299,6 @@ impl Device {
     pub(crate) fn times(&mut self) -> Vec<(&'static str, f32)> {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
-    }
-}
-
-/// Runs a stage on the CPU.
-fn run(stage: &Stage, cpu: &Cpu, params: &Params, host: &mut Columns) {
-    let rounds = match stage {
-        Stage::Run(_) => 1,
-        Stage::Rounds { maximum, .. } => *maximum,
-    };
-    for _ in 0..rounds {
-        for kernel in stage.kernels() {
-            cpu.enter(|| (kernel.cpu)(cpu, params, host));
-        }
-        if stage.kernels().iter().all(|kernel| has_converged(kernel, host)) {
-            break;
-        }
     }
 }
 

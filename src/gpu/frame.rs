@@ -4,21 +4,36 @@ use std::{sync::Arc, time::Instant};
 
 use sorb_kernels::gpu::{Answer, BOUNDS, Gpu, GpuError, Outcome, Start};
 
-use super::{device::Kept, place::placed};
+use super::device::{Device, Kept};
 use crate::{
     Offload,
     body::BodyKind,
-    clock::Bound,
+    clock::{Bound, Dormant},
+    schedule::{Runner, run::slot},
     stores::Stores,
-    world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies},
+    world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies, sleep::Sleep},
 };
 
 /// Most steps of a submission: the host must be able to stop.
 const BATCH: u32 = 256;
 
 impl World {
-    /// One step, as long as stability allows.
-    pub(crate) fn step_on_device(&mut self) -> Result<StepReport, StepError> {
+    /// One step, as long as stability allows; none if no device has all of a step.
+    pub(crate) fn step_on_device(&mut self) -> Option<Result<StepReport, StepError>> {
+        self.is_on_device().then(|| self.take_step())
+    }
+
+    /// As many steps as fill a frame; none if no device has all of a step.
+    pub(crate) fn frame_on_device(&mut self) -> Option<Result<FrameReport, StepError>> {
+        self.is_on_device().then(|| self.fill_frame())
+    }
+
+    /// Whether a device takes the steps on its own.
+    fn is_on_device(&self) -> bool {
+        self.stores.device.as_ref().is_some_and(Device::has_all)
+    }
+
+    fn take_step(&mut self) -> Result<StepReport, StepError> {
         self.begin_on_device(f32::MAX)?;
         let before = self.clock.steps;
         let answer = self.advance_on_device(1, 0)?;
@@ -36,9 +51,8 @@ impl World {
         })
     }
 
-    /// As many steps as fill a frame: all of them in one or two submissions, if there are no bodies to move in between, and nothing that
-    /// sleeps to be woken.
-    pub(crate) fn frame_on_device(&mut self) -> Result<FrameReport, StepError> {
+    /// All steps of a frame in one or two submissions, if there are no bodies to move in between, and nothing that sleeps to be woken.
+    fn fill_frame(&mut self) -> Result<FrameReport, StepError> {
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let mut report = FrameReport {
             time: self.clock.time,
@@ -93,20 +107,12 @@ impl World {
         // Bodies that never move need nobody.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
         // What is awake may come near what is not in any step.
-        if is_moved || self.sleep.has_any() {
+        if is_moved || self.sleep.dormant() != Dormant::default() {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);
         // The last whole step becomes two halves.
         (((end - self.clock.time) / step).ceil() as u32).saturating_add(1).min(BATCH)
-    }
-
-    /// Tells the device what sleeps; what is awake of the fluid is outside of all sponges if they sleep.
-    pub(crate) fn apply_sleep_on_device(&mut self, is_outside: bool) {
-        let (limits, awake) = (self.steps.limits(), self.awake());
-        if let Some(device) = &mut self.stores.device {
-            device.set_asleep(&self.params.asleep, limits, is_outside, awake);
-        }
     }
 
     fn begin_on_device(&mut self, left: f32) -> Result<(), StepError> {
@@ -135,7 +141,7 @@ impl World {
         };
         let answer = device.advance(host, steps)?;
         let seconds = clock.elapsed().as_secs_f64();
-        self.runner.record(seconds, answer.steps - before, &device.times());
+        record(&mut self.runner, seconds, answer.steps - before, &device.times());
         Ok(answer)
     }
 
@@ -172,7 +178,11 @@ impl World {
             self.engine = kept.engine;
             self.params.step = kept.step;
         }
-        self.wake_all();
+        if self.scene.time.sleep_after > 0.0 {
+            // Everything wakes, and what comes to rest is looked at anew.
+            self.sleep = Sleep::new(&self.scene, &self.params);
+            self.apply_sleep();
+        }
         if matches!(self.failed, Some(StepError::Gpu(_))) {
             self.failed = None;
         }
@@ -186,10 +196,7 @@ impl World {
             },
             ..self.options.clone()
         };
-        let rows = self.stores.host.rows;
-        (self.plans, self.stores.device) =
-            placed(self.plans.clone(), rows, &self.params, &self.steps, &options)?;
-        Ok(())
+        self.place_by(&options)
     }
 
     /// Whether there are nodes of sponges that are awake.
@@ -237,5 +244,16 @@ impl World {
             }),
             Outcome::TooSmall(..) | Outcome::Done => Ok(()),
         }
+    }
+}
+
+/// Takes over the time of steps on a device: of all of them together, and of every call of a kernel \[ms\] as far as it was taken.
+fn record(runner: &mut Runner, seconds: f64, steps: u32, calls: &[(&'static str, f32)]) {
+    for _ in 0..steps {
+        runner.step.record_seconds(seconds / f64::from(steps));
+    }
+    for (name, milliseconds) in calls {
+        let slot = slot(&mut runner.times, name);
+        runner.times[slot].record_seconds(f64::from(*milliseconds) * 1e-3);
     }
 }

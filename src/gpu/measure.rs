@@ -2,28 +2,30 @@
 
 use sorb_kernels::gpu::{FluidSums, NodeSums, Sums};
 
+use super::Device;
 use crate::{Measures, World};
 
-impl World {
-    /// Sums over the state, if that is on a device and was not read back.
-    fn sums(&self) -> Option<Sums> {
-        if self.params.fluid.incompressible.is_some() {
-            // The density that is measured is summed up anew.
-            return None;
+impl Device {
+    /// Adds sums over the state to measures; false if they are not to be had from the device, or the host has the state anyway.
+    pub(crate) fn add_sums(&self, world: &World, measures: &mut Measures) -> bool {
+        // Where pressure is solved for, the density that is measured is summed up anew.
+        if self.is_looked_at() || world.params.fluid.incompressible.is_some() {
+            return false;
         }
-        let device = self.stores.device.as_ref().filter(|device| !device.is_looked_at())?;
-        let lattice = self.lattice();
-        let mass = |(volume, sponge): (&f32, &u32)| volume * self.scene.sponges[*sponge as usize].density;
+        let lattice = world.lattice();
+        let mass = |(volume, sponge): (&f32, &u32)| volume * world.scene.sponges[*sponge as usize].density;
         let masses: Vec<f32> = lattice.node_volume.iter().zip(&lattice.node_sponge).map(mass).collect();
         // What fails here fails in the next step as well; until then there is the state that was read back before.
-        device.resident()?.sums(&masses).ok()
+        let Some(sums) = self.resident().and_then(|resident| resident.sums(&masses).ok()) else {
+            return false;
+        };
+        measures.add(world, &sums);
+        true
     }
 }
 
 impl Measures {
-    /// Adds what the device sums up; false if it has nothing to sum up.
-    pub(crate) fn add_sums(&mut self, world: &World) -> bool {
-        let Some(sums) = world.sums() else { return false };
+    fn add(&mut self, world: &World, sums: &Sums) {
         if let Some(fluid) = &sums.fluid {
             self.add_fluid_sums(world, fluid);
         }
@@ -34,7 +36,6 @@ impl Measures {
             self.sponge_volume = tets.volume;
             self.elastic_energy = tets.energy;
         }
-        true
     }
 
     fn add_fluid_sums(&mut self, world: &World, sums: &FluidSums) {

@@ -10,9 +10,8 @@ use sorb_kernels::{
 
 use super::{Device, device::looked_at};
 use crate::{
-    clock::Steps,
-    schedule::{Offload, Place, Placement, Plan, Plans, Transfer},
-    world::{Options, WorldError},
+    schedule::{Offload, Place, Placement, Plan, Transfer},
+    world::{Options, World, WorldError},
 };
 
 /// Particles and nodes from which [`Offload::Auto`] takes a GPU; `docs/gpu.md` has the measurements.
@@ -26,29 +25,35 @@ struct Request<'a> {
     options: &'a Options,
 }
 
-/// Plans with their place, and the device if it is one.
-///
-/// # Errors
-/// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
-pub(crate) fn placed(
-    plans: Plans,
-    rows: RowCounts,
-    params: &Params,
-    steps: &Steps,
-    options: &Options,
-) -> Result<(Plans, Option<Device>), WorldError> {
-    if options.offload == Offload::Cpu {
-        return Ok((plans.map(Plan::unplaced), None));
+impl World {
+    /// Places the step as the options say.
+    ///
+    /// # Errors
+    /// As [`Self::place_by`].
+    pub(crate) fn place(&mut self) -> Result<(), WorldError> {
+        self.place_by(&self.options.clone())
     }
-    let (placement, gpu) = Request { plan: plans.whole(), rows, params, options }.place()?;
-    let plans = plans.map(|plan| {
-        let request = Request { plan: &plan, rows, params, options };
-        let transfers = request.transfers(&placement.on_gpu);
-        plan.placed(Placement { transfers, ..placement.clone() })
-    });
-    let device =
-        gpu.map(|gpu| Device::new(gpu, &plans, steps.limits(), &options.observed, options.gpu_times));
-    Ok((plans, device))
+
+    /// Places the step, on a device of its own if it is a GPU.
+    ///
+    /// # Errors
+    /// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
+    pub(super) fn place_by(&mut self, options: &Options) -> Result<(), WorldError> {
+        let (rows, params, plans) = (self.stores.host.rows, &self.params, &mut self.plans);
+        if options.offload == Offload::Cpu {
+            self.stores.device = None;
+            plans.0.iter_mut().for_each(|plan| plan.placement = None);
+            return Ok(());
+        }
+        let (placement, gpu) = Request { plan: plans.whole(), rows, params, options }.place()?;
+        for plan in &mut plans.0 {
+            let transfers = Request { plan, rows, params, options }.transfers(&placement.on_gpu);
+            plan.placement = Some(Placement { transfers, ..placement.clone() });
+        }
+        let device = |gpu| Device::new(gpu, plans, self.steps.limits(), &options.observed, options.gpu_times);
+        self.stores.device = gpu.map(device);
+        Ok(())
+    }
 }
 
 type Placed = (Placement, Option<Arc<Gpu>>);

@@ -1,10 +1,14 @@
-//! A state that is asked for now and taken later, so that the host need not wait for the device.
+//! What a host sees of a device: the device itself, its buffers, and a state that is asked for now and taken later, so that the host need
+//! not wait.
+
+use std::sync::Arc;
 
 use sorb_kernels::{
     columns::{Columns, RowCounts},
-    gpu::{GpuError, Pending},
+    gpu::{Gpu, GpuError, Pending, Resident},
 };
 
+use super::Device;
 use crate::{Clock, World};
 
 /// The state of a world when it was asked for, on its way to the host.
@@ -16,6 +20,19 @@ pub struct StateRequest {
 }
 
 impl World {
+    /// The columns on the GPU, for a renderer that draws from the same buffers; none for a world on the CPU, and before
+    /// the first step.
+    #[must_use]
+    pub fn resident(&self) -> Option<&Resident> {
+        self.stores.device.as_ref().and_then(Device::resident)
+    }
+
+    /// The GPU that the world runs on; none for a world on the CPU.
+    #[must_use]
+    pub fn gpu(&self) -> Option<&Arc<Gpu>> {
+        self.stores.device.as_ref().map(Device::gpu)
+    }
+
     /// Asks for the present state, and does not wait for it: the world can take steps meanwhile, and the state is taken
     /// when it has arrived, for a picture say, a frame later. A world on the CPU has it at once.
     ///

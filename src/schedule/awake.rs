@@ -51,9 +51,9 @@ impl Awake {
     }
 }
 
-/// The plans of a scene: of the whole step, and of steps while parts are asleep.
+/// The plans of a scene: of the whole step, and of steps while parts are asleep, in the order of [`Awake::ALL`].
 #[derive(Clone, Debug)]
-pub(crate) struct Plans(Vec<Plan>);
+pub(crate) struct Plans(pub(crate) Vec<Plan>);
 
 impl Plans {
     /// Plans `step` for a scene, by all that may be awake.
@@ -77,17 +77,5 @@ impl Plans {
     /// The plan of a step of what is awake.
     pub(crate) fn of(&self, awake: Awake) -> &Plan {
         &self.0[awake.index()]
-    }
-
-    /// All of them, in the order of [`Awake::ALL`].
-    pub(crate) fn all(&self) -> &[Plan] {
-        &self.0
-    }
-
-    /// The same with every plan changed.
-    #[cfg(feature = "gpu")]
-    #[must_use]
-    pub(crate) fn map(self, change: impl FnMut(Plan) -> Plan) -> Self {
-        Self(self.0.into_iter().map(change).collect())
     }
 }

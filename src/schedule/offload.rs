@@ -28,14 +28,14 @@ impl Offload {
     pub fn wants_gpu(&self) -> bool {
         match self {
             Self::Cpu => false,
-            Self::Each(list) => KERNELS.iter().any(|kernel| last(list, kernel) == Place::Gpu),
+            Self::Each(list) => KERNELS.iter().any(|kernel| place_in(list, kernel) == Place::Gpu),
             Self::Gpu | Self::Auto | Self::From(_) => true,
         }
     }
 }
 
 /// The place that a list gives to a kernel.
-pub(super) fn last(list: &[(&'static str, Place)], kernel: &Kernel) -> Place {
+pub(crate) fn place_in(list: &[(&'static str, Place)], kernel: &Kernel) -> Place {
     let entry = list.iter().rev().find(|(name, _)| *name == kernel.name);
     entry.map_or(Place::Cpu, |(_, place)| *place)
 }
@@ -204,10 +204,6 @@ pub enum PlaceError {
     Unknown(&'static str),
 }
 
-/// Kernels that go through the cells that `grid::sort_fluid` made, which do not travel: they run where the sort does.
-#[cfg(feature = "gpu")]
-pub(crate) const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,7 +226,7 @@ mod tests {
     #[test]
     fn lists_name_kernels_families_and_all_and_the_last_entry_counts() {
         let place = |text: &str, name: &str| match text.parse() {
-            Ok(Offload::Each(list)) => kernel_named(name).map(|kernel| last(&list, kernel)),
+            Ok(Offload::Each(list)) => kernel_named(name).map(|kernel| place_in(&list, kernel)),
             other => panic!("{other:?}"),
         };
         let text = "each:all=gpu,sph=cpu, sph::kick=gpu";

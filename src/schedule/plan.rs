@@ -34,12 +34,12 @@ pub struct PlanLine {
     pub repeat: Option<(usize, u32)>,
     /// Whether the repetitions end when the solve that they are rounds of has converged.
     pub until_converged: bool,
-    pub(super) work: Work,
+    pub(crate) work: Work,
 }
 
 /// What a line runs.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Work {
+pub(crate) enum Work {
     Kernel(&'static Kernel),
     Host(&'static HostPhase),
 }
@@ -58,7 +58,7 @@ pub struct PlanError {
 #[derive(Clone, Debug)]
 pub struct Plan {
     lines: Vec<PlanLine>,
-    placement: Option<Placement>,
+    pub(crate) placement: Option<Placement>,
 }
 
 impl Plan {
@@ -93,18 +93,9 @@ impl Plan {
         if on_gpu.contains(&name) { Place::Gpu } else { Place::Cpu }
     }
 
-    /// The same plan, placed.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn placed(mut self, placement: Placement) -> Self {
-        self.placement = Some(placement);
-        self
-    }
-
-    /// The same plan, all of it on the CPU.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn unplaced(mut self) -> Self {
-        self.placement = None;
-        self
+    /// Lines that are repeated together, and single ones.
+    pub(crate) fn groups(&self) -> impl DoubleEndedIterator<Item = &[PlanLine]> {
+        self.lines.chunk_by(|a, b| a.group().is_some() && a.group() == b.group())
     }
 
     fn collect(
@@ -141,7 +132,7 @@ impl Plan {
         live.extend_from_slice(observed);
         let mut runs = vec![false; self.lines.len()];
         let mut first = self.lines.len();
-        for group in self.lines.chunk_by(|a, b| a.group().is_some() && a.group() == b.group()).rev() {
+        for group in self.groups().rev() {
             first -= group.len();
             // What a repetition writes, the next one may read before it: twice around finds all of it.
             for _ in 0..if group[0].group().is_some() { 2 } else { 1 } {
@@ -194,14 +185,14 @@ impl Work {
         }
     }
 
-    pub(super) fn reads(self) -> &'static [Column] {
+    pub(crate) fn reads(self) -> &'static [Column] {
         match self {
             Self::Kernel(kernel) => kernel.reads,
             Self::Host(host) => host.reads,
         }
     }
 
-    pub(super) fn writes(self) -> &'static [Column] {
+    pub(crate) fn writes(self) -> &'static [Column] {
         match self {
             Self::Kernel(kernel) => kernel.writes,
             Self::Host(host) => host.writes,
@@ -217,7 +208,7 @@ impl PlanLine {
     }
 
     /// The group that the line is repeated in.
-    pub(super) fn group(&self) -> Option<usize> {
+    fn group(&self) -> Option<usize> {
         self.repeat.map(|(group, _)| group)
     }
 

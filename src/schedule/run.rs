@@ -2,11 +2,12 @@
 
 use std::time::Instant;
 
-use sorb_kernels::{columns::Columns, cpu::Cpu, kernel::has_converged, params::Params};
+use sorb_kernels::{columns::Columns, cpu::Cpu, params::Params};
 
 use super::{
     awake::Awake,
-    plan::{Plan, Verdict, Work},
+    order::Part,
+    plan::{Plan, Verdict},
 };
 
 /// Times of a phase that are kept for its median.
@@ -25,7 +26,7 @@ pub struct PhaseTime {
 }
 
 impl PhaseTime {
-    fn new(name: &'static str) -> Self {
+    pub(crate) fn new(name: &'static str) -> Self {
         Self { name, calls: 0, total_s: 0.0, recent_ms: Vec::with_capacity(RECENT) }
     }
 
@@ -41,7 +42,7 @@ impl PhaseTime {
         self.record_seconds(start.elapsed().as_secs_f64());
     }
 
-    fn record_seconds(&mut self, seconds: f64) {
+    pub(crate) fn record_seconds(&mut self, seconds: f64) {
         let slot = self.calls as usize % RECENT;
         self.calls += 1;
         self.total_s += seconds;
@@ -53,30 +54,19 @@ impl PhaseTime {
     }
 }
 
-/// Consecutive kernels that are run together.
-#[derive(Clone, Debug)]
-struct Group {
-    first: usize,
-    last: usize,
-    times: u32,
-    /// Whether the repetitions end when the solve that they are rounds of has converged.
-    until_converged: bool,
-}
-
 /// Plans, flattened to what is left of them.
 #[derive(Clone, Debug)]
 pub struct Runner {
     /// Of every plan, in the order of [`Awake::ALL`]; of one alone for a runner of that.
     sequences: Vec<Sequence>,
-    times: Vec<PhaseTime>,
-    step: PhaseTime,
+    pub(crate) times: Vec<PhaseTime>,
+    pub(crate) step: PhaseTime,
 }
 
-/// What runs in a step, in order; with the place of its time.
+/// What runs in a step, in order; with the places of the times of its kernels.
 #[derive(Clone, Debug, Default)]
 struct Sequence {
-    kernels: Vec<(Work, usize)>,
-    groups: Vec<Group>,
+    parts: Vec<(Part, Vec<usize>)>,
 }
 
 impl Runner {
@@ -104,27 +94,10 @@ impl Runner {
         let Self { sequences, times, step } = self;
         let start = Instant::now();
         // Waking the threads would be all the cost of an empty scene.
-        if let Some(sequence) = sequences.get(awake.index()).filter(|sequence| !sequence.kernels.is_empty()) {
+        if let Some(sequence) = sequences.get(awake.index()).filter(|sequence| !sequence.parts.is_empty()) {
             cpu.enter(|| sequence.run((cpu, params), columns, host, times));
         }
         step.record(start);
-    }
-
-    /// Takes over the time of steps on a device: of all of them together, and of every call of a kernel \[ms\] as far as
-    /// it was taken.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn record(&mut self, seconds: f64, steps: u32, calls: &[(&'static str, f32)]) {
-        for _ in 0..steps {
-            self.step.record_seconds(seconds / f64::from(steps));
-        }
-        for (name, milliseconds) in calls {
-            let found = self.times.iter().position(|time| time.name == *name);
-            let at = found.unwrap_or_else(|| {
-                self.times.push(PhaseTime::new(name));
-                self.times.len() - 1
-            });
-            self.times[at].record_seconds(f64::from(*milliseconds) * 1e-3);
-        }
     }
 
     /// Time spent in whole steps.
@@ -142,33 +115,25 @@ impl Runner {
     /// Whether there is nothing to run.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.sequences.iter().all(|sequence| sequence.kernels.is_empty())
+        self.sequences.iter().all(|sequence| sequence.parts.is_empty())
     }
 }
 
 impl Sequence {
     fn new(plan: &Plan, times: &mut Vec<PhaseTime>) -> Self {
-        let mut sequence = Self::default();
-        let mut group = None;
         for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
-            let time = times.iter().position(|time| time.name == line.name).unwrap_or_else(|| {
-                times.push(PhaseTime::new(line.name));
-                times.len() - 1
-            });
-            let at = sequence.kernels.len();
-            match (sequence.groups.last_mut(), line.repeat) {
-                (Some(group_of), Some((index, _))) if group == Some(index) => group_of.last = at + 1,
-                (_, repeat) => sequence.groups.push(Group {
-                    first: at,
-                    last: at + 1,
-                    times: repeat.map_or(1, |(_, times)| times),
-                    until_converged: line.until_converged,
-                }),
-            }
-            group = line.repeat.map(|(index, _)| index);
-            sequence.kernels.push((line.work, time));
+            slot(times, line.name);
         }
-        sequence
+        let with_slots = |part: Part| {
+            let slots = match &part {
+                Part::Kernels(_, lines) => {
+                    lines.iter().map(|line| slot(times, plan.lines()[*line].name)).collect()
+                }
+                Part::Host(host) => vec![slot(times, host.name)],
+            };
+            (part, slots)
+        };
+        Self { parts: plan.in_order().into_iter().map(with_slots).collect() }
     }
 
     fn run(
@@ -178,25 +143,27 @@ impl Sequence {
         mut host: impl FnMut(&mut Columns),
         times: &mut [PhaseTime],
     ) {
-        for group in &self.groups {
-            let members = &self.kernels[group.first..group.last];
-            for _ in 0..group.times {
-                for (work, time) in members {
+        for (part, slots) in &self.parts {
+            match part {
+                Part::Kernels(stage, _) => stage.run(columns, |index, kernel, columns| {
                     let start = Instant::now();
-                    match work {
-                        Work::Kernel(kernel) => (kernel.cpu)(cpu, params, columns),
-                        Work::Host(_) => host(columns),
-                    }
-                    times[*time].record(start);
-                }
-                let has_converged = |(work, _): &(Work, usize)| match work {
-                    Work::Kernel(kernel) => has_converged(kernel, columns),
-                    Work::Host(_) => true,
-                };
-                if group.until_converged && members.iter().all(has_converged) {
-                    break;
+                    (kernel.cpu)(cpu, params, columns);
+                    times[slots[index]].record(start);
+                }),
+                Part::Host(_) => {
+                    let start = Instant::now();
+                    host(columns);
+                    times[slots[0]].record(start);
                 }
             }
         }
     }
+}
+
+/// The place of the time of a phase, which is added if there is none.
+pub(crate) fn slot(times: &mut Vec<PhaseTime>, name: &'static str) -> usize {
+    times.iter().position(|time| time.name == name).unwrap_or_else(|| {
+        times.push(PhaseTime::new(name));
+        times.len() - 1
+    })
 }

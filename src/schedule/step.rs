@@ -2,10 +2,10 @@
 
 use sorb_kernels::{
     columns::Column,
-    couple, grid,
+    couple,
     kernel::Kernel,
     need::{Contents, Need},
-    pbd, sph,
+    sph,
 };
 
 /// One line of the step.

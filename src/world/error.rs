@@ -64,16 +64,13 @@ pub enum WorldError {
     /// The step contradicts a kernel's declaration.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A GPU was asked for.
-    #[cfg(not(feature = "gpu"))]
+    /// A GPU was asked for, and the feature `gpu` is off.
     #[error("backend `{0}`: built without the feature `gpu`")]
     NeedsGpu(crate::schedule::Offload),
     /// Kernels are asked for at places where they cannot be.
-    #[cfg(feature = "gpu")]
     #[error(transparent)]
     Place(#[from] crate::schedule::PlaceError),
     /// A GPU was asked for, and there is none that can be used.
-    #[cfg(feature = "gpu")]
     #[error(transparent)]
     Gpu(#[from] crate::gpu::GpuError),
 }
@@ -124,7 +121,6 @@ pub enum StepError {
     Rigid(String),
     /// The GPU failed. [`crate::World::move_to`] goes on elsewhere from the state that was looked at last; a clone that
     /// was made before goes on as well: it uploads its state anew.
-    #[cfg(feature = "gpu")]
     #[error(transparent)]
     Gpu(#[from] crate::gpu::GpuError),
 }

@@ -9,9 +9,11 @@ mod look;
 mod moving;
 #[cfg(test)]
 mod pool;
-mod sleep;
+pub(crate) mod sleep;
 mod start;
 mod views;
+
+use std::sync::Arc;
 
 use glam::Vec3;
 use sorb_kernels::{
@@ -24,6 +26,7 @@ use sorb_kernels::{
 
 use crate::{
     clock::{Bound, Clock, Dormant, Steps, within},
+    gpu::Gpu,
     rigid::{LightBodies, RigidEngine},
     scene::Scene,
     schedule::{Offload, POROUS_STEP, Plans, Runner, STEP},
@@ -48,12 +51,10 @@ pub struct Options {
     /// What to run on a GPU; by default nothing.
     pub offload: Offload,
     /// The GPU to run on; default: the best of the machine. Worlds can share one, and it can be made of a device of the
-    /// host.
-    #[cfg(feature = "gpu")]
-    pub gpu: Option<std::sync::Arc<crate::gpu::Gpu>>,
+    /// host. There is none without the feature `gpu`.
+    pub gpu: Option<Arc<Gpu>>,
     /// Whether to take the time of every kernel on the GPU, which makes its steps a little longer. On the CPU it is
     /// always taken.
-    #[cfg(feature = "gpu")]
     pub gpu_times: bool,
 }
 
@@ -106,7 +107,6 @@ pub struct World {
     pub(crate) clock: Clock,
     pub(crate) sleep: sleep::Sleep,
     pub(crate) failed: Option<StepError>,
-    #[cfg(feature = "gpu")]
     pub(crate) options: Options,
 }
 
@@ -147,34 +147,23 @@ impl World {
         let plans = Plans::new(step, &Contents::new(&params, &columns), &options.observed)?;
         let bodies = &columns.bodies.states.0;
         let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
-        #[cfg(not(feature = "gpu"))]
-        if options.offload.wants_gpu() {
-            return Err(WorldError::NeedsGpu(options.offload.clone()));
-        }
-        #[cfg(feature = "gpu")]
-        let (plans, device) = crate::gpu::placed(plans, columns.rows, &params, &steps, options)?;
-        let stores = Stores {
-            host: columns,
-            #[cfg(feature = "gpu")]
-            device,
-        };
         let mut world = Self {
-            runner: Runner::of_all(plans.all()),
+            runner: Runner::of_all(&plans.0),
             sleep: sleep::Sleep::new(scene, &params),
             steps,
             scene: scene.clone(),
             cpu,
             params,
-            stores,
+            stores: Stores { host: columns, device: None },
             lattice,
             engine,
             light: LightBodies::new(scene),
             plans,
             clock: Clock::default(),
             failed: None,
-            #[cfg(feature = "gpu")]
             options: options.clone(),
         };
+        world.place()?;
         let Columns { rows, fluid, nodes, bodies, .. } = &world.stores.host;
         world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
         world.clock.fluid_acceleration = scene.gravity.length();
@@ -209,9 +198,8 @@ impl World {
         }
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let is_over = self.sleep_until(end);
-        #[cfg(feature = "gpu")]
-        if self.is_on_device() && !is_over {
-            return self.going_on(Self::frame_on_device);
+        if !is_over && let Some(report) = self.frame_on_device() {
+            return self.remember(report);
         }
         let mut report = FrameReport {
             time: self.clock.time,
@@ -243,36 +231,23 @@ impl World {
     }
 
     fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {
-        if self.failed.is_none()
-            && let Some(slept) = self.sleep_within(left)
-        {
+        if let Some(error) = &self.failed {
+            return Err(error.clone());
+        }
+        if let Some(slept) = self.sleep_within(left) {
             let time = self.clock.time;
             let maximum_speed = self.clock.fluid_speed.max(self.clock.node_speed);
             return Ok(StepReport { step: slept as f32, bound: Bound::Asleep, time, maximum_speed });
         }
-        let report = self.going_on(|world| {
-            #[cfg(feature = "gpu")]
-            if world.is_on_device() {
-                return world.step_on_device();
-            }
-            world.try_step(left)
-        })?;
+        let report = self.step_on_device().unwrap_or_else(|| self.try_step(left));
+        let report = self.remember(report)?;
         self.watch();
         Ok(report)
     }
 
-    /// Does something unless the world has failed, and remembers if it fails now.
-    fn going_on<R>(&mut self, work: impl FnOnce(&mut Self) -> Result<R, StepError>) -> Result<R, StepError> {
-        if let Some(error) = &self.failed {
-            return Err(error.clone());
-        }
-        work(self).inspect_err(|error| self.failed = Some(error.clone()))
-    }
-
-    /// Whether a device takes the steps on its own.
-    #[cfg(feature = "gpu")]
-    fn is_on_device(&self) -> bool {
-        self.stores.device.as_ref().is_some_and(crate::gpu::Device::has_all)
+    /// Remembers a failure: the world refuses to go on after it.
+    fn remember<R>(&mut self, result: Result<R, StepError>) -> Result<R, StepError> {
+        result.inspect_err(|error| self.failed = Some(error.clone()))
     }
 
     fn try_step(&mut self, left: f64) -> Result<StepReport, StepError> {
@@ -312,7 +287,6 @@ impl World {
             let given = wrenches(columns);
             rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, &given, step);
         };
-        #[cfg(feature = "gpu")]
         if let Some(device) = &mut stores.device {
             device.step_with(cpu, &mut stores.host, params)?;
             if stores.host.rows.bodies > 0 {

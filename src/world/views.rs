@@ -77,21 +77,6 @@ impl World {
         self.stores.view()
     }
 
-    /// The columns on the GPU, for a renderer that draws from the same buffers; none for a world on the CPU, and before
-    /// the first step.
-    #[cfg(feature = "gpu")]
-    #[must_use]
-    pub fn resident(&self) -> Option<&sorb_kernels::gpu::Resident> {
-        self.stores.device.as_ref().and_then(crate::gpu::Device::resident)
-    }
-
-    /// The GPU that the world runs on; none for a world on the CPU.
-    #[cfg(feature = "gpu")]
-    #[must_use]
-    pub fn gpu(&self) -> Option<&std::sync::Arc<crate::gpu::Gpu>> {
-        self.stores.device.as_ref().map(crate::gpu::Device::gpu)
-    }
-
     /// Positions of the particles \[m\], in the order of their cells; w: pressure over squared density.
     #[must_use]
     pub fn particle_positions(&self) -> &[[f32; 4]] {

@@ -36,7 +36,7 @@ pub use device::{AdapterReport, Gpu, adapters, required_features, required_limit
 pub use error::GpuError;
 pub use pack::StepLimits;
 pub use profile::Profile;
-pub use program::{Program, Stage};
+pub use program::Program;
 pub use read::Pending;
 pub use resident::Resident;
 pub use sums::{FluidSums, NodeSums, Sums, TetSums};

@@ -11,7 +11,7 @@ use super::{
     resident::Resident,
     twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows},
 };
-use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS};
+use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS, stage::Stage};
 
 /// Most repetitions of a step that end when they have converged: the clock counts the rounds of each.
 pub(super) const REPETITIONS: usize = 4;
@@ -24,31 +24,6 @@ pub(super) const SMALL_GROUP: u32 = 64;
 pub(super) const FEW_ROWS: u64 = 65_536;
 /// Pages of cells up to which each adds up those before it, as `scan_pages.wgsl` has it too.
 const FEW_PAGES: u64 = 256;
-
-/// One stage of a step.
-#[derive(Clone, Debug)]
-pub enum Stage {
-    /// A kernel.
-    Run(&'static Kernel),
-    /// Kernels that are repeated until they have converged, which the device finds out on its own.
-    Rounds {
-        /// Most rounds; at least 1.
-        maximum: u32,
-        /// What is repeated.
-        kernels: Vec<&'static Kernel>,
-    },
-}
-
-impl Stage {
-    /// Its kernels, in order.
-    #[must_use]
-    pub fn kernels(&self) -> &[&'static Kernel] {
-        match self {
-            Self::Run(kernel) => std::slice::from_ref(kernel),
-            Self::Rounds { kernels, .. } => kernels,
-        }
-    }
-}
 
 /// A pass bound to its buffers.
 #[derive(Debug)]

@@ -63,7 +63,7 @@ struct Places {
 }
 
 impl Sleep {
-    pub(super) fn new(scene: &Scene, params: &Params) -> Self {
+    pub(crate) fn new(scene: &Scene, params: &Params) -> Self {
         let Time { sleep_after, sleep_speed, .. } = scene.time;
         let motions = scene.bodies.iter().enumerate();
         let motions = motions.flat_map(|(index, body)| body.motions.iter().map(move |own| (index, *own)));
@@ -93,12 +93,6 @@ impl Sleep {
             }
         }
         dormant
-    }
-
-    /// Whether anything sleeps.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn has_any(&self) -> bool {
-        self.parts.iter().any(|part| part.is_asleep)
     }
 
     /// Whether a part sleeps; false for what is no part.

@@ -30,11 +30,7 @@ const BODY_REACH: f32 = 0.1;
 impl World {
     /// Whether parts cannot sleep on their own, because steps run on a device and the CPU by turns.
     pub(super) fn sleeps_as_a_whole(&self) -> bool {
-        #[cfg(feature = "gpu")]
-        let is_shared = self.stores.device.as_ref().is_some_and(|device| !device.has_all());
-        #[cfg(not(feature = "gpu"))]
-        let is_shared = false;
-        is_shared
+        self.stores.device.as_ref().is_some_and(|device| !device.has_all())
     }
 
     /// All parts, awake, with boxes that were never taken.
@@ -166,18 +162,6 @@ impl World {
         self.apply_sleep();
     }
 
-    /// Wakes everything, and begins to look anew what has come to rest.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn wake_all(&mut self) {
-        if self.sleep.after == 0.0 {
-            return;
-        }
-        self.sleep.parts.iter_mut().for_each(|part| part.is_asleep = false);
-        self.sleep.is_asleep = false;
-        (self.sleep.before, self.sleep.between) = (None, Vec::new());
-        self.apply_sleep();
-    }
-
     /// What the next step goes on with.
     pub(crate) fn awake(&self) -> Awake {
         let dormant = self.sleep.dormant();
@@ -191,7 +175,7 @@ impl World {
     }
 
     /// Makes the next steps go on without what sleeps.
-    pub(super) fn apply_sleep(&mut self) {
+    pub(crate) fn apply_sleep(&mut self) {
         if self.sleeps_as_a_whole() {
             return;
         }
@@ -220,8 +204,10 @@ impl World {
         if is_outside {
             self.stores.host.fluid.interior.fill(0.0);
         }
-        #[cfg(feature = "gpu")]
-        self.apply_sleep_on_device(is_outside);
+        let awake = self.awake();
+        if let Some(device) = &mut self.stores.device {
+            device.set_asleep(awake, &self.params.asleep, &self.steps, is_outside);
+        }
     }
 }
 

@@ -1,11 +1,13 @@
 //! The shares of a step that CPU and device have, and what travels between them.
 
-use sorb_kernels::{column::Life, columns::Column, gpu::Stage, kernel::Kernel};
+use sorb_kernels::{column::Life, columns::Column, kernel::Kernel, stage::Stage};
 
-use super::{
-    offload::{BESIDE_SORT, Offload, Place, PlaceError, last},
-    plan::{Plan, PlanLine, Verdict, Work},
+use crate::schedule::{
+    Offload, Place, PlaceError, Plan, PlanLine, Verdict, offload::place_in, order::Part, plan::Work,
 };
+
+/// Kernels that go through the cells that `grid::sort_fluid` made, which do not travel: they run where the sort does.
+const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
 
 /// Kernels that run one after the other at one place.
 #[derive(Clone, Debug)]
@@ -47,25 +49,6 @@ impl Segment {
     pub(crate) fn kernels(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
         self.stages.iter().flat_map(Stage::kernels).copied()
     }
-
-    /// Adds a kernel, to the last stage if that repeats the same group.
-    fn push(&mut self, kernel: &'static Kernel, rounds: Option<u32>, is_same: bool) {
-        match (self.stages.last_mut(), rounds) {
-            (Some(Stage::Rounds { kernels, .. }), Some(_)) if is_same => kernels.push(kernel),
-            (_, Some(maximum)) => self.stages.push(Stage::Rounds { maximum, kernels: vec![kernel] }),
-            (_, None) => self.stages.push(Stage::Run(kernel)),
-        }
-    }
-}
-
-/// A kernel or host phase at its place, and its line in the plan.
-#[derive(Clone, Copy, Debug)]
-struct Placed {
-    work: Work,
-    line: usize,
-    place: Place,
-    /// The group that is repeated until it has converged, and its most rounds.
-    until: Option<(usize, u32)>,
 }
 
 /// Values beside lists do not travel: each side computes them from lists and points.
@@ -133,13 +116,9 @@ impl Fresh {
 
 /// What a kernel reads and writes where it is placed. Particles are brought back from the order of the step as a
 /// whole, their identity with them.
-fn moved(work: Work) -> (Vec<Column>, Vec<Column>) {
-    let (reads, writes, name) = match work {
-        Work::Kernel(kernel) => (kernel.reads, kernel.writes, kernel.name),
-        Work::Host(host) => (host.reads, host.writes, host.name),
-    };
-    let (mut reads, mut writes) = (reads.to_vec(), writes.to_vec());
-    if name == "sph::advect" {
+fn moved(kernel: &Kernel) -> (Vec<Column>, Vec<Column>) {
+    let (mut reads, mut writes) = (kernel.reads.to_vec(), kernel.writes.to_vec());
+    if kernel.name == "sph::advect" {
         reads.push(Column::FluidId);
         writes.push(Column::FluidId);
     }
@@ -147,26 +126,6 @@ fn moved(work: Work) -> (Vec<Column>, Vec<Column>) {
 }
 
 impl Plan {
-    /// What runs, in order, repetitions written out.
-    fn placed_work(&self, on_gpu: &[&str]) -> Vec<Placed> {
-        let mut all = Vec::new();
-        let mut first = 0;
-        for group in self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group()) {
-            let until = group[0].repeat.filter(|_| group[0].until_converged);
-            let times = group[0].repeat.filter(|_| until.is_none()).map_or(1, |(_, times)| times);
-            for _ in 0..times {
-                for (index, line) in
-                    group.iter().enumerate().filter(|(_, line)| line.verdict == Verdict::Runs)
-                {
-                    let place = if on_gpu.contains(&line.name) { Place::Gpu } else { Place::Cpu };
-                    all.push(Placed { work: line.work, line: first + index, place, until });
-                }
-            }
-            first += group.len();
-        }
-        all
-    }
-
     /// Whether a phase runs.
     pub(crate) fn runs(&self, name: &str) -> bool {
         self.lines().iter().any(|line| line.name == name && line.verdict == Verdict::Runs)
@@ -205,7 +164,7 @@ impl Plan {
                 }
                 let place = |name: &str| {
                     let kernel = kernels.iter().find(|kernel| kernel.name == name);
-                    kernel.map(|kernel| last(list, kernel))
+                    kernel.map(|kernel| place_in(list, kernel))
                 };
                 for name in BESIDE_SORT {
                     let (here, there) = (place(name), place(SORT));
@@ -227,8 +186,7 @@ impl Plan {
 
     /// Groups that are repeated until they have converged, of lines that run.
     fn rounds(&self) -> impl Iterator<Item = Vec<&PlanLine>> {
-        let groups = self.lines().chunk_by(|a, b| a.group().is_some() && a.group() == b.group());
-        groups
+        self.groups()
             .filter(|group| group[0].until_converged)
             .map(|group| group.iter().filter(|line| line.verdict == Verdict::Runs).collect())
     }
@@ -247,58 +205,62 @@ impl Plan {
 
     /// The shares if the device has these kernels.
     pub(crate) fn shares_with(&self, on_gpu: &[&str], looked_at: &[Column]) -> Shares {
-        let work = self.placed_work(on_gpu);
+        let parts = self.in_order();
         let mut fresh = Fresh::at_upload();
         // What a step leaves on the device is there for the next one: only the second shows what travels in all others.
-        shares_of(&work, &mut fresh, looked_at);
-        shares_of(&work, &mut fresh, looked_at)
+        shares_of(&parts, on_gpu, &mut fresh, looked_at);
+        shares_of(&parts, on_gpu, &mut fresh, looked_at)
     }
 }
 
 /// The shares of a step that begins with these columns up to date.
-fn shares_of(work: &[Placed], fresh: &mut Fresh, looked_at: &[Column]) -> Shares {
+fn shares_of(parts: &[Part], on_gpu: &[&str], fresh: &mut Fresh, looked_at: &[Column]) -> Shares {
     let mut shares = Shares::default();
     let mut is_sorted = false;
-    let mut last: Option<&Placed> = None;
-    for placed in work {
-        let Work::Kernel(kernel) = placed.work else { continue };
-        let (reads, writes) = moved(placed.work);
-        let begins = shares.segments.last().is_none_or(|last| last.place != placed.place);
-        if begins {
-            let segment = Segment {
-                place: placed.place,
+    let mut host = Vec::new();
+    for part in parts {
+        let (stage, lines) = match part {
+            Part::Kernels(stage, lines) => (stage, lines),
+            Part::Host(phase) => {
+                host.push(phase);
+                continue;
+            }
+        };
+        let is_there = |kernel: &&Kernel| on_gpu.contains(&kernel.name);
+        let place = if stage.kernels().iter().any(is_there) { Place::Gpu } else { Place::Cpu };
+        if shares.segments.last().is_none_or(|last| last.place != place) {
+            shares.segments.push(Segment {
+                place,
                 stages: Vec::new(),
-                line: placed.line,
+                line: lines[0],
                 needs: Vec::new(),
                 is_sorted,
-            };
-            shares.segments.push(segment);
+            });
         }
-        if let Some(segment) = shares.segments.last_mut() {
+        let Some(segment) = shares.segments.last_mut() else { continue };
+        for kernel in stage.kernels() {
+            let (reads, writes) = moved(kernel);
             for column in reads {
-                segment.needs.extend(fresh.bring(column, placed.place));
+                segment.needs.extend(fresh.bring(column, place));
             }
-            let is_same = last.is_some_and(|last| last.until == placed.until);
-            segment.push(kernel, placed.until.map(|(_, maximum)| maximum), is_same);
+            writes.into_iter().for_each(|column| fresh.write(column, place));
+            match kernel.name {
+                "grid::sort_fluid" => is_sorted = true,
+                "sph::advect" => is_sorted = false,
+                _ => {}
+            }
         }
-        writes.into_iter().for_each(|column| fresh.write(column, placed.place));
-        match kernel.name {
-            "grid::sort_fluid" => is_sorted = true,
-            "sph::advect" => is_sorted = false,
-            _ => {}
-        }
-        last = Some(placed);
+        segment.stages.push(stage.clone());
     }
     // The host keeps the state, looks at it, and has phases of its own.
     let state = |column: &Column| column.life() == Life::State || looked_at.contains(column);
     let mut wanted: Vec<Column> = Column::ALL.iter().copied().filter(state).collect();
-    let host = work.iter().filter(|placed| matches!(placed.work, Work::Host(_)));
-    host.clone().for_each(|placed| wanted.extend(moved(placed.work).0));
-    if last.is_some() {
+    host.iter().for_each(|phase| wanted.extend(phase.reads));
+    if !shares.segments.is_empty() {
         shares.fetched = wanted.into_iter().flat_map(|column| fresh.bring(column, Place::Cpu)).collect();
     }
-    for column in host.flat_map(|placed| moved(placed.work).1) {
-        fresh.write(column, Place::Cpu);
+    for column in host.iter().flat_map(|phase| phase.writes) {
+        fresh.write(*column, Place::Cpu);
     }
     shares
 }

@@ -1,0 +1,79 @@
+//! Worlds on a GPU need the feature `gpu`. What is here instead has no values, so that nothing else asks for the feature.
+
+use std::fmt;
+
+use sorb_kernels::{asleep::Asleep, columns::Columns, cpu::Cpu, params::Params};
+
+use crate::{
+    Measures,
+    clock::Steps,
+    schedule::Awake,
+    world::{FrameReport, StepError, StepReport, World, WorldError},
+};
+
+/// A GPU; there is none without the feature `gpu`.
+#[derive(Debug)]
+pub enum Gpu {}
+
+/// Why something could not be done on a GPU; nothing is tried without the feature `gpu`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum GpuError {}
+
+impl fmt::Display for GpuError {
+    fn fmt(&self, _: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {}
+    }
+}
+
+impl std::error::Error for GpuError {}
+
+/// What runs the kernels of a world on a device.
+#[derive(Debug)]
+pub(crate) enum Device {}
+
+impl Device {
+    pub(crate) fn another(&self) -> Self {
+        match *self {}
+    }
+
+    pub(crate) fn has_all(&self) -> bool {
+        match *self {}
+    }
+
+    pub(crate) fn view<'a>(&'a self, _: &'a Columns) -> &'a Columns {
+        match *self {}
+    }
+
+    pub(crate) fn set_asleep(&mut self, _: Awake, _: &Asleep, _: &Steps, _: bool) {
+        match *self {}
+    }
+
+    pub(crate) fn step_with(&mut self, _: &Cpu, _: &mut Columns, _: &Params) -> Result<(), GpuError> {
+        match *self {}
+    }
+
+    pub(crate) fn add_sums(&self, _: &World, _: &mut Measures) -> bool {
+        match *self {}
+    }
+}
+
+impl World {
+    /// Places the step as the options say: on the CPU.
+    ///
+    /// # Errors
+    /// A GPU is asked for.
+    pub(crate) fn place(&mut self) -> Result<(), WorldError> {
+        if self.options.offload.wants_gpu() {
+            return Err(WorldError::NeedsGpu(self.options.offload.clone()));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn step_on_device(&mut self) -> Option<Result<StepReport, StepError>> {
+        None
+    }
+
+    pub(crate) fn frame_on_device(&mut self) -> Option<Result<FrameReport, StepError>> {
+        None
+    }
+}

@@ -1,0 +1,51 @@
+//! A plan as it runs: what is skipped left out, and repetitions written out.
+
+use sorb_kernels::stage::Stage;
+
+use super::{
+    plan::{Plan, PlanLine, Verdict, Work},
+    step::HostPhase,
+};
+
+/// Something that runs in a step.
+#[derive(Clone, Debug)]
+pub(crate) enum Part {
+    /// Kernels, with the lines of the plan that they are.
+    Kernels(Stage, Vec<usize>),
+    /// A phase of the host.
+    Host(&'static HostPhase),
+}
+
+impl Plan {
+    /// What runs, in order. Repetitions are written out, but for rounds until convergence.
+    pub(crate) fn in_order(&self) -> Vec<Part> {
+        let mut parts = Vec::new();
+        let mut first = 0;
+        for group in self.groups() {
+            let lines = (first..).zip(group).filter(|(_, line)| line.verdict == Verdict::Runs);
+            let times = group[0].repeat.map_or(1, |(_, times)| times);
+            if group[0].until_converged {
+                parts.extend(rounds(times, lines));
+            } else {
+                for _ in 0..times {
+                    parts.extend(lines.clone().map(|(number, line)| match line.work {
+                        Work::Kernel(kernel) => Part::Kernels(Stage::Run(kernel), vec![number]),
+                        Work::Host(host) => Part::Host(host),
+                    }));
+                }
+            }
+            first += group.len();
+        }
+        parts
+    }
+}
+
+/// Rounds until convergence; none without kernels.
+fn rounds<'a>(maximum: u32, lines: impl Iterator<Item = (usize, &'a PlanLine)>) -> Option<Part> {
+    let kernel = |(number, line): (usize, &PlanLine)| match line.work {
+        Work::Kernel(kernel) => Some((kernel, number)),
+        Work::Host(_) => None,
+    };
+    let (kernels, numbers): (Vec<_>, Vec<_>) = lines.filter_map(kernel).unzip();
+    (!kernels.is_empty()).then_some(Part::Kernels(Stage::Rounds { maximum, kernels }, numbers))
+}
