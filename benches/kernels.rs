@@ -16,11 +16,14 @@ use std::{
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use sorb::{
-    KERNELS, World,
-    columns::Columns,
-    cpu::Cpu,
-    kernel::{Kernel, Need},
-    params::{self, Params},
+    Cpu, World,
+    internal::{
+        self, KERNELS,
+        columns::Columns,
+        kernel::Kernel,
+        need::Need,
+        params::{self, Params},
+    },
     scene::{Scene, Solver},
 };
 
@@ -89,11 +92,11 @@ fn kernels(criterion: &mut Criterion) {
             let world = &worlds[world_of(kernel)];
             let mut group = criterion.benchmark_group(kernel.name);
             group.sampling_mode(SamplingMode::Flat);
-            let rows = world.columns().rows.of(kernel.writes[0].store());
+            let rows = internal::columns(world).rows.of(kernel.writes[0].store());
             group.throughput(Throughput::Elements(rows as u64));
             group.bench_function(BenchmarkId::from_parameter(size), |bencher| {
                 bencher.iter_custom(|iterations| {
-                    time(kernel, world.cpu(), world.params(), world.columns(), iterations)
+                    time(kernel, world.cpu(), internal::params(world), internal::columns(world), iterations)
                 });
             });
             group.finish();
@@ -114,7 +117,7 @@ fn twins(criterion: &mut Criterion) {
             let world = &mut worlds[world_of(kernel)];
             let mut group = criterion.benchmark_group(kernel.name);
             group.sampling_mode(SamplingMode::Flat);
-            let rows = world.columns().rows.of(kernel.writes[0].store());
+            let rows = internal::columns(world).rows.of(kernel.writes[0].store());
             group.throughput(Throughput::Elements(rows as u64));
             group.bench_function(BenchmarkId::from_parameter(format!("{size}-gpu")), |bencher| {
                 bencher.iter_custom(|iterations| time_on_gpu(kernel.name, world, iterations));

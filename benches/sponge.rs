@@ -13,7 +13,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_grou
 use sorb::{
     World,
     glam::{UVec3, Vec3},
-    kernel_named,
+    internal::{self, kernel_named},
     scene::{Body, Scene, ShapeKind, Solver, Sponge, Time},
 };
 
@@ -53,7 +53,7 @@ fn steps(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group("step::bar");
         group.sampling_mode(SamplingMode::Flat);
         let prepared = bar(Solver::Vbd, sweeps);
-        group.throughput(Throughput::Elements(prepared.columns().rows.tets as u64));
+        group.throughput(Throughput::Elements(internal::columns(&prepared).rows.tets as u64));
         let digest = Cell::new(None);
         group.bench_function(BenchmarkId::new("vbd", sweeps), |bencher| {
             bencher.iter_custom(|count| {
@@ -85,7 +85,7 @@ fn sweeps(criterion: &mut Criterion) {
         let kernel = kernel_named(name).expect("there is one");
         let mut group = criterion.benchmark_group(name);
         group.sampling_mode(SamplingMode::Flat);
-        group.throughput(Throughput::Elements(world.columns().rows.tets as u64));
+        group.throughput(Throughput::Elements(internal::columns(&world).rows.tets as u64));
         group.bench_function(BenchmarkId::from_parameter("bar"), |bencher| {
             bencher.iter_custom(|count| {
                 let mut total = Duration::ZERO;
@@ -93,11 +93,11 @@ fn sweeps(criterion: &mut Criterion) {
                 while left > 0 {
                     let calls = left.min(CALLS);
                     left -= calls;
-                    let mut columns = world.columns().clone();
+                    let mut columns = internal::columns(&world).clone();
                     total += world.cpu().enter(|| {
                         let start = Instant::now();
                         for _ in 0..calls {
-                            (kernel.cpu)(world.cpu(), world.params(), black_box(&mut columns));
+                            (kernel.cpu)(world.cpu(), internal::params(&world), black_box(&mut columns));
                         }
                         start.elapsed()
                     });

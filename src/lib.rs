@@ -1,4 +1,7 @@
 //! An absorbent sponge, the water it drinks and the bodies that squeeze it.
+//!
+//! Build a [`Scene`](scene::Scene), make a [`World`] of it, step that and look at it: [`World`] has the views that a host needs, with unit
+//! and shape. How the state is kept and which kernels a step has is in [`internal`], without any promise.
 
 mod clock;
 mod digest;
@@ -7,6 +10,7 @@ pub mod gpu;
 #[cfg(not(feature = "gpu"))]
 #[path = "no_gpu.rs"]
 pub mod gpu;
+pub mod internal;
 mod measure;
 #[cfg(feature = "render")]
 pub mod render;
@@ -21,7 +25,10 @@ mod world;
 pub use clock::{Bound, Clock};
 pub use measure::Measures;
 pub use schedule::Offload;
-pub use sorb_kernels::{KERNELS, SimdLevel, body, columns, cpu, kernel, kernel_named, need, params};
+pub use sorb_kernels::{
+    SimdLevel,
+    cpu::{Cpu, CpuError},
+};
 pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;

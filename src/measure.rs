@@ -78,9 +78,8 @@ impl Measures {
 
     fn add_water(&mut self, world: &World) {
         let fluid = &world.columns().fluid;
-        let (mass, gravity) =
-            (f64::from(world.params().fluid.particle_mass), world.params().gravity.as_dvec3());
-        let rest_density = f64::from(world.params().fluid.rest_density);
+        let (mass, gravity) = (f64::from(world.params.fluid.particle_mass), world.params.gravity.as_dvec3());
+        let rest_density = f64::from(world.params.fluid.rest_density);
         let count = world.particle_positions().len();
         for (position, velocity) in world.particle_positions().iter().zip(world.particle_velocities()) {
             self.add_point(mass, vector(position), vector(velocity), gravity);
@@ -89,7 +88,7 @@ impl Measures {
         let inside = fluid.interior.iter().take(count).filter(|interior| **interior > INSIDE).count();
         self.absorbed_mass = mass * inside as f64;
         let summed;
-        let (density, share) = if world.params().fluid.incompressible.is_some() {
+        let (density, share) = if world.params.fluid.incompressible.is_some() {
             summed = world.summed_density();
             (&summed.fluid.density, Some(&summed.fluid.boundary))
         } else {
@@ -133,9 +132,9 @@ impl Measures {
         if volume > 0.0 {
             self.saturation /= volume;
         }
-        if world.params().solid.is_some() && pores > 0.0 {
+        if world.params.solid.is_some() && pores > 0.0 {
             // Around nodes at a face there is water outside as well.
-            self.saturation = self.absorbed_mass / (pores * f64::from(world.params().fluid.rest_density));
+            self.saturation = self.absorbed_mass / (pores * f64::from(world.params.fluid.rest_density));
         }
         self.wicking_height = (self.wicking_height - lowest).max(0.0);
         self.add_tets(world);
@@ -146,7 +145,7 @@ impl Measures {
         let (nodes, lattice) = (world.node_positions(), world.lattice());
         let weights = lattice.tet_weight.iter().map(|weight| f64::from(*weight));
         for ((tet, sponge), weight) in lattice.tets.iter().zip(&lattice.tet_sponge).zip(weights) {
-            let sponge = &world.params().sponges[*sponge as usize];
+            let sponge = &world.params.sponges[*sponge as usize];
             let (size, stiffness) = of_tet(world.columns(), sponge, tet);
             let edge = f64::from(sponge.edge) * size;
             let [p0, p1, p2, p3] = tet.map(|node| vector(&nodes[node as usize]));

@@ -2,10 +2,10 @@
 
 use std::{fmt::Write as _, fs};
 
-use sorb::{
+use sorb::internal::{
+    HostPhase, POROUS_STEP, Phase, STEP, Solve, Times,
     columns::{Column, Store},
     need::Need,
-    schedule::{HostPhase, POROUS_STEP, Phase, STEP, Solve, Times},
 };
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/ARCHITECTURE.md");

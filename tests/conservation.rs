@@ -49,7 +49,7 @@ fn with_ball(solver: FluidSolver) -> Scene {
 /// Sum of the absolute momenta of all parts: what a loss is compared with.
 fn scale(world: &World) -> f64 {
     let speed = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]).as_dvec3().length();
-    let mass = f64::from(world.params().fluid.particle_mass);
+    let mass = f64::from(world.particle_mass());
     let fluid: f64 = world.particle_velocities().iter().map(|row| mass * speed(row)).sum();
     let node = |(row, position): (&[f32; 4], &[f32; 4])| speed(row) / f64::from(position[3]);
     let nodes: f64 = world.node_velocities().iter().zip(world.node_positions()).map(node).sum();

@@ -270,7 +270,7 @@ fn threads_and_levels_change_no_bit_of_contact() {
         let options = sorb::Options { threads: Some(threads), simd: Some(simd), ..sorb::Options::default() };
         let mut world = World::with_options(&scene, &options).unwrap_or_else(|error| panic!("{error}"));
         common::steps(&mut world, 6);
-        let touched = world.columns().nodes.touch_stiffness.iter().any(|row| row[0] > 0.0);
+        let touched = sorb::internal::columns(&world).nodes.touch_stiffness.iter().any(|row| row[0] > 0.0);
         (world.digest(), touched)
     };
     let first = digest(1, SimdLevel::Fallback);

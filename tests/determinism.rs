@@ -4,8 +4,8 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{NOTHING_OBSERVED, busy};
-use sorb::{Options, SimdLevel, World, cpu::Cpu, scene::Scene};
+use common::busy;
+use sorb::{Cpu, Options, SimdLevel, World, internal::columns::Column, scene::Scene};
 
 /// More than one chunk of nodes and several chunks of particles: threads have something to disagree about.
 const RESOLUTION: f32 = 0.6;
@@ -114,7 +114,7 @@ fn a_pool_of_the_host_changes_nothing() {
     let cpu = Cpu::serial(SimdLevel::best()).unwrap_or_else(|error| panic!("{error}"));
     let cpu = cpu.with_pool(Arc::clone(&pool));
     assert_eq!(cpu.threads(), 3);
-    let world = World::on(&scene, cpu, NOTHING_OBSERVED).unwrap_or_else(|error| panic!("{error}"));
+    let world = World::on(&scene, cpu, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
     // From inside a job of the pool, as a host's task would.
     let mut other = world.clone();
     let inside = pool.install(|| {
@@ -130,8 +130,8 @@ fn frames_and_observed_columns_change_nothing_but_the_length_of_steps() {
     let scene = busy::scene("standing", 0.5);
     let mut plain = common::world(&scene);
     let cpu = plain.cpu().clone();
-    let all = sorb::columns::Column::ALL;
-    let mut observed = World::on(&scene, cpu, all).unwrap_or_else(|error| panic!("{error}"));
+    let all = Options { observed: Column::ALL.to_vec(), ..Options::default() };
+    let mut observed = World::on(&scene, cpu, &all).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..2 {
         common::frame(&mut plain);
         common::frame(&mut observed);

@@ -4,8 +4,7 @@ mod common;
 
 use common::busy;
 use sorb::{
-    Bound, Options, SimdLevel, StepError, World, WorldError,
-    cpu::CpuError,
+    Bound, CpuError, Options, SimdLevel, StepError, World, WorldError,
     glam::Vec3,
     scene::{Body, Scene, ShapeKind},
 };

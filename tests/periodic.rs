@@ -100,7 +100,7 @@ fn a_full_box_that_repeats_is_at_rest_density_everywhere() {
         // The solve for the pressure has no density.
         fluid(&mut scene).solver = FluidSolver::Wcsph;
         let world = common::world(&scene);
-        let density = &world.columns().fluid.density[..world.particle_ids().len()];
+        let density = &sorb::internal::columns(&world).fluid.density[..world.particle_ids().len()];
         density.iter().map(|density| f64::from((density / 1000.0 - 1.0).abs())).fold(0.0, f64::max)
     };
     // Particles are put up to a hundredth of a spacing beside their places: 1.1 %.

@@ -2,17 +2,21 @@
 
 mod common;
 
-use common::NOTHING_OBSERVED;
 use sorb::{
-    World,
-    columns::{Column, RowCounts},
-    cpu::Cpu,
-    kernel::Kernel,
-    need::{Contents, Need},
-    params::{Params, Solver, SpongeParams, WettingParams},
+    Cpu, World,
+    internal::{
+        self, POROUS_STEP, Phase, Runner, STEP,
+        columns::{Column, Columns, RowCounts},
+        kernel::Kernel,
+        need::{Contents, Need},
+        params::{Params, Solver, SpongeParams, WettingParams},
+    },
     scene::Scene,
-    schedule::{POROUS_STEP, Phase, Plan, PlanError, Runner, STEP, Verdict},
+    schedule::{Plan, PlanError, Verdict},
 };
+
+/// No column is observed beyond what phases read.
+const NOTHING_OBSERVED: &[Column] = &[];
 
 fn plan(name: &str) -> Plan {
     let scene = common::preset(name, 1.0);
@@ -122,7 +126,7 @@ fn surface_tension_runs_only_where_it_is_above_zero() {
 
 // Small steps of kernels that do nothing but declare.
 
-fn idle(_: &Cpu, _: &Params, _: &mut sorb::columns::Columns) {}
+fn idle(_: &Cpu, _: &Params, _: &mut Columns) {}
 
 static DENSITY: Kernel =
     Kernel::bare("test::density", &[Need::Fluid], &[Column::FluidPosition], &[Column::FluidDensity], idle);
@@ -151,7 +155,7 @@ static SATURATION: Kernel = Kernel::bare(
 /// Plans a small step for a scene.
 fn small_of(name: &str, step: &[Phase], observed: &[Column]) -> Result<Plan, PlanError> {
     let world = common::world(&common::preset(name, 0.5));
-    Plan::new(step, &Contents::new(world.params(), world.columns()), observed)
+    internal::plan(step, &Contents::new(internal::params(&world), internal::columns(&world)), observed)
 }
 
 fn small(step: &[Phase], observed: &[Column]) -> Plan {
@@ -199,7 +203,7 @@ const EVERYTHING: [&str; 4] = [
 fn the_step_itself_is_consistent_for_every_content() {
     const SOLVERS: [Solver; 3] = [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean];
     let world = common::world(&common::with(&common::preset("ball_drop", 0.5), &EVERYTHING));
-    let (all, rows) = (world.params(), world.columns().rows);
+    let (all, rows) = (internal::params(&world), internal::columns(&world).rows);
     for bits in 0..8192_u32 {
         let has = |bit: u32| bits >> bit & 1 == 1;
         let mut params = all.clone();
@@ -226,15 +230,15 @@ fn the_step_itself_is_consistent_for_every_content() {
         };
         let plain = Params { solid: None, ..params.clone() };
         let contents = Contents { params: &plain, rows, bodies: &[], touch: has(2) };
-        if let Err(error) = Plan::new(STEP, &contents, NOTHING_OBSERVED) {
+        if let Err(error) = internal::plan(STEP, &contents, NOTHING_OBSERVED) {
             panic!("{contents:?}: {error}");
         }
         // Sponges as porous media need their solver, and a solve for the pressure.
         params.sponges = vec![SpongeParams { solver: Solver::Vbd, ..all.sponges[0].clone() }];
         params.fluid.incompressible = params.fluid.incompressible.or(all.fluid.incompressible.clone());
-        let rows = RowCounts { nodes: world.columns().rows.nodes, ..rows };
+        let rows = RowCounts { nodes: internal::columns(&world).rows.nodes, ..rows };
         let contents = Contents { params: &params, rows, ..contents };
-        if let Err(error) = Plan::new(POROUS_STEP, &contents, NOTHING_OBSERVED) {
+        if let Err(error) = internal::plan(POROUS_STEP, &contents, NOTHING_OBSERVED) {
             panic!("{contents:?}: {error}");
         }
     }

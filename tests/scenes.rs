@@ -8,7 +8,7 @@ mod common;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use common::Claims;
-use sorb::{Measures, World, scene::Scene};
+use sorb::{Measures, World, internal, scene::Scene};
 
 const RESOLUTION: f32 = 0.5;
 
@@ -118,7 +118,7 @@ impl Run {
 impl Sample {
     fn of(world: &World) -> Self {
         let lowest = world.node_positions().iter().map(|row| f64::from(row[1])).fold(f64::INFINITY, f64::min);
-        let interior = &world.columns().fluid.interior;
+        let interior = &internal::columns(world).fluid.interior;
         let free = world.particle_positions().iter().zip(interior).filter(|(_, interior)| **interior < 0.5);
         let (mut sum, mut count) = (0.0, 0.0);
         for (row, _) in free {

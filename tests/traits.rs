@@ -1,8 +1,6 @@
 //! A world can be sent to another thread, shared and copied.
 
-use sorb::{
-    FrameReport, Measures, Options, StepError, StepReport, World, WorldError, cpu::Cpu, scene::Scene,
-};
+use sorb::{Cpu, FrameReport, Measures, Options, StepError, StepReport, World, WorldError, scene::Scene};
 
 const fn send_sync<T: Send + Sync + 'static>() {}
 const fn clone<T: Clone>() {}

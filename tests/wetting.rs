@@ -2,7 +2,7 @@
 
 mod common;
 
-use sorb::{Options, SimdLevel, World, scene::Scene};
+use sorb::{Options, SimdLevel, World, internal, scene::Scene};
 
 const KEYS: [&str; 5] = [
     "sponges[0].softening=0.5",
@@ -20,14 +20,14 @@ fn wetting() -> Scene {
 fn what_is_not_asked_for_has_no_state() {
     let mut plain = common::world(&common::preset("ball_drop", 0.5));
     common::steps(&mut plain, 2);
-    assert!(plain.columns().nodes.wetting.is_empty());
+    assert!(internal::columns(&plain).nodes.wetting.is_empty());
     let runs = |world: &World| {
         let line = world.plan().lines().iter().find(|line| line.name == "couple::wetting");
         line.is_some_and(|line| line.verdict == sorb::schedule::Verdict::Runs)
     };
     assert!(!runs(&plain));
     let asked = common::world(&wetting());
-    assert!(runs(&asked) && !asked.columns().nodes.wetting.is_empty());
+    assert!(runs(&asked) && !internal::columns(&asked).nodes.wetting.is_empty());
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn every_key_changes_what_happens() {
 fn a_copy_goes_on_with_the_same_bits_and_wetness_is_part_of_the_digest() {
     let mut world = common::world(&wetting());
     common::steps(&mut world, 60);
-    let wet = world.columns().nodes.wetting.iter().filter(|row| row[0] > 0.3).count();
+    let wet = internal::columns(&world).nodes.wetting.iter().filter(|row| row[0] > 0.3).count();
     assert!(wet > 10, "{wet} nodes are wet");
     let mut copy = world.clone();
     common::steps(&mut world, 20);

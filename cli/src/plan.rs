@@ -3,7 +3,6 @@
 use serde_json::{Value, json};
 use sorb::{
     Offload, Options, World,
-    columns::Column,
     schedule::{Place, Plan, PlanLine, Verdict},
 };
 
@@ -55,7 +54,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 fn line(plan: &Plan, line: &PlanLine) -> Value {
-    let names = |columns: &[Column]| columns.iter().map(|column| column.name()).collect::<Vec<_>>();
     let why = match line.verdict {
         Verdict::Runs => None,
         Verdict::Skipped(why) => Some(why),
@@ -67,8 +65,8 @@ fn line(plan: &Plan, line: &PlanLine) -> Value {
             Place::Gpu => "gpu",
         },
         "times": line.repeat.map_or(1, |(_, times)| times),
-        "reads": names(line.reads()),
-        "writes": names(line.writes()),
+        "reads": line.reads().collect::<Vec<_>>(),
+        "writes": line.writes().collect::<Vec<_>>(),
         "skipped": why.is_some(),
         "why": why,
     })

@@ -7,8 +7,8 @@ use sorb_kernels::gpu::{Answer, BOUNDS, Gpu, GpuError, Outcome, Start};
 use super::device::{Device, Kept};
 use crate::{
     Offload,
-    body::BodyKind,
     clock::{Bound, Dormant},
+    rigid::BodyKind,
     schedule::{Runner, run::slot},
     stores::Stores,
     world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies, sleep::Sleep},

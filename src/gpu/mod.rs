@@ -9,7 +9,7 @@ mod request;
 mod shares;
 
 pub(crate) use device::Device;
-pub use request::StateRequest;
+pub use request::{State, StateRequest};
 pub use sorb_kernels::gpu::{
     AdapterReport, Gpu, GpuError, adapters, required_features, required_limits, wgpu,
 };

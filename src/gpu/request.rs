@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use sorb_kernels::{
-    columns::{Columns, RowCounts},
-    gpu::{Gpu, GpuError, Pending, Resident},
+    body::Body,
+    columns::Columns,
+    gpu::{Gpu, GpuError, Pending, Resident, wgpu::Buffer},
 };
 
 use super::Device;
@@ -20,10 +21,16 @@ pub struct StateRequest {
 }
 
 impl World {
-    /// The columns on the GPU, for a renderer that draws from the same buffers; none for a world on the CPU, and before
-    /// the first step.
+    /// Buffers of the positions and velocities of the particles on the GPU, where the last step left them: rows of four floats as those
+    /// of [`Self::particle_positions`]. For a renderer on the same device, which must not write them. None for a world on the CPU, and
+    /// before the first step.
     #[must_use]
-    pub fn resident(&self) -> Option<&Resident> {
+    pub fn particle_buffers(&self) -> Option<(&Buffer, &Buffer)> {
+        self.resident().map(Resident::particle_buffers)
+    }
+
+    /// The columns on the device, if there are any yet.
+    pub(crate) fn resident(&self) -> Option<&Resident> {
         self.stores.device.as_ref().and_then(Device::resident)
     }
 
@@ -36,8 +43,7 @@ impl World {
     /// Asks for the present state, and does not wait for it: the world can take steps meanwhile, and the state is taken
     /// when it has arrived, for a picture say, a frame later. A world on the CPU has it at once.
     ///
-    /// The answer has the columns that measures and pictures look at (positions, velocities, identities, density,
-    /// interior, saturation), those that the options observe, and the bodies. Other columns are empty.
+    /// The answer has what a [`State`] has views of.
     ///
     /// # Errors
     /// The device was lost, or there is no memory to copy to.
@@ -69,21 +75,31 @@ impl StateRequest {
         &self.clock
     }
 
-    /// Rows of the state.
-    #[must_use]
-    pub fn rows(&self) -> RowCounts {
-        self.columns.rows
-    }
-
-    /// The columns; waits for them if they have not arrived.
+    /// The state; waits for it if it has not arrived.
     ///
     /// # Errors
     /// The device was lost.
-    pub fn take(self) -> Result<Columns, GpuError> {
+    pub fn take(self) -> Result<State, GpuError> {
         let Self { mut columns, pending, .. } = self;
         if let Some(pending) = pending {
             pending.take(&mut columns)?;
         }
-        Ok(columns)
+        Ok(State(columns))
+    }
+}
+
+/// The state of a world at some time, with the views of a [`World`] by row.
+#[derive(Clone, Debug)]
+pub struct State(Columns);
+
+impl State {
+    pub(crate) fn columns(&self) -> &Columns {
+        &self.0
+    }
+
+    /// Shapes, poses and velocities of the bodies, in the order of the scene.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.0.bodies.states.0
     }
 }

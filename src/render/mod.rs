@@ -32,7 +32,7 @@ pub use error::RenderError;
 pub use image::Image;
 pub use world::draw_world;
 
-use crate::body::{BodyState, Shape};
+use crate::rigid::{BodyState, Shape};
 use glam::Vec3;
 
 /// How the water is drawn.

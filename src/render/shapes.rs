@@ -1,7 +1,7 @@
 //! Rays against the bodies' shapes.
 
 use super::DrawnBody;
-use crate::body::Shape;
+use crate::rigid::Shape;
 use glam::{Mat3, Vec3};
 
 /// A body ready for rays.

@@ -1,7 +1,7 @@
 //! Pictures of a world.
 
 use super::{Camera, DrawnBody, Image, Picture, Style, draw};
-use crate::body::BodyKind;
+use crate::rigid::BodyKind;
 use crate::scene::{self, Domain};
 use crate::{World, glam::Vec3};
 
@@ -24,7 +24,7 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
     let picture = Picture {
         particles: world.particle_positions(),
         velocities: world.particle_velocities(),
-        particle_radius: 0.5 * world.params().fluid.spacing,
+        particle_radius: 0.5 * world.params.fluid.spacing,
         nodes: world.node_positions(),
         wetness: &wetness,
         triangles: &world.lattice().triangles,

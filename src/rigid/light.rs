@@ -15,11 +15,8 @@
 
 use glam::DVec3;
 
-use super::RigidEngine;
-use crate::{
-    body::{BodyKind, Wrench},
-    scene::Scene,
-};
+use super::{BodyKind, RigidEngine, Wrench};
+use crate::scene::Scene;
 
 /// Least inertia of a body that is touched, over that of what it displaces.
 const LEAST_INERTIA: f64 = 0.25;
@@ -100,7 +97,7 @@ mod tests {
         let scene = Scene::new("light").with_fluid(Fluid::default()).with_sponge(sponge).with_body(ball);
         let setup = BodySetup {
             name: "ball".to_owned(),
-            shape: crate::body::Shape::Sphere { radius: 0.05 },
+            shape: crate::rigid::Shape::Sphere { radius: 0.05 },
             kind: BodyKind::Dynamic,
             density,
             state: scene.bodies[0].start(),

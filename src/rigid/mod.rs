@@ -24,7 +24,8 @@ mod setup;
 mod tests;
 
 // The contracts shared with the kernels and the scene. The files of this folder take them from here.
-use crate::body::{BodyKind, BodyState, Shape, Wrench};
+pub use sorb_kernels::body::{Body, BodyKind, BodyState, Shape, Wrench};
+
 use crate::scene::Motion;
 
 pub use error::RigidError;

@@ -19,7 +19,7 @@
 //! # Ok::<(), sorb::scene::SceneError>(())
 //! ```
 
-use crate::body::{BodyKind, BodyState, Shape};
+use crate::rigid::{BodyKind, BodyState, Shape};
 
 mod bodies;
 mod body_rules;

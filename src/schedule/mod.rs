@@ -1,4 +1,4 @@
-//! What runs, in which order, for which scene.
+//! What runs in a step, and where: the plan of a world, where its phases are placed, and the time they take.
 
 mod awake;
 mod blocks;
@@ -6,10 +6,11 @@ pub(crate) mod offload;
 pub(crate) mod order;
 pub(crate) mod plan;
 pub(crate) mod run;
-mod step;
+pub(crate) mod step;
 
 pub(crate) use awake::{Awake, Plans};
 pub use offload::{Offload, OffloadError, Place, PlaceError, Placement, Transfer};
 pub use plan::{Plan, PlanError, PlanLine, Verdict};
-pub use run::{PhaseTime, Runner};
-pub use step::{Block, HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times};
+pub use run::PhaseTime;
+pub(crate) use run::Runner;
+pub(crate) use step::{POROUS_STEP, STEP};

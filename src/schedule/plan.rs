@@ -66,7 +66,11 @@ impl Plan {
     ///
     /// # Errors
     /// A phase reads a scratch column that no phase before it has written.
-    pub fn new(step: &[Phase], contents: &Contents<'_>, observed: &[Column]) -> Result<Self, PlanError> {
+    pub(crate) fn new(
+        step: &[Phase],
+        contents: &Contents<'_>,
+        observed: &[Column],
+    ) -> Result<Self, PlanError> {
         let mut plan = Self { lines: Vec::new(), placement: None };
         plan.collect(step, contents, None, &mut 0);
         plan.drop_dead(observed);
@@ -138,9 +142,9 @@ impl Plan {
             for _ in 0..if group[0].group().is_some() { 2 } else { 1 } {
                 for (line, runs) in group.iter().zip(&mut runs[first..]).rev() {
                     *runs = line.verdict == Verdict::Runs
-                        && line.writes().iter().any(|column| live.contains(column));
+                        && line.work.writes().iter().any(|column| live.contains(column));
                     if *runs {
-                        live.extend_from_slice(line.reads());
+                        live.extend_from_slice(line.work.reads());
                     }
                 }
             }
@@ -164,7 +168,7 @@ impl Plan {
                     return Err(PlanError { kernel: kernel.name, column: column.name() });
                 }
             }
-            written.extend_from_slice(line.writes());
+            written.extend_from_slice(line.work.writes());
         }
         Ok(())
     }
@@ -212,16 +216,14 @@ impl PlanLine {
         self.repeat.map(|(group, _)| group)
     }
 
-    /// Columns that the phase reads.
-    #[must_use]
-    pub fn reads(&self) -> &'static [Column] {
-        self.work.reads()
+    /// Names of the columns that the phase reads, `store.quantity`.
+    pub fn reads(&self) -> impl Iterator<Item = &'static str> {
+        self.work.reads().iter().map(|column| column.name())
     }
 
-    /// Columns that the phase writes.
-    #[must_use]
-    pub fn writes(&self) -> &'static [Column] {
-        self.work.writes()
+    /// Names of the columns that the phase writes.
+    pub fn writes(&self) -> impl Iterator<Item = &'static str> {
+        self.work.writes().iter().map(|column| column.name())
     }
 }
 
@@ -243,12 +245,9 @@ impl fmt::Display for Plan {
             };
             match line.verdict {
                 Verdict::Runs => {
-                    let names = |columns: &[Column]| {
-                        columns.iter().map(|column| column.name()).collect::<Vec<_>>().join(", ")
-                    };
                     writeln!(formatter, "{:5} {repeat}{}", self.verb(line), line.name)?;
-                    writeln!(formatter, "      reads  {}", names(line.reads()))?;
-                    writeln!(formatter, "      writes {}", names(line.writes()))?;
+                    writeln!(formatter, "      reads  {}", line.reads().collect::<Vec<_>>().join(", "))?;
+                    writeln!(formatter, "      writes {}", line.writes().collect::<Vec<_>>().join(", "))?;
                 }
                 Verdict::Skipped(reason) => writeln!(formatter, "skip  {repeat}{}: {reason}", line.name)?,
             }

@@ -224,7 +224,7 @@ fn sponges_recover_unless_they_are_tangled() {
 
 /// Pairs of particles that are nearer than a thousandth of the spacing.
 fn together(world: &World) -> usize {
-    let (rows, limit) = (world.particle_positions(), 1e-3 * world.params().fluid.spacing);
+    let (rows, limit) = (world.particle_positions(), 1e-3 * world.params.fluid.spacing);
     let near = |a: &[f32; 4], b: &[f32; 4]| (0..3).all(|axis| (a[axis] - b[axis]).abs() < limit);
     rows.iter().enumerate().map(|(row, a)| rows[..row].iter().filter(|b| near(a, b)).count()).sum()
 }

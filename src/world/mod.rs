@@ -46,7 +46,7 @@ pub struct Options {
     pub threads: Option<usize>,
     /// SIMD level; default: the best of the machine. Has no effect on results.
     pub simd: Option<SimdLevel>,
-    /// Columns to keep up to date although no phase reads them.
+    /// Columns to keep up to date although no phase reads them; [`internal`](crate::internal), without any promise.
     pub observed: Vec<Column>,
     /// What to run on a GPU; by default nothing.
     pub offload: Offload,
@@ -129,12 +129,13 @@ impl World {
         Self::build(scene, Cpu::with_threads(level, threads)?, options)
     }
 
-    /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool.
+    /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool. Threads and SIMD level are those
+    /// of the context, whatever the options say.
     ///
     /// # Errors
-    /// As [`Self::new`].
-    pub fn on(scene: &Scene, cpu: Cpu, observed: &[Column]) -> Result<Self, WorldError> {
-        Self::build(scene, cpu, &Options { observed: observed.to_vec(), ..Options::default() })
+    /// As [`Self::with_options`].
+    pub fn on(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {
+        Self::build(scene, cpu, options)
     }
 
     fn build(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {

@@ -4,7 +4,6 @@ use sorb_kernels::{
     body::Body,
     columns::{Columns, lane},
     cpu::Cpu,
-    params::Params,
     sph,
 };
 
@@ -18,6 +17,61 @@ use crate::{
     schedule::{PhaseTime, Plan},
     sponge::Lattice,
 };
+
+/// Views of a state, row by row.
+macro_rules! views {
+    ($State:ty) => {
+        impl $State {
+            /// Positions of the particles \[m\]: x, y, z, and a fourth number that is not for hosts. Rows change their order from step to
+            /// step; [`Self::particle_ids`] tells them apart.
+            #[must_use]
+            pub fn particle_positions(&self) -> &[[f32; 4]] {
+                let columns = self.columns();
+                &columns.fluid.position[..columns.rows.fluid]
+            }
+
+            /// Velocities of the particles \[m/s\]: x, y, z, and a fourth number that is not for hosts.
+            #[must_use]
+            pub fn particle_velocities(&self) -> &[[f32; 4]] {
+                let columns = self.columns();
+                &columns.fluid.velocity[..columns.rows.fluid]
+            }
+
+            /// Identities of the particles, 0 to their number: `ids[row]` is the same particle for ever.
+            #[must_use]
+            pub fn particle_ids(&self) -> &[u32] {
+                let columns = self.columns();
+                &columns.fluid.id[..columns.rows.fluid]
+            }
+
+            /// Positions of the sponge nodes \[m\], of all sponges: x, y, z, and the inverse mass \[1/kg\], 0 for nodes that a body holds.
+            /// Rows keep their order, that of the lattice.
+            #[must_use]
+            pub fn node_positions(&self) -> &[[f32; 4]] {
+                let columns = self.columns();
+                &columns.nodes.position[..columns.rows.nodes]
+            }
+
+            /// Velocities of the sponge nodes \[m/s\]: x, y, z, and a fourth number that is not for hosts.
+            #[must_use]
+            pub fn node_velocities(&self) -> &[[f32; 4]] {
+                let columns = self.columns();
+                &columns.nodes.velocity[..columns.rows.nodes]
+            }
+
+            /// Saturation of the sponge nodes \[1\], about 0 to 1; empty without fluid.
+            #[must_use]
+            pub fn node_saturations(&self) -> &[f32] {
+                let columns = self.columns();
+                let saturation = &columns.nodes.saturation;
+                &saturation[..saturation.len().min(columns.rows.nodes)]
+            }
+        }
+    };
+}
+views!(World);
+#[cfg(feature = "gpu")]
+views!(crate::gpu::State);
 
 impl World {
     /// The scene that the world was built from.
@@ -62,31 +116,9 @@ impl World {
         &self.clock
     }
 
-    /// Parameters of the last step.
-    #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.params
-    }
-
-    /// All columns, read only. Rows of the fluid change their order from step to step.
-    ///
-    /// On a GPU this reads back the state and what measures need (density, interior, saturation), once after every step
-    /// or frame that is looked at; other scratch columns are not kept.
-    #[must_use]
-    pub fn columns(&self) -> &Columns {
+    /// All columns, read only.
+    pub(crate) fn columns(&self) -> &Columns {
         self.stores.view()
-    }
-
-    /// Positions of the particles \[m\], in the order of their cells; w: pressure over squared density.
-    #[must_use]
-    pub fn particle_positions(&self) -> &[[f32; 4]] {
-        &self.columns().fluid.position[..self.stores.host.rows.fluid]
-    }
-
-    /// Velocities of the particles \[m/s\]; w: volume \[m^3\].
-    #[must_use]
-    pub fn particle_velocities(&self) -> &[[f32; 4]] {
-        &self.columns().fluid.velocity[..self.stores.host.rows.fluid]
     }
 
     /// Pressures of the particles as the last step found them \[Pa\], in the order of the positions; zero at time zero.
@@ -124,29 +156,33 @@ impl World {
         .collect()
     }
 
-    /// Identities of the particles: `ids[row]` is the same particle for ever.
+    /// Densities of the particles by the smoothing function \[kg/m^3\], in the order of the positions. Near walls, bodies and the surface
+    /// they lack what is not water. They are summed up anew at every call: a step of `dfsph` needs none.
     #[must_use]
-    pub fn particle_ids(&self) -> &[u32] {
-        &self.columns().fluid.id[..self.stores.host.rows.fluid]
+    pub fn particle_densities(&self) -> Vec<f32> {
+        let summed = self.summed_density();
+        let count = summed.rows.fluid;
+        let mut by_id = vec![0.0; count];
+        for (id, density) in summed.fluid.id.iter().zip(&summed.fluid.density).take(count) {
+            if let Some(own) = by_id.get_mut(*id as usize) {
+                *own = *density;
+            }
+        }
+        self.particle_ids().iter().map(|id| by_id.get(*id as usize).copied().unwrap_or(0.0)).collect()
     }
 
-    /// Positions of the sponge nodes \[m\], of all sponges; w: inverse mass \[1/kg\].
+    /// Mass of every particle \[kg\]; 0 without fluid.
     #[must_use]
-    pub fn node_positions(&self) -> &[[f32; 4]] {
-        &self.columns().nodes.position[..self.stores.host.rows.nodes]
+    pub fn particle_mass(&self) -> f32 {
+        self.params.fluid.particle_mass
     }
 
-    /// Velocities of the sponge nodes \[m/s\].
+    /// Masses of the dry nodes \[kg\], in the order of the positions, of nodes that a body holds as well.
     #[must_use]
-    pub fn node_velocities(&self) -> &[[f32; 4]] {
-        &self.columns().nodes.velocity[..self.stores.host.rows.nodes]
-    }
-
-    /// Saturation of the sponge nodes \[1\], about 0 to 1; empty without fluid.
-    #[must_use]
-    pub fn node_saturations(&self) -> &[f32] {
-        let saturation = &self.columns().nodes.saturation;
-        &saturation[..saturation.len().min(self.stores.host.rows.nodes)]
+    pub fn node_masses(&self) -> Vec<f32> {
+        let Lattice { node_volume, node_sponge, .. } = &self.lattice;
+        let density = |sponge: u32| self.scene.sponges[sponge as usize].density;
+        node_volume.iter().zip(node_sponge).map(|(volume, sponge)| volume * density(*sponge)).collect()
     }
 
     /// The lattice: tets, outer surface, which node belongs to which sponge.
@@ -155,7 +191,7 @@ impl World {
         &self.lattice
     }
 
-    /// Shapes and poses of the bodies, in the order of the scene.
+    /// Shapes, poses and velocities of the bodies, in the order of the scene.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.stores.host.bodies.states.0

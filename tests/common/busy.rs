@@ -4,8 +4,8 @@
 #![allow(dead_code, reason = "benches and tests use a part of it each")]
 
 use sorb::{
-    body::BodyKind,
     glam::Vec3,
+    rigid::BodyKind,
     scene::{self, FluidSolver, Motion, Scene, Solver},
 };
 

@@ -8,8 +8,8 @@ use std::fmt::Display;
 
 use sorb::{
     Options, World,
-    columns::Column,
     glam::{DVec3, Vec3},
+    internal,
     scene::{self, Domain, Scene},
 };
 
@@ -138,7 +138,7 @@ pub(crate) fn unhealthy_in(world: &World, domain: Domain, particles: usize) -> O
 
 /// Impulse on any body in the last step.
 pub(crate) fn bodies_are_pushed(world: &World) -> bool {
-    let bodies = &world.columns().bodies;
+    let bodies = &internal::columns(world).bodies;
     let count = world.bodies().len();
     let pushed = |body| {
         [&bodies.fluid_wrenches, &bodies.node_wrenches]
@@ -151,7 +151,7 @@ pub(crate) fn bodies_are_pushed(world: &World) -> bool {
 /// Whether any particle is inside a sponge.
 pub(crate) fn water_is_inside(world: &World) -> bool {
     let count = world.particle_ids().len();
-    world.columns().fluid.interior.iter().take(count).any(|interior| *interior > 0.5)
+    internal::columns(world).fluid.interior.iter().take(count).any(|interior| *interior > 0.5)
 }
 
 /// Claims about a run: all are checked, then those that do not hold are reported together.
@@ -173,6 +173,3 @@ impl Claims {
         assert!(self.broken.is_empty(), "does not hold:\n  {}", self.broken.join("\n  "));
     }
 }
-
-/// No column is observed beyond what phases read.
-pub(crate) const NOTHING_OBSERVED: &[Column] = &[];

@@ -1,8 +1,9 @@
 //! Which kernels run where, and what the plan says of it.
 
 use sorb::{
-    KERNELS, Offload, Options, World,
+    Offload, Options, World,
     glam::{UVec3, Vec3},
+    internal::KERNELS,
     scene::{Scene, Solver, Sponge},
     schedule::{Place, Verdict},
 };

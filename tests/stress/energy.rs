@@ -1,8 +1,8 @@
 //! What energy a scene has, and how much was put into it.
 
 use sorb::{
-    World,
-    body::{BodyKind, BodyState},
+    World, internal,
+    rigid::{BodyKind, BodyState},
 };
 
 /// Energy that was there or came in from outside \[J\].
@@ -28,7 +28,7 @@ impl Budget {
 
     /// Adds the work of the step that was just taken: impulses on a body act at its velocity before.
     pub(crate) fn add_step(&mut self, world: &World) {
-        let (bodies, count) = (&world.columns().bodies, world.bodies().len());
+        let (bodies, count) = (&internal::columns(world).bodies, world.bodies().len());
         for (body, state) in self.states.iter().enumerate() {
             if world.rigid_engine().kind(body) != BodyKind::Kinematic {
                 continue;

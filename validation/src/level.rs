@@ -13,7 +13,7 @@ fn kernel(q: f64) -> f64 {
 /// up to a plane has its surface in that plane, half a spacing above its last layer. Points with no water below give
 /// nothing. Points nearer than two spacings to a wall or body see the lack of particles there.
 pub(crate) fn heights(world: &World, points: &[(f64, f64)]) -> Vec<f64> {
-    let spacing = f64::from(world.params().fluid.spacing);
+    let spacing = world.scene().fluid.as_ref().map_or(1.0, |fluid| f64::from(fluid.spacing));
     let radius = 2.0 * spacing;
     let volume = spacing.powi(3) / radius.powi(3);
     // The sum over a lattice, which the kernel does not bring to 1 exactly.

@@ -123,7 +123,7 @@ fn outcome(setting: &Setting, rate: f64) -> Result<Outcome, Failure> {
 }
 
 fn support_radius(world: &World) -> f64 {
-    f64::from(world.params().fluid.smoothing.support_radius)
+    world.scene().fluid.as_ref().map_or(0.0, |fluid| f64::from(fluid.support_radius()))
 }
 
 /// Mean of a quantity over a window of time around a moment.

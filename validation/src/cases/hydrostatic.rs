@@ -68,7 +68,8 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
 ///
 /// What the second lacks of the first is noise between neighbours.
 fn pressure_errors(world: &World, spacing: f64) -> (f64, f64) {
-    let weight = f64::from(world.params().fluid.rest_density) * GRAVITY;
+    let rest_density = world.scene().fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
+    let weight = f64::from(rest_density) * GRAVITY;
     let mut layers: Vec<Vec<f64>> = Vec::new();
     for (row, pressure) in world.particle_positions().iter().zip(world.particle_pressures()) {
         let height = f64::from(row[1]);

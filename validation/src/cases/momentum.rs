@@ -48,7 +48,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 }
 
 fn water_momentum(world: &World) -> DVec3 {
-    let mass = f64::from(world.params().fluid.particle_mass);
+    let mass = f64::from(world.particle_mass());
     let velocity = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]).as_dvec3();
     world.particle_velocities().iter().map(velocity).sum::<DVec3>() * mass
 }

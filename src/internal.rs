@@ -1,0 +1,56 @@
+//! What worlds are made of: columns, parameters, kernels and the step. **Without any promise**: all of it may change with any version,
+//! names included. For tests, benches and tools of this project.
+
+pub use sorb_kernels::{KERNELS, column, columns, kernel, kernel_named, need, params};
+
+use sorb_kernels::{
+    columns::{Column, Columns},
+    need::Contents,
+    params::Params,
+};
+
+pub use crate::schedule::{
+    run::Runner,
+    step::{Block, HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times},
+};
+use crate::{
+    World,
+    schedule::{Plan, PlanError},
+};
+
+/// All columns of a world. Rows of the fluid change their order from step to step.
+///
+/// On a GPU this reads back the state and what measures need (density, interior, saturation), once after every step or frame that is
+/// looked at; other scratch columns are not kept.
+#[must_use]
+pub fn columns(world: &World) -> &Columns {
+    world.columns()
+}
+
+/// Parameters of the last step of a world.
+#[must_use]
+pub fn params(world: &World) -> &Params {
+    &world.params
+}
+
+/// Plans a step for a scene. `observed` columns are kept up to date although no phase reads them.
+///
+/// # Errors
+/// A phase reads a scratch column that no phase before it has written.
+pub fn plan(step: &[Phase], contents: &Contents<'_>, observed: &[Column]) -> Result<Plan, PlanError> {
+    Plan::new(step, contents, observed)
+}
+
+/// The columns of a state that was asked for. Those that nobody looks at are empty.
+#[cfg(feature = "gpu")]
+#[must_use]
+pub fn state_columns(state: &crate::gpu::State) -> &Columns {
+    state.columns()
+}
+
+/// The columns of a world on its device; none for a world on the CPU, and before the first step.
+#[cfg(feature = "gpu")]
+#[must_use]
+pub fn resident(world: &World) -> Option<&sorb_kernels::gpu::Resident> {
+    world.resident()
+}
