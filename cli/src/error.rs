@@ -48,7 +48,6 @@ pub(crate) enum CliError {
         folder: PathBuf,
     },
     /// The GPU failed; everything up to there has been written.
-    #[cfg(feature = "gpu")]
     #[error("{error}\nwhat was done until then is in {}", folder.display())]
     Gpu {
         /// What went wrong.

@@ -126,7 +126,6 @@ fn finish(
     }
     match failure {
         None => Ok(()),
-        #[cfg(feature = "gpu")]
         Some(error @ StepError::Gpu(_)) => Err(CliError::Gpu { error, folder: folder.path().to_owned() }),
         Some(error) => Err(CliError::Diverged { error, folder: folder.path().to_owned() }),
     }
