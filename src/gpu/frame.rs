@@ -157,7 +157,7 @@ impl World {
     /// to leave a device that works.
     ///
     /// A device that works is read back, and nothing is lost. Of one that was lost, the newest state that the host has
-    /// looked at ([`Self::columns`], [`Self::measures`] and all else that reads the state) becomes the present one, with
+    /// looked at (by a view of rows, [`Self::digest`] and all else that reads the state) becomes the present one, with
     /// its clock and its bodies; if it never looked, that is the beginning. The error of the loss is forgotten.
     ///
     /// The kernels that the options placed on a GPU are placed there again; all of them if they placed none.
