@@ -1,11 +1,11 @@
 //! What worlds are made of: columns, parameters, kernels and the step. **Without any promise**: all of it may change with any version,
 //! names included. For tests, benches and tools of this project.
 
-pub use sorb_kernels::{KERNELS, column, columns, kernel, kernel_named, need, params};
+pub use sorb_kernels::{KERNELS, column, columns, contents, kernel, kernel_named, need, params};
 
 use sorb_kernels::{
     columns::{Column, Columns},
-    need::Contents,
+    contents::Contents,
     params::Params,
 };
 

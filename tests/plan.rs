@@ -7,8 +7,9 @@ use sorb::{
     internal::{
         self, POROUS_STEP, Phase, Runner, STEP,
         columns::{Column, Columns, RowCounts},
+        contents::Contents,
         kernel::Kernel,
-        need::{Contents, Need},
+        need::Need,
         params::{Params, Solver, SpongeParams, WettingParams},
     },
     scene::Scene,

@@ -8,6 +8,7 @@ pub mod asleep;
 pub mod body;
 pub mod column;
 pub mod columns;
+pub mod contents;
 pub mod cpu;
 #[cfg(feature = "gpu")]
 pub mod gpu;

@@ -1,6 +1,6 @@
 //! What steps go on with while parts of a scene are asleep.
 
-use sorb_kernels::{columns::Column, need::Contents};
+use sorb_kernels::{columns::Column, contents::Contents};
 
 use super::{
     plan::{Plan, PlanError},

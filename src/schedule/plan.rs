@@ -2,12 +2,7 @@
 
 use std::fmt;
 
-use sorb_kernels::{
-    column::Life,
-    columns::Column,
-    kernel::Kernel,
-    need::{Contents, Need},
-};
+use sorb_kernels::{column::Life, columns::Column, contents::Contents, kernel::Kernel, need::Need};
 
 use super::{
     offload::{Place, Placement},

@@ -1,12 +1,6 @@
 //! The whole step, in the order of the paper's Figure 2: blocks in two orders.
 
-use sorb_kernels::{
-    columns::Column,
-    couple,
-    kernel::Kernel,
-    need::{Contents, Need},
-    sph,
-};
+use sorb_kernels::{columns::Column, contents::Contents, couple, kernel::Kernel, need::Need, sph};
 
 /// One line of the step.
 #[derive(Debug)]

@@ -19,8 +19,8 @@ use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
     columns::{Column, Columns},
+    contents::Contents,
     cpu::Cpu,
-    need::Contents,
     params::Params,
 };
 

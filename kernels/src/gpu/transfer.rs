@@ -9,9 +9,9 @@ use crate::{
     body::Wrench,
     column::{Plain, PlainMut, padded},
     columns::{Column, Columns, RowCounts},
+    contents::Contents,
     cpu::CHUNK,
     grid::neighbors::Neighbors,
-    need::Need,
     params::Params,
     reduce::{Extreme, Extremes, Wrenches},
 };
@@ -80,16 +80,8 @@ fn is_beside_stars(column: Column) -> bool {
 
 /// Whether a scene has rows of a column.
 fn is_there(params: &Params, rows: RowCounts, column: Column) -> bool {
-    match column.need() {
-        Some(Need::Fluid) => rows.fluid > 0,
-        Some(Need::Sponge) => rows.nodes > 0,
-        Some(Need::Incompressible) => params.fluid.incompressible.is_some(),
-        Some(Need::Cohesion) => params.fluid.cohesion.is_some(),
-        Some(Need::ImplicitViscosity) => params.fluid.implicit_viscosity.is_some(),
-        Some(Need::Touch) => params.has_touch(),
-        Some(Need::Wetting) => params.has_wetting(),
-        _ => true,
-    }
+    let contents = Contents { params, rows, bodies: &[], touch: params.has_touch() };
+    column.need().is_none_or(|need| need.missing(&contents).is_none())
 }
 
 /// What weights of the coupling are functions of.

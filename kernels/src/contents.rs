@@ -1,0 +1,86 @@
+//! What a scene contains, and why a phase is skipped.
+
+use crate::{
+    body::Body,
+    columns::{Columns, RowCounts},
+    need::Need,
+    params::{Params, Solver, SpongeParams},
+};
+
+/// What a scene contains, as far as it is awake.
+#[derive(Clone, Copy, Debug)]
+pub struct Contents<'a> {
+    /// Parameters of the step.
+    pub params: &'a Params,
+    /// Rows of the stores; none of particles that are asleep, and none of nodes if all sponges are.
+    pub rows: RowCounts,
+    /// The rigid bodies.
+    pub bodies: &'a [Body],
+    /// Whether sponges that are awake can touch each other or themselves.
+    pub touch: bool,
+}
+
+impl<'a> Contents<'a> {
+    /// All of a scene, awake.
+    #[must_use]
+    pub fn new(params: &'a Params, columns: &'a Columns) -> Self {
+        Self { params, rows: columns.rows, bodies: &columns.bodies.states.0, touch: params.has_touch() }
+    }
+
+    /// The sponges; none if there are no nodes of them.
+    #[must_use]
+    pub fn sponges(&self) -> &'a [SpongeParams] {
+        if self.rows.nodes > 0 { &self.params.sponges } else { &[] }
+    }
+
+    /// Whether a solver has a sponge.
+    fn has_solver(&self, solver: Solver) -> bool {
+        self.sponges().iter().any(|sponge| sponge.solver == solver)
+    }
+}
+
+impl Need {
+    /// Why a phase with this need is skipped; none if the scene contains what is needed.
+    #[must_use]
+    pub fn missing(self, contents: &Contents<'_>) -> Option<&'static str> {
+        let (is_met, reason) = self.condition(contents);
+        (!is_met).then_some(reason)
+    }
+
+    /// Whether the scene contains what is needed, and what to say if it does not.
+    fn condition(self, contents: &Contents<'_>) -> (bool, &'static str) {
+        let Contents { params, rows, bodies, touch } = contents;
+        let fluid = &params.fluid;
+        match self {
+            Self::Fluid => (rows.fluid > 0, "no fluid"),
+            Self::Sponge => (rows.nodes > 0, "no sponge"),
+            Self::Solver(solver) => (
+                contents.has_solver(solver),
+                match solver {
+                    Solver::Sbd => "no sponge with solver sbd",
+                    Solver::Vbd => "no sponge with solver vbd",
+                    Solver::XpbdNeoHookean => "no sponge with solver xpbd_neo_hookean",
+                },
+            ),
+            Self::Projection => (
+                contents.has_solver(Solver::Sbd) || contents.has_solver(Solver::XpbdNeoHookean),
+                "no sponge with solver sbd or xpbd_neo_hookean",
+            ),
+            Self::Obstacles => (params.walls.is_some() || rows.bodies > 0, "no walls and no bodies"),
+            Self::Bodies => (rows.bodies > 0, "no bodies"),
+            Self::SurfaceTension => (fluid.surface_tension > 0.0, "no surface tension from the colour field"),
+            Self::Cohesion => (fluid.cohesion.is_some(), "no surface tension by cohesion"),
+            Self::NoSlip => {
+                let sticks = params.no_slip || bodies.iter().any(|body| body.no_slip);
+                (sticks && fluid.wall_viscosity > 0.0, "fluid slides along everything")
+            }
+            Self::ExplicitViscosity => (fluid.implicit_viscosity.is_none(), "viscosity is implicit"),
+            Self::ImplicitViscosity => (fluid.implicit_viscosity.is_some(), "viscosity is explicit"),
+            Self::EquationOfState => (fluid.incompressible.is_none(), "pressure is solved for"),
+            Self::Incompressible => (fluid.incompressible.is_some(), "pressure by an equation of state"),
+            Self::Porous => (params.solid.is_some(), "coupling of the paper"),
+            Self::Wetting => (params.has_wetting(), "no sponge depends on how wet it is"),
+            Self::Touch => (*touch, "no sponge can touch another or itself"),
+        }
+    }
+}
