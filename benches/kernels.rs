@@ -1,8 +1,8 @@
 //! Every kernel of the table, on the columns of a scene in which all of them have work.
 //!
 //! `ball_drop` with the ball on the sponge and with surface tension, at the paper's size and at 100 000 particles. With the
-//! feature `gpu` also their twins, on the best adapter of the machine: there a kernel is timed by the time stamps of the
-//! device, as a part of whole steps.
+//! feature `gpu` also the twins, on the best adapter of the machine. There a kernel is timed by time stamps of the device,
+//! within whole steps.
 
 #[path = "../tests/common/busy.rs"]
 mod busy;
@@ -29,7 +29,7 @@ use sorb::{
 
 /// (name, resolution): 7650 and about 100 000 particles.
 const SIZES: [(&str, f32); 2] = [("paper", 1.0), ("100k", 2.35)];
-/// Steps before the columns are taken: lists are filled and the ball touches.
+/// Steps before the columns are copied: lists are filled and the ball is in contact.
 const STEPS: u32 = 5;
 /// Calls after which the columns are restored: most kernels change what they read, such as positions.
 const CALLS: u64 = 16;
@@ -53,7 +53,7 @@ fn prepared(resolution: f32, solver: Solver) -> World {
         world
     };
     let world = run();
-    // What is timed must be what it claims to be: the same bits every time.
+    // The timed work must be the same every time, to the bit.
     assert_eq!(world.digest(), run().digest(), "two runs differ");
     world
 }
@@ -64,7 +64,7 @@ fn world_of(kernel: &Kernel) -> usize {
     usize::from(needs(params::Solver::Vbd)) + 2 * usize::from(needs(params::Solver::XpbdNeoHookean))
 }
 
-/// Time of some calls, each block of them on fresh columns.
+/// Time of some calls, in blocks with fresh columns each.
 fn time(kernel: &Kernel, cpu: &Cpu, params: &Params, prepared: &Columns, iterations: u64) -> Duration {
     let mut total = Duration::ZERO;
     let mut left = iterations;
@@ -104,7 +104,7 @@ fn kernels(criterion: &mut Criterion) {
     }
 }
 
-/// Twins, on an adapter that takes the time of kernels.
+/// Twins, on an adapter that can time kernels.
 #[cfg(feature = "gpu")]
 fn twins(criterion: &mut Criterion) {
     let Some(gpu) = on_gpu::adapter().filter(|gpu| gpu.has_timestamps()) else {
@@ -130,7 +130,7 @@ fn twins(criterion: &mut Criterion) {
 #[cfg(not(feature = "gpu"))]
 fn twins(_criterion: &mut Criterion) {}
 
-/// Time of as many calls of a kernel, from steps of the whole.
+/// Time of the calls of a kernel within whole steps.
 #[cfg(feature = "gpu")]
 fn time_on_gpu(name: &str, world: &mut World, iterations: u64) -> Duration {
     let so_far = |world: &World| {
@@ -142,7 +142,7 @@ fn time_on_gpu(name: &str, world: &mut World, iterations: u64) -> Duration {
         world.step().expect("a preset is stable");
     }
     let after = so_far(world);
-    // The search on a device sums up the density as well: that has no calls of its own.
+    // The search on a device also sums the density, which has no calls of its own.
     let calls = (after.0 - before.0).max(1) as f64;
     Duration::from_secs_f64(((after.1 - before.1) / calls * iterations as f64).max(1e-9))
 }

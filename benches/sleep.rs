@@ -1,7 +1,7 @@
-//! What a part of a scene costs asleep, over what it costs awake, while another part moves.
+//! Cost of a sleeping part of a scene, over its cost awake, while another part moves.
 //!
-//! Three worlds are stepped in turns: one in which the part sleeps, one in which it may not, and one without it. What is left of the time of
-//! a step without that of the third is the cost of the part. `cargo bench --bench sleep`, on a GPU
+//! Three worlds are stepped by turns: one in which the part sleeps, one in which it may not, and one without it. The cost of
+//! the part is the time of a step less that of the third. `cargo bench --bench sleep`, on a GPU
 //! `cargo bench --features gpu --bench sleep -- --gpu`.
 
 #![expect(clippy::print_stdout, reason = "the figures are what it is for")]
@@ -17,7 +17,7 @@ use sorb::{
 /// Steps that are timed.
 const STEPS: usize = 400;
 
-/// Everything stands on the floor, in two halves with a dam between them. What is on the right moves.
+/// Everything stands on the floor, in two halves with a dam between them. The right half moves.
 fn room(name: &str) -> Scene {
     let dam = ShapeKind::Cuboid { half_extents: Vec3::new(0.05, 0.3, 0.1) };
     let mut scene = Scene::new(name)
@@ -37,7 +37,7 @@ fn pool(low: f32, high: f32) -> Fluid {
     Fluid { spacing: 0.005, blocks: vec![FluidBlock::new(corners.0, corners.1)], ..Fluid::default() }
 }
 
-/// A sponge that is held at its foot and turned, for as long as the scene lasts.
+/// A sponge that is held at its foot and rotated for the whole scene.
 fn turned(scene: Scene) -> Scene {
     let foot = ShapeKind::Cuboid { half_extents: Vec3::new(0.1, 0.011, 0.1) };
     let turn = Motion::Turn { axis: Vec3::Y, pivot: Vec3::X * 0.3, rate: 2.0, start: 0.0, end: 1e5 };
@@ -45,7 +45,7 @@ fn turned(scene: Scene) -> Scene {
     scene.with_sponge(block("turned", 0.26, UVec3::new(8, 8, 8))).with_body(Body { grip: true, ..foot })
 }
 
-/// A body that pushes the water to and fro.
+/// A body that pushes the water back and forth.
 fn stirred(scene: Scene) -> Scene {
     let paddle = ShapeKind::Cuboid { half_extents: Vec3::new(0.005, 0.06, 0.06) };
     let turn =

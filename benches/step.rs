@@ -2,8 +2,8 @@
 //!
 //! With the feature `gpu` also on the best adapter of the machine: wall time, the host's part included.
 //!
-//! A sample always starts from the same state and takes the same number of steps, and its digest is compared with
-//! that of the other samples: what is timed is the same work every time.
+//! A sample always starts from the same state and takes the same number of steps. Its digest is compared with that of the
+//! other samples, so that the timed work is the same every time.
 
 #[path = "../tests/common/busy.rs"]
 mod busy;
@@ -54,7 +54,7 @@ fn bench(criterion: &mut Criterion, name: &str, size: &str, resolution: f32) {
     }
     let mut world: Option<World> = None;
     let digests: RefCell<BTreeMap<u64, u64>> = RefCell::default();
-    // The closure runs only if the bench is asked for.
+    // The closure runs only if the bench is selected.
     group.bench_function(BenchmarkId::from_parameter(size), |bencher| {
         let world = world.get_or_insert_with(|| {
             let (world, digest) = prepared(&scene);
@@ -80,7 +80,7 @@ fn scenes(criterion: &mut Criterion) {
     }
 }
 
-/// The same steps on a device: a sample takes its steps in one go, as a frame does.
+/// The same steps on a device: a sample takes its steps at once, as a frame does.
 #[cfg(feature = "gpu")]
 fn scenes_on_gpu(criterion: &mut Criterion) {
     let Some(gpu) = on_gpu::adapter() else { return };

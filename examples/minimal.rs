@@ -1,4 +1,4 @@
-//! A sponge drinks: build a scene in code, step it, look at it.
+//! A sponge absorbs water: build a scene in code, step it, read its state.
 
 use sorb::{
     World,

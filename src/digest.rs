@@ -8,7 +8,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use crate::clock::{Clock, Dormant};
 
-/// Digest of all state columns, in their order, of the clock, and of what is asleep.
+/// Digest of all state columns in their order, the clock, and the sleeping parts.
 pub(crate) fn digest(columns: &Columns, clock: &Clock, dormant: &Dormant) -> u64 {
     let mut hasher = Xxh3::new();
     hasher.update(&clock.time.to_bits().to_le_bytes());
@@ -20,7 +20,7 @@ pub(crate) fn digest(columns: &Columns, clock: &Clock, dormant: &Dormant) -> u64
         columns.data(*column).visit_words(rows, &mut |word| buffer.extend_from_slice(&word.to_le_bytes()));
         hasher.update(&buffer);
     }
-    // A world that is awake is what it would be if it could not sleep.
+    // Without sleeping parts the digest is that of a world that cannot sleep.
     if *dormant != Dormant::default() {
         hasher.update(&[u8::from(dormant.fluid)]);
         for numbers in [&dormant.sponges, &dormant.bodies] {

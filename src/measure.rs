@@ -1,4 +1,4 @@
-//! Measures of a state: what conservation, validation and tables need, in f64.
+//! Measures of a state in f64, for conservation, validation and tables.
 
 use glam::DVec3;
 use sorb_kernels::{
@@ -21,12 +21,12 @@ pub struct Measures {
     pub water_mass: f64,
     /// Mass of the water inside sponges \[kg\].
     pub absorbed_mass: f64,
-    /// Pore volume filled with water over pore volume at rest \[1\]: the mean over the nodes; as porous media the mass of the water
-    /// inside over what fits in. A sponge that swells has more room for it.
+    /// Water-filled pore volume over pore volume at rest \[1\]: the mean over the nodes. With porous media the mass of the
+    /// water inside over that which full pores hold. A swollen sponge has more pore volume.
     pub saturation: f64,
-    /// Height of the highest node that is more than half saturated above the lowest node \[m\].
+    /// Height of the highest node that is more than half saturated, above the lowest node \[m\].
     pub wicking_height: f64,
-    /// Volume of all sponges \[m^3\], pores included; that of a block at rest is the volume of its box.
+    /// Volume of all sponges \[m^3\], pores included. A block at rest has the volume of its box.
     pub sponge_volume: f64,
     /// Centre of mass of the dry sponges \[m\].
     pub sponge_centre: DVec3,
@@ -36,16 +36,16 @@ pub struct Measures {
     pub angular_momentum: DVec3,
     /// Kinetic energy \[J\].
     pub kinetic_energy: f64,
-    /// Energy of height in the field of gravity, zero at the origin \[J\].
+    /// Potential energy in the gravity field, zero at the origin \[J\].
     pub potential_energy: f64,
-    /// Energy of the strained sponges \[J\].
+    /// Elastic energy of the sponges \[J\].
     pub elastic_energy: f64,
     /// Largest speed of particles and nodes \[m/s\].
     pub maximum_speed: f64,
-    /// Mean of `max(rho / rho_0 - 1, 0)` over the particles \[1\]; with the share of walls and bodies where the solver of
-    /// the fluid has one.
+    /// Mean of `max(rho / rho_0 - 1, 0)` over the particles \[1\]. With the boundary volume fraction where the solver of the
+    /// fluid has one.
     pub mean_density_error: f64,
-    /// Largest `rho / rho_0 - 1`, not below zero \[1\].
+    /// Largest `rho / rho_0 - 1`, at least zero \[1\].
     pub maximum_density_error: f64,
 }
 
@@ -140,7 +140,7 @@ impl Measures {
         self.add_tets(world);
     }
 
-    /// Volume and strain energy of the tets.
+    /// Volume and elastic energy of the tets.
     fn add_tets(&mut self, world: &World) {
         let (nodes, lattice) = (world.node_positions(), world.lattice());
         let weights = lattice.tet_weight.iter().map(|weight| f64::from(*weight));
@@ -153,14 +153,14 @@ impl Measures {
             let ratio = d.dot(e.cross(f));
             let rest = edge.powi(3) / 12.0;
             self.sponge_volume += weight * rest * ratio;
-            // The constraints of strain based dynamics know the tets alone.
+            // The constraints of strain based dynamics use no tet weights.
             let strained = if sponge.solver == Solver::Sbd { 1.0 } else { weight };
             self.elastic_energy += strained * rest * stiffness * energy_density(sponge, [d, e, f], ratio);
         }
     }
 }
 
-/// Volume of a tet over that at rest below which the logarithm in the energy of `vbd` goes on as a polynomial.
+/// Volume ratio below which the logarithm in the energy of `vbd` continues as a polynomial.
 const SOLID: f64 = 0.2;
 
 /// Energy of a tet over its volume at rest \[Pa\], as the solver of its sponge defines it; zero at rest.

@@ -29,7 +29,7 @@ use crate::{
 /// Tets of a chunk that one thread solves at a time.
 const TETS_PER_CHUNK: usize = 256;
 
-/// Everything that a world is made of at time zero.
+/// All parts of a world at time zero.
 pub(crate) struct Setup {
     pub(crate) params: Params,
     pub(crate) columns: Columns,
@@ -122,11 +122,11 @@ fn mask(shape: scene::SpongeShape) -> Box<dyn Fn(Vec3) -> bool> {
     }
 }
 
-/// How deep in a body a node may begin, over the edge of a cell: contact, and rounding.
+/// Depth in a body at which a node may begin, over the edge of a cell: contact, and rounding.
 const TOUCH: f32 = 1.0e-3;
 
-/// The sponges, less what bodies take up: material that begins inside a body would be flung out of it. Bodies that grip hold the nodes that
-/// they contain.
+/// The sponges, without cells that begin inside a body: these would be thrown out of it. Grips hold the nodes that they
+/// contain instead.
 fn lattice(scene: &Scene, bodies: &[Body]) -> Result<Lattice, WorldError> {
     let masks: Vec<_> = scene.sponges.iter().map(|sponge| mask(sponge.shape)).collect();
     let rooms: Vec<_> = scene
@@ -214,8 +214,8 @@ fn fill_nodes(scene: &Scene, params: &Params, lattice: &Lattice, columns: &mut C
     debug_assert_eq!(params.sponges.len(), scene.sponges.len());
 }
 
-/// Whether nodes suck: 1 or 0. Those of the surface do not, so that no coat of water forms around the sponge; as porous
-/// media only those of the outermost layer, which have at most half as many tets as a node inside.
+/// Suction flags of the nodes: 1 or 0. Nodes of the surface have none, so that no layer of water forms around the sponge.
+/// With porous media these are only the nodes of the outermost layer, with at most half as many tets as an inner node.
 fn suction(params: &Params, lattice: &Lattice) -> Vec<f32> {
     let sucks = |node: usize| {
         if params.solid.is_none() {

@@ -4,11 +4,11 @@ use sorb_kernels::columns::Columns;
 
 use crate::gpu::Device;
 
-/// Columns on the host, and what keeps them on a device.
+/// Columns on the host, and their copies on a device.
 #[derive(Debug)]
 pub(crate) struct Stores {
-    /// What the host works with: all of the state where the step runs on the CPU; where it runs on a device, what never
-    /// changes, the bodies, and the rest as it was read back last.
+    /// Columns on the host: the whole state where the step runs on the CPU. Where it runs on a device, constants, the
+    /// bodies, and the rest as it was read back last.
     pub(crate) host: Columns,
     pub(crate) device: Option<Device>,
 }
@@ -21,7 +21,7 @@ impl Stores {
 }
 
 impl Clone for Stores {
-    /// The copy holds the state on the host, and uploads it when it steps: it outlives the device of the original.
+    /// The copy holds the state on the host, and uploads it when it steps: it survives the device of the original.
     fn clone(&self) -> Self {
         Self { host: self.view().clone(), device: self.device.as_ref().map(Device::another) }
     }

@@ -1,4 +1,4 @@
-//! Momentum, mass and energy of scenes that nothing from outside acts on.
+//! Momentum, mass and energy of scenes without external forces.
 
 mod common;
 
@@ -11,13 +11,13 @@ use sorb::{
 
 const SOLVERS: [FluidSolver; 3] = [FluidSolver::Wcsph, FluidSolver::Dfsph, FluidSolver::Pbf];
 
-/// Steps over which balances are drawn.
+/// Steps of a balance.
 const STEPS: u32 = 300;
-/// Time over which that of the angular momentum is drawn \[s\]: what it loses to viscosity, which does not act along the line
-/// between particles, is in proportion to time and not to steps.
+/// Time of the balance of angular momentum \[s\]. The viscosity that does not act along the line between particles loses it
+/// in proportion to time, not to steps.
 const SECONDS: f64 = 0.115;
 
-/// A wet sponge drifts through free space; a block of water strikes it off its centre, and turns it.
+/// A wet sponge drifts through free space; a block of water hits it off centre and rotates it.
 fn free(solver: FluidSolver) -> Scene {
     let mut scene = Scene::new("free");
     scene.gravity = Vec3::ZERO;
@@ -36,7 +36,7 @@ fn free(solver: FluidSolver) -> Scene {
     })
 }
 
-/// The same, struck by a heavy ball from below as well.
+/// The same, with a heavy ball that hits it from below.
 fn with_ball(solver: FluidSolver) -> Scene {
     let ball = Body {
         linear_velocity: Vec3::new(0.0, 0.6, 0.0),
@@ -46,7 +46,7 @@ fn with_ball(solver: FluidSolver) -> Scene {
     free(solver).with_body(ball)
 }
 
-/// Sum of the absolute momenta of all parts: what a loss is compared with.
+/// Sum of the absolute momenta of all parts: the scale of a loss.
 fn scale(world: &World) -> f64 {
     let speed = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]).as_dvec3().length();
     let mass = f64::from(world.particle_mass());
@@ -79,7 +79,7 @@ struct Balance {
 /// Runs and records the extremes; `None` if the run fails.
 fn balance(scene: &Scene) -> Option<(World, Balance)> {
     let mut world = common::world(scene);
-    // The first step fixes what the forces of the state are.
+    // The first step sets the forces of the state.
     world.step().ok()?;
     let (first, scale) = (world.measures(), scale(&world));
     let energy = |measures: &Measures| measures.kinetic_energy + measures.elastic_energy;
@@ -105,9 +105,9 @@ fn of(scene: &Scene) -> (World, Balance) {
     balance(scene).unwrap_or_else(|| panic!("{} must run", scene.name))
 }
 
-/// Momentum of the coupling pairs is exact up to rounding, and what is left is the rounding of positions in f32: a node
-/// at 5 cm is stored to 4e-9 m, and its velocity is a difference of positions over the step, hence known to 2e-5 m/s.
-/// Measured over 300 steps: at most 1.5e-6 of the scale where there is water, 6.6e-6 for a ball and a dry sponge.
+/// Momentum of the coupling pairs is exact up to rounding. The remainder is rounding of positions in f32: a node at 5 cm is
+/// stored to 4e-9 m, and its velocity, a difference of positions over the step, is known to 2e-5 m/s. Measured over 300
+/// steps: at most 1.5e-6 of the scale with water, 6.6e-6 for a ball and a dry sponge.
 const LINEAR: f64 = 5e-5;
 
 fn momentum_and_mass(scene: &Scene, claims: &mut Claims) -> Balance {
@@ -145,7 +145,7 @@ fn with_a_dynamic_ball_momentum_is_kept_too() {
     }
 }
 
-/// A ball that is slowed by a dry sponge: what few sweeps leave of its momentum must not be lost between them.
+/// A ball that a dry sponge slows down: the momentum that few sweeps leave must not be lost between them.
 #[test]
 fn a_dry_sponge_takes_what_a_ball_gives() {
     let mut scene = with_ball(FluidSolver::Dfsph);

@@ -1,5 +1,5 @@
-//! Sponges on sponges: they rest on each other, keep their momentum, and go neither through each other nor through
-//! themselves.
+//! Contact between sponges: they rest on each other, conserve their momentum, and pass neither through each other nor
+//! through themselves.
 
 mod common;
 
@@ -20,7 +20,7 @@ fn place(row: &[f32; 4]) -> DVec3 {
     Vec3::new(row[0], row[1], row[2]).as_dvec3()
 }
 
-/// Mean place of the nodes of every sponge, by volume \[m\].
+/// Mean position of the nodes of every sponge, by volume \[m\].
 fn centres(world: &World) -> Vec<DVec3> {
     let lattice = world.lattice();
     let mut sums = vec![(DVec3::ZERO, 0.0); lattice.sponges.len()];
@@ -33,8 +33,8 @@ fn centres(world: &World) -> Vec<DVec3> {
     sums.into_iter().map(|(sum, all)| sum / all).collect()
 }
 
-/// How deep the deepest node of a sponge lies inside another, or inside a part of its own, in edges: its distance from the
-/// nearest corner of the surface there, less half an edge, by which nodes on a surface are apart.
+/// Depth of the deepest node of a sponge inside another, or inside a part of its own, in edges: its distance from the
+/// nearest corner of the surface there, less half an edge, the distance of nodes on a surface.
 fn deepest(world: &World) -> f64 {
     let (lattice, nodes) = (world.lattice(), world.node_positions());
     let at = |node: u32| place(&nodes[node as usize]);
@@ -64,7 +64,7 @@ fn deepest(world: &World) -> f64 {
     deepest
 }
 
-/// One cube over another, a little aside.
+/// One cube over another, slightly shifted.
 fn pair(gap: f32) -> Scene {
     Scene::new("pair")
         .in_box(Vec3::new(-0.1, 0.0, -0.1), Vec3::new(0.1, 0.25, 0.1))
@@ -75,7 +75,7 @@ fn pair(gap: f32) -> Scene {
 #[test]
 fn a_cube_that_falls_on_another_comes_to_rest_on_it() {
     let mut claims = Claims::default();
-    // Sweeps, how far the upper one may slide, and what may move at last.
+    // Sweeps, largest slide of the upper cube, and largest final speed.
     for (iterations, slide, slowest) in [(2, 0.008, 0.03), (4, 0.004, 5e-3)] {
         let mut scene = pair(0.03);
         scene.sponges.iter_mut().for_each(|sponge| sponge.iterations = iterations);
@@ -91,7 +91,7 @@ fn a_cube_that_falls_on_another_comes_to_rest_on_it() {
         let (apart, speed) = (centres[1] - centres[0], world.measures().maximum_speed);
         let text =
             format!("{iterations} sweeps: apart {apart:?}, deepest {worst:.3} edges, at last {speed} m/s");
-        // A thirtieth of an edge less than a cube is high.
+        // A thirtieth of an edge less than the height of a cube.
         claims.claim((0.0580..0.0602).contains(&apart.y), &text);
         claims.claim((apart.x - 0.004).abs() < slide && (apart.z + 0.003).abs() < slide, &text);
         claims.claim(speed < slowest && worst < 0.1, &text);
@@ -126,7 +126,7 @@ fn sponges_that_collide_keep_both_momenta_and_gain_no_energy() {
             energy = energy.max((now.kinetic_energy + now.elastic_energy) / start.kinetic_energy);
             worst = worst.max(deepest(&world));
         }
-        // What one gave to the other, and that at the distance of half a sponge.
+        // The impulse that they exchange, and that at the distance of half a sponge.
         let mass: f64 = world
             .node_positions()
             .iter()
@@ -166,7 +166,7 @@ fn sponges_at_twenty_metres_a_second_do_not_pass_through_each_other() {
 
 #[test]
 fn what_has_no_contact_goes_through() {
-    // The control of the tests above: the solver of the paper has none.
+    // Negative control of the tests above: the solver of the paper has none.
     let mut scene = crash(1.0);
     scene.sponges.iter_mut().for_each(|sponge| sponge.solver = Solver::Sbd);
     let mut world = common::world(&scene);
@@ -174,7 +174,7 @@ fn what_has_no_contact_goes_through() {
     assert!(centres(&world)[0].x > 0.0 && deepest(&world) > 0.5);
 }
 
-/// A bar whose ends are turned up, so that it becomes a U; then plates press its legs together from both sides.
+/// A bar whose ends are turned up into a U; then plates press its legs together from both sides.
 fn folded(self_contact: bool) -> Scene {
     let mut scene = Scene::new("folded");
     (scene.gravity, scene.domain) = (Vec3::ZERO, Domain::Open);

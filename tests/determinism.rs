@@ -1,4 +1,4 @@
-//! The same bits on every run, number of threads and SIMD level, and after going back to a copy.
+//! The same bits on every run, number of threads and SIMD level, and after continuing a copy.
 
 mod common;
 
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use common::busy;
 use sorb::{Cpu, Options, SimdLevel, World, internal::columns::Column, scene::Scene};
 
-/// More than one chunk of nodes and several chunks of particles: threads have something to disagree about.
+/// More than one chunk of nodes and several chunks of particles, so that threads matter.
 const RESOLUTION: f32 = 0.6;
 const STEPS: u32 = 40;
 
@@ -21,7 +21,7 @@ fn digest_after(mut world: World, steps: u32) -> u64 {
     world.digest()
 }
 
-/// The levels of this machine; the others are named, so that a log does not claim what was not run.
+/// The levels of this machine; the others are printed, so that a log does not claim what was not run.
 #[expect(clippy::print_stdout, reason = "the log of a test says what it did not run")]
 fn levels() -> impl Iterator<Item = SimdLevel> {
     for missing in SimdLevel::ALL.into_iter().filter(|level| !level.is_supported()) {
@@ -30,7 +30,7 @@ fn levels() -> impl Iterator<Item = SimdLevel> {
     SimdLevel::supported()
 }
 
-/// The scene must be worth the comparison: what can touch, touches.
+/// The scene must be worth the comparison: everything interacts.
 fn assert_is_busy(world: &World, is_pushed: bool) {
     let name = &world.scene().name;
     if !world.particle_ids().is_empty() && !world.node_positions().is_empty() {
@@ -60,7 +60,7 @@ fn matrix(name: &str) {
     }
     assert_eq!(digest_after(with(&scene, 1, SimdLevel::Fallback), STEPS), expected, "{name}: run twice");
     if name != "empty" {
-        // The smallest possible change of one number must show, or the comparison above says nothing.
+        // The smallest possible change of one number must show, or the comparison above means nothing.
         let mut other = scene.clone();
         other.gravity.y = other.gravity.y.next_up();
         assert_ne!(digest_after(common::world(&other), STEPS), expected, "{name}: gravity by one bit");
@@ -70,7 +70,7 @@ fn matrix(name: &str) {
     common::golden(&format!("digest_{name}"), &text);
 }
 
-/// Goes astray from a copy every seven steps, comes back, and continues.
+/// Leaves a copy every seven steps, returns to it, and continues.
 fn copies(name: &str) {
     let scene = busy::scene(name, RESOLUTION);
     let expected = digest_after(common::world(&scene), STEPS);
@@ -115,7 +115,7 @@ fn a_pool_of_the_host_changes_nothing() {
     let cpu = cpu.with_pool(Arc::clone(&pool));
     assert_eq!(cpu.threads(), 3);
     let world = World::on(&scene, cpu, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
-    // From inside a job of the pool, as a host's task would.
+    // From inside a job of the pool, as in a task of the host.
     let mut other = world.clone();
     let inside = pool.install(|| {
         common::steps(&mut other, STEPS);

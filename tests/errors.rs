@@ -1,4 +1,4 @@
-//! Worlds that cannot be built, and steps that cannot be taken.
+//! Errors of worlds that cannot be built, and of steps that cannot be taken.
 
 mod common;
 
@@ -86,14 +86,14 @@ fn a_step_below_the_minimum_is_refused_and_stays_refused() {
     assert_eq!(world.step(), Err(error.clone()));
     assert_eq!(world.advance_frame().map(|_| ()), Err(error.clone()));
     assert_eq!(world.clone().step(), Err(error), "a copy of a failed world has failed, too");
-    // The control: the same scene with room below.
+    // Negative control: the same scene with room below.
     let scene = common::with(&scene, &["time.minimum_step=1e-6"]);
     assert!(common::world(&scene).step().is_ok());
 }
 
 #[test]
 fn the_end_of_a_frame_may_need_a_shorter_step_than_the_minimum() {
-    // 60 frames a second are no multiple of what elasticity allows: the equal steps of a frame are below the minimum, and
+    // 60 frames per second are no multiple of the step by elasticity: the equal steps of a frame are below the minimum, and
     // still taken.
     let scene = common::preset("dry", 0.5);
     let whole = common::world(&scene).step().unwrap_or_else(|error| panic!("{error}")).step;

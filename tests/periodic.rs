@@ -1,4 +1,4 @@
-//! Containers that repeat: what leaves on one side enters on the other, and nothing tells where the sides are.
+//! Periodic containers: particles that leave on one side enter on the other, and the place of the sides does not matter.
 
 mod common;
 
@@ -12,7 +12,7 @@ const SPACING: f32 = 0.005;
 /// Length of the box along its axes.
 const SIZE: Vec3 = Vec3::new(12.0 * SPACING, 10.0 * SPACING, 8.0 * SPACING);
 
-/// A box that is full, whose corner is somewhere.
+/// A full box with its corner anywhere.
 fn full(periodic: [bool; 3]) -> Scene {
     let corner = Vec3::new(-0.02, 0.01, 0.005);
     let fluid =
@@ -21,7 +21,7 @@ fn full(periodic: [bool; 3]) -> Scene {
     scene.in_box(corner, corner + SIZE).with_fluid(fluid).repeating(periodic)
 }
 
-/// Shallow water that runs through two sides, under a plate that moves with it and is longer than the box.
+/// Shallow water that flows across two sides, under a plate that moves with it and is longer than the box.
 fn channel() -> Scene {
     let mut scene = full([true, false, true]);
     scene.gravity = Vec3::new(3.0, -9.81, 1.0);
@@ -41,7 +41,7 @@ fn fluid(scene: &mut Scene) -> &mut Fluid {
     scene.fluid.as_mut().unwrap_or_else(|| panic!("no water"))
 }
 
-/// A field without sources that fits the box.
+/// A divergence-free field that fits the box.
 fn whirl(scene: &Scene, speed: f32) -> impl Fn(Vec3) -> Vec3 {
     let (corner, _) = scene.bounds();
     move |at: Vec3| {
@@ -50,7 +50,7 @@ fn whirl(scene: &Scene, speed: f32) -> impl Fn(Vec3) -> Vec3 {
     }
 }
 
-/// Places or velocities in the order of the particles' identities.
+/// Positions or velocities in the order of the particles' identities.
 fn by_id(world: &World, rows: &[[f32; 4]]) -> Vec<DVec3> {
     let mut all: Vec<(u32, DVec3)> = world
         .particle_ids()
@@ -62,19 +62,19 @@ fn by_id(world: &World, rows: &[[f32; 4]]) -> Vec<DVec3> {
     all.into_iter().map(|(_, row)| row).collect()
 }
 
-/// The way from b to a, across the sides where that is shorter.
+/// The difference from b to a, across the sides where that is shorter.
 fn apart(a: DVec3, b: DVec3, periodic: [bool; 3]) -> DVec3 {
     let period = SIZE.as_dvec3();
     DVec3::select(periodic.into(), (a - b) - period * ((a - b) / period).round(), a - b)
 }
 
-/// Every particle of a block that fills the box has its neighbours a spacing away on both sides of every axis.
+/// Every particle of a block that fills the box has neighbours a spacing away on both sides of every axis.
 fn has_seams(scene: &Scene, periodic: [bool; 3]) -> bool {
     let world = common::world(scene);
     let places = by_id(&world, world.particle_positions());
     let spacing = f64::from(SPACING);
     let beside = |a: &DVec3| {
-        // Particles are put up to a hundredth of a spacing beside their places.
+        // Initial positions are displaced by up to a hundredth of a spacing.
         let near = |b: &&DVec3| (apart(*a, **b, periodic).length() / spacing - 1.0).abs() < 0.05;
         places.iter().filter(near).count()
     };
@@ -84,12 +84,12 @@ fn has_seams(scene: &Scene, periodic: [bool; 3]) -> bool {
 #[test]
 fn rows_are_a_spacing_apart_across_the_sides() {
     assert!(!has_seams(&full([true; 3]), [true; 3]));
-    // A length that is no whole number of spacings, by less than a thousandth.
+    // A length that is no whole number of spacings, within a thousandth.
     let mut stretched = full([true; 3]);
     fluid(&mut stretched).spacing *= 0.9995;
     assert!(!has_seams(&stretched, [true; 3]));
     assert_eq!(common::world(&stretched).particle_ids().len(), 12 * 10 * 8);
-    // The control: where one axis does not repeat.
+    // Negative control: where one axis does not repeat.
     assert!(has_seams(&full([true; 3]), [true, true, false]));
 }
 
@@ -97,15 +97,15 @@ fn rows_are_a_spacing_apart_across_the_sides() {
 fn a_full_box_that_repeats_is_at_rest_density_everywhere() {
     let errors = |periodic| {
         let mut scene = full(periodic);
-        // The solve for the pressure has no density.
+        // With the pressure solve there is no density.
         fluid(&mut scene).solver = FluidSolver::Wcsph;
         let world = common::world(&scene);
         let density = &sorb::internal::columns(&world).fluid.density[..world.particle_ids().len()];
         density.iter().map(|density| f64::from((density / 1000.0 - 1.0).abs())).fold(0.0, f64::max)
     };
-    // Particles are put up to a hundredth of a spacing beside their places: 1.1 %.
+    // Initial positions are displaced by up to a hundredth of a spacing: 1.1 %.
     assert!(errors([true; 3]) < 0.02, "{}", errors([true; 3]));
-    // The control: at walls neighbours are missing.
+    // Negative control: at walls neighbours are missing.
     assert!(errors([true, false, true]) > 0.1);
 }
 
@@ -132,12 +132,12 @@ fn momentum_is_kept_without_gravity() {
             (world.measures().linear_momentum - before).length() / scale
         };
         assert!(error([true; 3]) < 1e-5, "{solver:?}: {:.1e}", error([true; 3]));
-        // The control: walls take momentum.
+        // Negative control: walls take momentum.
         assert!(error([true, false, true]) > 1e-3, "{solver:?}");
     }
 }
 
-/// Largest distance, over the spacing, of particles from where they are in the scene as it is, after some steps.
+/// Largest displacement of particles from those of the scene without offset, over the spacing, after some steps.
 fn wandered(scene: &Scene, steps: u32, offset: Vec3, fault: f32) -> f64 {
     let periodic = scene.periodic();
     let mut places = Vec::new();
@@ -164,12 +164,12 @@ fn where_the_box_begins_does_not_matter() {
         let mut scene = full([true; 3]);
         let fluid = fluid(&mut scene);
         (fluid.solver, fluid.sound_speed) = (solver, Some(10.0));
-        // As many rounds in any case: within a tolerance, one more of them may be due to rounding.
+        // The same number of iterations in any case: within a tolerance, rounding may cost one more.
         (fluid.density_tolerance, fluid.rounds) = (1e-6, 4);
-        // Found: 2.9e-6 and 3.8e-6.
+        // Measured: 2.9e-6 and 3.8e-6.
         let moved = wandered(&scene, 4, offset, 0.0);
         assert!(moved < 2e-5, "{solver:?}: {moved:.1e}");
-        // The control: a thousandth faster, 7.0e-5 and 1.3e-4.
+        // Negative control: a thousandth faster, 7.0e-5 and 1.3e-4.
         let faster = wandered(&scene, 4, offset, 3e-4);
         assert!(faster > 4e-5, "{solver:?}: {faster:.1e}");
     }
@@ -185,7 +185,7 @@ fn a_channel_is_the_same_on_all_threads_and_levels() {
         world
     };
     let first = run(&scene, 1, SimdLevel::Fallback, 40);
-    // Worth the comparison: the plate is pushed, and water has gone across.
+    // The scene is worth the comparison: the plate is pushed, and water has crossed the sides.
     assert!(common::bodies_are_pushed(&first));
     let start = by_id(&common::world(&scene), common::world(&scene).particle_positions());
     let end = by_id(&first, first.particle_positions());
@@ -204,7 +204,7 @@ fn a_channel_is_the_same_on_all_threads_and_levels() {
     common::golden("digest_channel", &text);
 }
 
-/// Water in a channel that a slope moves: it keeps its mass, stays in the box, and is as fast as gravity makes it.
+/// Water in a periodic channel on a slope: it keeps its mass, stays in the box, and is as fast as gravity makes it.
 #[test]
 fn water_runs_through_a_channel_for_ever() {
     let mut scene = channel();
@@ -220,10 +220,10 @@ fn water_runs_through_a_channel_for_ever() {
     let m = world.measures();
     assert_eq!(m.water_mass.to_bits(), mass.to_bits());
     let speed = m.linear_momentum.x / mass;
-    // Nothing holds it: walls are without friction, and there are none in its way.
+    // Nothing holds it: walls have free slip, and none is in its way.
     assert!((speed / (3.0 * world.clock().time) - 1.0).abs() < 1e-3, "{speed}");
     assert_eq!(common::unhealthy(&world, world.particle_ids().len()), None);
-    // The control: walls stop it.
+    // Negative control: walls stop it.
     let mut held = common::world(&scene.clone().repeating([false; 3]));
     while held.clock().time < 0.3 {
         common::steps(&mut held, 1);

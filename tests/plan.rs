@@ -1,4 +1,4 @@
-//! What is planned for a scene: the text is a golden, and phases without work are not in it.
+//! The plan of a scene: its text is a golden, and phases without work are not in it.
 
 mod common;
 
@@ -173,7 +173,7 @@ fn a_scratch_column_read_before_it_is_written_is_refused() {
     assert!(error.to_string().contains("test::acceleration reads fluid.density"), "{error}");
     let missing = [Phase::Run(&ACCELERATION), Phase::Run(&VELOCITY)];
     assert!(small_of("water", &missing, NOTHING_OBSERVED).is_err(), "nobody writes the density");
-    // What the scene lacks altogether cannot be read too early.
+    // A scratch column that the scene lacks cannot be read too early.
     assert!(small_of("empty", &swapped, NOTHING_OBSERVED).is_ok());
 }
 

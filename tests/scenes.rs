@@ -1,7 +1,7 @@
-//! The scenes over ten simulated seconds: what they do is a golden, and what the paper says they do is a claim.
+//! The scenes over ten simulated seconds: results are goldens, and statements of the paper are claims.
 //!
-//! Half the resolution of the paper, so that all of them run in a test. Claims are ranges and do not change when a
-//! golden is written anew.
+//! At half the resolution of the paper, so that all of them run in a test. Claims are ranges and do not change when a golden
+//! is written anew.
 
 mod common;
 
@@ -27,13 +27,13 @@ struct Run {
     height: f64,
     start: Measures,
     samples: Vec<Sample>,
-    /// One line a second, the digest last.
+    /// One line per second, the digest last.
     text: String,
     broken: Option<String>,
 }
 
 impl Run {
-    /// Runs a scene for some seconds of its own time.
+    /// Runs a scene for some seconds of simulated time.
     fn of(scene: &Scene, seconds: f64) -> Self {
         let mut world = common::world(scene);
         let particles = world.particle_ids().len();
@@ -90,21 +90,21 @@ impl Run {
         values.iter().sum::<f64>() / values.len() as f64
     }
 
-    /// What holds for every scene.
+    /// Conditions of every scene.
     fn claims(&self) -> Claims {
         let mut claims = Claims::default();
         claims.claim(self.broken.is_none(), format!("{}: {:?}", self.name, self.broken));
         let water = self.samples.iter().map(|sample| sample.measures.water_mass);
         claims
             .claim(water.into_iter().all(|mass| mass == self.start.water_mass), "the mass of water changes");
-        // Free fall through the container and the fastest body reach 2 m/s; a blow-up knows no bound. Grips that spin fling out
-        // single particles at up to three times their own speed (docs/stress.md).
+        // Free fall through the container and the fastest body reach 2 m/s; an unstable run has no bound. Spinning grips
+        // throw single particles at up to three times their own speed (docs/stress.md).
         let (_, fastest) = self.range(0.0..f64::INFINITY, |sample| sample.measures.maximum_speed);
         claims.claim(fastest < 5.0, format!("something moves at {fastest:.1} m/s"));
         claims
     }
 
-    /// Compares with the golden, and checks the claims whether it fits or not.
+    /// Compares with the golden, and checks the claims in either case.
     fn finish(self, claims: Claims) {
         let golden =
             catch_unwind(AssertUnwindSafe(|| common::golden(&format!("scene_{}", self.name), &self.text)));
@@ -174,7 +174,7 @@ fn standing() {
         without < 0.7 * wicking,
         format!("wicking height {without:.4} m without suction, {wicking:.4} m with"),
     );
-    // Without the reaction the sponge does not feel the water that it holds: it floats and drifts.
+    // Without the reaction the sponge does not carry the water that it holds: it floats and drifts.
     let floating = Run::of(&common::with(&scene, &["sponges[0].reaction=0"]), 2.0);
     let (_, lift) = floating.range(0.2..2.0, |sample| sample.lowest);
     claims.claim(
@@ -215,7 +215,7 @@ fn squeezed(
     let tight = Run::of(&tight, compared);
     claims.claim(tight.broken.is_none(), format!("a hundredth of the permeability: {:?}", tight.broken));
     let (_, fastest) = tight.range(0.0..compared, |sample| sample.measures.maximum_speed);
-    // A single node that a plate or a ball lets go springs back about as fast as an elastic wave.
+    // A single node that a plate or a ball releases springs back about as fast as an elastic wave.
     let wave = f64::from(scene.sponges[0].young_modulus / scene.sponges[0].density).sqrt();
     claims.claim(
         fastest < 1.5 * wave,
@@ -239,7 +239,8 @@ fn ball_drop() {
     let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(10.0)));
     let (least, _) = run.range(0.1..2.0, absorbed);
     claims.claim(least < 0.9 * early, format!("absorbed: {early:.4} kg, pressed out to {least:.4} kg"));
-    // What lies around it is drunk again, but not where the ball lies; of so few cells the faces then drain (docs/porous.md).
+    // Water around the sponge is absorbed again, but not where the ball lies; with so few cells the faces then drain
+    // (docs/porous.md).
     let again = absorbed(run.at(1.0));
     claims.claim(
         again > 1.02 * least && late < 0.95 * early,
@@ -271,7 +272,7 @@ fn dam_break() {
     claims.claim(moved > 0.02, format!("the flow carries the sponge by {moved:.4} m"));
     let (early, late) = (absorbed(run.at(0.5)), absorbed(run.at(5.0)));
     claims.claim(late > early && early > 0.0, format!("absorbed: {early:.4} kg, then {late:.4} kg"));
-    // A sponge that water runs through without drag or suction stays behind.
+    // A sponge without drag and suction stays behind.
     let loose = ["sponges[0].permeability=1e-5", "sponges[0].entry_pressure=0"];
     let loose = Run::of(&common::with(&scene, &loose), 1.0);
     let stays = loose.at(1.0).measures.sponge_centre.x - loose.start.sponge_centre.x;
@@ -286,20 +287,20 @@ fn wring() {
     let mut claims = run.claims();
     let full = volume(run.at(0.3));
     let (least, _) = run.range(0.3..6.0, volume);
-    // Spun dry, nothing draws the pores together any more.
+    // Spun dry, the pores have no suction any more.
     let kept = volume(run.at(2.0));
     claims.claim(least < 0.9 * full, format!("volume: {full:.3e} m^3, then {least:.3e} m^3"));
     claims.claim(kept < 0.9 * full, format!("volume: {full:.3e} m^3, and {kept:.3e} m^3 while twisted"));
     let (held, left) = (absorbed(run.at(0.3)), absorbed(run.at(2.8)));
     claims.claim(left < 0.9 * held, format!("absorbed: {held:.4} kg at 0.3 s, {left:.4} kg at 2.8 s"));
-    // What drips by itself: the same bar, not twisted.
+    // Water that drips without twist: the same bar, not twisted.
     let still = Run::of(&common::with(&scene, &["bodies[0].motions=[]", "bodies[1].motions=[]"]), 2.8);
     let drips = absorbed(still.at(0.3)) - absorbed(still.at(2.8));
     claims.claim(
         held - left > 1.1 * drips,
         format!("lost from 0.3 s to 2.8 s: {:.4} kg twisted, {drips:.4} kg not twisted", held - left),
     );
-    // What has hit the floor splashes to the walls in both; what is in the air tells them apart.
+    // Water on the floor splashes to the walls in both; the difference is in the air.
     let spread = |run: &Run| run.mean(0.8..2.8, |sample| sample.spread);
     let (wrung, hanging) = (spread(&run), spread(&still));
     claims.claim(
@@ -329,12 +330,12 @@ fn stack() {
 
 #[test]
 fn life() {
-    // At half of it the sponge would be two cells high.
+    // At half the resolution the sponge would be two cells high.
     let scene = common::preset("life", 0.75);
     let run = Run::of(&scene, 8.0);
     let mut claims = run.claims();
     let height = |time: f64| run.at(time).measures.sponge_centre.y;
-    // It is in the air for 0.05 s, floats, and sinks as it drinks; the ball is down from 4 s to 4.5 s.
+    // It is in the air for 0.05 s, floats, and sinks as it absorbs water; the ball is down from 4 s to 4.5 s.
     let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(3.0)));
     claims.claim(late > 1.3 * early, format!("absorbed: {early:.4} kg at 0.1 s, {late:.4} kg at 3 s"));
     claims.claim(height(3.0) > 0.3 * height(0.0), format!("lies on the floor: {:.4} m", height(3.0)));

@@ -1,4 +1,4 @@
-//! What the solvers of the sponge make of a bar that hangs from a wall.
+//! A bar that hangs from a wall, with each solver of the sponge.
 
 use sorb::{
     World,
@@ -49,14 +49,14 @@ fn sag(scene: &Scene, seconds: f64) -> f64 {
 #[test]
 fn a_bar_sags_by_what_its_material_says_at_any_number_of_sweeps() {
     let converged = sag(&bar(Solver::Vbd, 64, 0.004), 3.0);
-    // Bending and shear of a beam: 2.7 mm, if the clamp is where the held layer ends a sixth less.
+    // Bending and shear of a beam: 2.7 mm, if it is clamped at the end of the held layer, a sixth shorter.
     assert!((2.2e-3..2.8e-3).contains(&converged), "{converged:.2e} m");
     for (sweeps, step) in [(1, 0.004), (4, 0.004), (4, 0.008)] {
         let found = sag(&bar(Solver::Vbd, sweeps, step), 6.0);
         let error = (found / converged - 1.0).abs();
         assert!(error < 0.02, "{sweeps} sweeps of {step} s: {found:.3e} m instead of {converged:.3e} m");
     }
-    // The control: a tenth more of stiffness shows.
+    // Negative control: a tenth more of stiffness shows.
     let mut stiff = bar(Solver::Vbd, 4, 0.004);
     stiff.sponges[0].young_modulus *= 1.1;
     assert!((sag(&stiff, 6.0) / converged - 1.0).abs() > 0.05);
@@ -65,7 +65,7 @@ fn a_bar_sags_by_what_its_material_says_at_any_number_of_sweeps() {
     constrained.sponges[0].damping = 0.0;
     let error = (sag(&constrained, 3.0) / converged - 1.0).abs();
     assert!(error < 0.03, "neo-hookean constraints: {error:.3} off");
-    // What these cannot do: damping that is long compared with the time in which a wave crosses a cell.
+    // A limit of this solver: damping that is long compared with the time in which a wave crosses a cell.
     constrained.sponges[0].damping = 0.02;
     let error = (sag(&constrained, 3.0) / converged - 1.0).abs();
     assert!(error > 0.1, "neo-hookean constraints with damping: {error:.3} off");

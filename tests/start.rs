@@ -1,4 +1,4 @@
-//! What a host changes before the first step.
+//! Changes by a host before the first step.
 
 mod common;
 
@@ -29,7 +29,7 @@ fn a_uniform_field_is_the_velocity_of_the_block() {
     common::steps(&mut expected, 5);
     common::steps(&mut set_later, 5);
     assert_eq!(set_later.digest(), expected.digest());
-    // The control: another field.
+    // Negative control: another field.
     let mut other = cube(Vec3::ZERO);
     set(&mut other, |_| 1.001 * velocity);
     common::steps(&mut other, 5);
@@ -45,7 +45,7 @@ fn a_field_is_taken_at_the_position_of_every_particle() {
         let [position, velocity] = [position, velocity].map(|row| Vec3::new(row[0], row[1], row[2]));
         assert_eq!(velocity, spin(position));
     }
-    // The step is bounded by what was set.
+    // The new velocities bound the step.
     let mut still = cube(Vec3::ZERO);
     set(&mut world, |_| Vec3::new(50.0, 0.0, 0.0));
     let (fast, slow) = (world.step(), still.step());
@@ -88,7 +88,7 @@ fn a_sponge_leaves_room_for_a_body_that_begins_inside_it() {
         nodes.filter(|x| Vec3::new(x[0], x[1], x[2]).distance(centre) < 0.0199).count()
     };
     assert_eq!(within(&embedded), 0);
-    // The control: without the ball there are some, and contact takes none away.
+    // Negative control: without the ball there are some, and contact takes none away.
     assert!(within(&apart) > 20);
     assert_eq!(touching.node_positions().len(), apart.node_positions().len());
     common::steps(&mut embedded, 100);

@@ -1,4 +1,4 @@
-//! Sponges whose properties depend on how wet they are: keys, state, and what they cost others.
+//! Sponges with properties that depend on wetness: keys, state, and cost for other scenes.
 
 mod common;
 
@@ -40,7 +40,7 @@ fn every_key_changes_what_happens() {
     let plain = common::preset("ball_drop", 0.5);
     let base = after(&plain);
     for key in KEYS {
-        // A time does nothing alone.
+        // A time alone has no effect.
         let changes = after(&common::with(&plain, &[key])) != base;
         assert_eq!(changes, !key.contains("wetting_time"), "{key}");
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use sorb::{Offload, Options, World, gpu::Gpu, scene::Scene};
 
-/// The best adapter, which is named on standard output: a row of results has to name it.
+/// The best adapter, printed on standard output: a row of results names it.
 #[expect(clippy::print_stdout, reason = "a figure without its adapter and driver says nothing")]
 pub(crate) fn adapter() -> Option<Arc<Gpu>> {
     match Gpu::new() {
@@ -33,7 +33,7 @@ pub(crate) fn world(scene: &Scene, gpu: &Arc<Gpu>, gpu_times: bool) -> World {
         world
     };
     let world = run();
-    // What is timed must be what it claims to be: the same bits every time.
+    // The timed work must be the same every time, to the bit.
     assert_eq!(world.digest(), run().digest(), "two runs differ");
     world
 }

@@ -1,4 +1,4 @@
-//! `sorb check`: everything that is wrong with a scene.
+//! `sorb check`: reports every mistake of scenes.
 
 use sorb::{
     Options, World,
@@ -15,10 +15,10 @@ pub(crate) struct Arguments {
     scenes: Vec<String>,
 }
 
-/// Checks all scenes, and complains about all that are bad.
+/// Checks all scenes, and reports all invalid ones.
 ///
 /// # Errors
-/// [`CliError::CheckFailed`] when a scene is bad, [`CliError::Scene`] when there is no such scene.
+/// [`CliError::CheckFailed`] when a scene is invalid, [`CliError::Scene`] when there is no such scene.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let mut complaints = Vec::new();
     for name in &arguments.scenes {
@@ -31,13 +31,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     if complaints.is_empty() { Ok(()) } else { Err(CliError::CheckFailed(complaints.join("\n"))) }
 }
 
-/// Checks one scene and says how big it is.
+/// Checks one scene and returns its size in words.
 fn check(name: &str) -> Result<String, CliError> {
     let scene = choice::named(name).map_err(|error| match error {
         SceneError::Syntax { .. } | SceneError::Invalid { .. } => CliError::CheckFailed(error.to_string()),
         other => CliError::Scene(other),
     })?;
-    // What only the set-up finds, such as a hull without volume. Water cannot fail there, and may be large.
+    // Only the set-up finds some errors, such as a hull without volume. Water cannot fail there, and may be large.
     World::with_options(&without_water(&scene), &Options { threads: Some(1), ..Options::default() })
         .map_err(|error| CliError::CheckFailed(format!("{name}: {error}")))?;
     let size = scene.estimate();

@@ -1,4 +1,4 @@
-//! Which scene a command works on.
+//! The scene of a command.
 
 use std::path::Path;
 
@@ -9,8 +9,8 @@ use sorb::scene::{self, Quality, Scene, SceneError};
 pub(crate) struct Choice {
     /// Name of a scene that comes with the program (see `sorb scenes`), or path of a .toml or .json file
     scene: String,
-    /// How much work goes into precision: fast, balanced (the defaults) or accurate; by default what the scene says.
-    /// `--set` comes after it
+    /// Trade-off between precision and run time: fast, balanced (the defaults) or accurate; by default the keys of the
+    /// scene. `--set` comes after it
     #[arg(long, value_name = "QUALITY")]
     quality: Option<Quality>,
     /// Changes one key of the scene, as in `--set sponges.sponge.permeability=1e-10`; may be repeated
@@ -22,7 +22,7 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// Reads the scene, gives it the quality, changes it, then refines it.
+    /// Reads the scene, applies the quality, changes it, then refines it.
     ///
     /// # Errors
     /// As [`named`], [`Scene::with_quality`], [`Scene::with_overrides`] and [`Scene::scaled`].
@@ -41,7 +41,7 @@ impl Choice {
 /// The preset of that name, or the scene in that file.
 ///
 /// # Errors
-/// The file cannot be read or is no valid scene, or there is neither a preset nor a file of that name.
+/// The file cannot be read or is not a valid scene, or there is neither a preset nor a file of that name.
 pub(crate) fn named(name: &str) -> Result<Scene, SceneError> {
     let is_preset = scene::presets().iter().any(|preset| preset.name == name);
     let looks_like_file = name.contains(['.', '/', '\\']) || Path::new(name).exists();

@@ -1,4 +1,4 @@
-//! `sorb doctor`: what this machine and this build offer.
+//! `sorb doctor`: features of this machine and this build.
 
 use std::env::consts::{ARCH, OS};
 
@@ -22,7 +22,7 @@ const FEATURES: &[&str] = if cfg!(feature = "gpu") {
     &["threads", "rigid", "serde", "render"]
 };
 
-/// Prints what there is.
+/// Prints the features.
 ///
 /// # Errors
 /// Standard output cannot be written.

@@ -1,13 +1,13 @@
-//! Why the command fails, and with which exit code.
+//! Errors of the command, with their exit codes.
 
 use std::{io, path::PathBuf};
 
 use sorb::{StepError, WorldError, render::RenderError, scene::SceneError};
 
-/// Why the command fails.
+/// Error of the command.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
-    /// A scene that `sorb check` looked at is bad, or a case of `sorb validate` out of bounds.
+    /// A scene that `sorb check` read is invalid, or a case of `sorb validate` is out of bounds.
     #[error("{0}")]
     CheckFailed(String),
     /// Arguments name something that does not exist.
@@ -16,7 +16,7 @@ pub(crate) enum CliError {
     /// A scene cannot be read or used.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A scene cannot be built, or the machine lacks what was asked for.
+    /// A scene cannot be built, or the machine lacks a requested feature.
     #[error(transparent)]
     World(#[from] WorldError),
     /// A picture cannot be written.
@@ -30,27 +30,27 @@ pub(crate) enum CliError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
     /// Standard output cannot be written.
     #[error("cannot write to standard output: {0}")]
     Output(io::Error),
-    /// The results cannot be put into words; never for finite or missing numbers.
+    /// The results cannot be written as JSON; never for finite or missing numbers.
     #[error("cannot write the summary: {0}")]
     Summary(#[from] serde_json::Error),
-    /// The simulation went wrong; everything up to there has been written.
+    /// The simulation diverged; everything before that has been written.
     #[error("the simulation diverged: {error}\nwhat it did until then is in {}", folder.display())]
     Diverged {
-        /// What went wrong, where and when.
+        /// Cause, place and time.
         error: StepError,
         /// The out folder.
         folder: PathBuf,
     },
-    /// The GPU failed; everything up to there has been written.
+    /// The GPU failed; everything before that has been written.
     #[error("{error}\nwhat was done until then is in {}", folder.display())]
     Gpu {
-        /// What went wrong.
+        /// Cause.
         error: StepError,
         /// The out folder.
         folder: PathBuf,
@@ -58,7 +58,7 @@ pub(crate) enum CliError {
 }
 
 impl CliError {
-    /// Makes a file's error out of the system's.
+    /// Adds the file to an error of the system.
     pub(crate) fn write(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> Self {
         let path = path.into();
         |source| Self::Write { path, source }

@@ -1,4 +1,4 @@
-//! The command `sorb`: runs, checks and pictures sponge scenes.
+//! The command `sorb`: runs, checks and draws sponge scenes.
 
 mod check;
 mod choice;
@@ -16,7 +16,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// What the exit codes mean, at the end of the help.
+/// Meaning of the exit codes, at the end of the help.
 const EXIT_CODES: &str =
     "Exit codes: 0 ok, 1 a check failed, 2 wrong usage or scene, 3 the simulation diverged.";
 
@@ -32,7 +32,7 @@ struct Cli {
 enum Command {
     /// Lists the scenes that come with the program
     Scenes(scenes::Arguments),
-    /// Names everything that is wrong with a scene
+    /// Reports every mistake of a scene
     Check(check::Arguments),
     /// Prints the JSON schema of scene files
     Schema,
@@ -42,7 +42,7 @@ enum Command {
     Run(Box<run::Arguments>),
     /// Compares the simulator with analytic, experimental and converged references
     Validate(validate::Arguments),
-    /// Shows what this machine and this build offer
+    /// Shows the features of this machine and this build
     Doctor(doctor::Arguments),
 }
 

@@ -4,7 +4,7 @@ use std::io::{self, ErrorKind, Write};
 
 use crate::error::CliError;
 
-/// Writes to standard output. A reader that has seen enough and closed the pipe is no error.
+/// Writes to standard output. It is no error if the reader has closed the pipe.
 ///
 /// # Errors
 /// [`CliError::Output`], for example on a full disk.
@@ -19,11 +19,11 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
 /// Writes an error to standard error, each line after the first indented.
 pub(crate) fn complain(message: &str) {
     let message = message.replace('\n', "\n       ");
-    // There is nobody left to tell when this fails.
+    // Nothing can be reported if this fails.
     let _ = writeln!(io::stderr().lock(), "error: {message}");
 }
 
-/// Rows of text as columns that line up: `right` says which columns are numbers.
+/// Rows of text as aligned columns: `right` marks columns of numbers.
 pub(crate) fn table<const N: usize>(rows: &[[String; N]], right: [bool; N]) -> String {
     let widths: [usize; N] = std::array::from_fn(|column| {
         let width = |row: &[String; N]| row[column].chars().count();

@@ -1,4 +1,4 @@
-//! `sorb plan`: what a step runs, and what it skips and why.
+//! `sorb plan`: the phases of a step, with what is skipped and why.
 
 use serde_json::{Value, json};
 use sorb::{

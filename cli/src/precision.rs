@@ -17,30 +17,30 @@ use crate::{error::CliError, output};
 
 const TEMPLATE: &str = "{prefix} {bar:30} {pos} of {len} runs  {elapsed} gone";
 
-/// What to sweep, and where to put what comes out.
+/// Cases to sweep, and the folder for the results.
 #[derive(Debug)]
 pub(crate) struct Request<'a> {
-    /// Names of cases; all where there are none.
+    /// Names of cases; all if empty.
     pub(crate) cases: &'a [String],
-    /// What to run them with.
+    /// Settings of the runs.
     pub(crate) setting: Setting,
     /// The folder for the results.
     pub(crate) out: PathBuf,
-    /// What to say about the machine.
+    /// Remark about the machine.
     pub(crate) note: Option<&'a str>,
 }
 
-/// Sweeps, prints a row for every run, and writes `index.html`, `precision.csv` and an SVG for every case.
+/// Runs the sweep, prints a row for every run, and writes `index.html`, `precision.csv` and an SVG for every case.
 ///
 /// # Errors
-/// There is no sweep of a name, or the results cannot be written.
+/// A name has no sweep, or the results cannot be written.
 pub(crate) fn run(request: &Request<'_>) -> Result<(), CliError> {
     let Request { cases, setting, out, .. } = request;
     let known = precision::names();
     if let Some(name) = cases.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(CliError::Usage(format!("no sweep of case `{name}`; there are: {}", known.join(", "))));
     }
-    // A folder that cannot be made should not cost a quarter of an hour first.
+    // Before the runs, which take a quarter of an hour.
     fs::create_dir_all(out).map_err(CliError::write(out))?;
     let bar = bar(precision::count(cases, setting));
     output::print(&row(["case", "solver", "resolution", "error", "run time", "changes"].map(str::to_owned)))?;
@@ -80,7 +80,7 @@ fn write(path: &Path, text: &str) -> Result<(), CliError> {
     fs::write(path, text).map_err(CliError::write(path))
 }
 
-/// A bar on standard error; nothing where that is no terminal.
+/// A bar on standard error; none where that is no terminal.
 fn bar(runs: usize) -> ProgressBar {
     let bar = if io::stderr().is_terminal() { ProgressBar::new(runs as u64) } else { ProgressBar::hidden() };
     let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -125,7 +125,7 @@ fn origin(request: &Request<'_>) -> Origin {
     Origin { date: today(), machine: format!("{}, {threads} threads{note}", processor()), command }
 }
 
-/// Name of the processor, where the system gives one.
+/// Name of the processor, where the system provides one.
 fn processor() -> String {
     let platform = || format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS);
     let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -141,7 +141,7 @@ fn today() -> String {
 
 /// The Gregorian date a number of days after the first of January 1970.
 fn date(days: u64) -> String {
-    // Years begin in March, so that the day that some have more is the last one; 400 years have 146 097 days.
+    // Years begin in March, so that the leap day is the last one; 400 years have 146 097 days.
     let since = days + 719_468;
     let (era, day) = (since / 146_097, since % 146_097);
     let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;

@@ -1,4 +1,4 @@
-//! `sorb scenes`, and `sorb` alone: what there is to run.
+//! `sorb scenes`, and `sorb` alone: lists the scenes.
 
 use serde_json::json;
 use sorb::scene::{self, Estimate, Preset, SceneError};
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     output::print(&format!("{}\n", serde_json::to_string_pretty(&rows)?))
 }
 
-/// Says what there is and how to run it.
+/// Lists the scenes and shows how to run one.
 ///
 /// # Errors
 /// Standard output cannot be written.

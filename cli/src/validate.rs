@@ -1,4 +1,4 @@
-//! `sorb validate`: how far the simulator is from analytic, experimental and converged references.
+//! `sorb validate`: compares the simulator with analytic, experimental and converged references.
 
 use std::{fmt::Write as _, path::PathBuf};
 
@@ -19,7 +19,7 @@ pub(crate) struct Arguments {
     /// Lists the cases instead of running them
     #[arg(long)]
     list: bool,
-    /// Solver of the water or of the sponge, or all; by default those that scenes have by default; may be repeated
+    /// Solver of the water or of the sponge, or all; by default the defaults of scenes; may be repeated
     #[arg(long, value_name = "NAME")]
     solver: Vec<String>,
     /// Refines the cases, 0.25 to 8; the bounds are meant for 1
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// Coarser and shorter runs, two minutes in all
     #[arg(long)]
     quick: bool,
-    /// How much work goes into precision: fast, balanced or accurate; by default what the scenes of the cases say
+    /// Trade-off between precision and run time: fast, balanced or accurate; by default the keys of the cases
     #[arg(long, value_name = "QUALITY", conflicts_with = "work_precision")]
     quality: Option<Quality>,
     /// Changes one key of every scene, as in `--set sponges[0].iterations=4`; may be repeated
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     /// Plants the fault of each case, which must then miss a bound
     #[arg(long)]
     control: bool,
-    /// Takes misses with a known cause for good
+    /// Accepts misses with a known cause
     #[arg(long)]
     allow_known: bool,
     /// Runs cases at many settings, and writes a report of run time against error: ten minutes, or half a minute with
@@ -53,7 +53,7 @@ pub(crate) struct Arguments {
     /// Folder for that report
     #[arg(long, value_name = "DIR", default_value = "out/precision", requires = "work_precision")]
     out: PathBuf,
-    /// What that report says about the machine, beside its processor
+    /// Remark about the machine in that report, beside its processor
     #[arg(long, value_name = "TEXT", requires = "work_precision")]
     note: Option<String>,
     /// Prints a JSON array instead of a table
@@ -122,12 +122,12 @@ impl Arguments {
         }
     }
 
-    /// What all cases run on: one device, whose pipelines are compiled once.
+    /// Options of all cases: one device, whose pipelines are compiled once.
     fn options(&self) -> Options {
         Options {
             threads: self.threads,
             offload: self.backend.clone(),
-            // If there is none, the first world says why.
+            // If there is none, the first world reports why.
             #[cfg(feature = "gpu")]
             gpu: self
                 .backend
@@ -224,7 +224,7 @@ const WIDTHS: [usize; 9] = [13, 8, 3, 44, 10, 10, 9, 9, 7];
 fn line(cells: &[String; 10]) -> String {
     let mut line = String::new();
     for (index, (cell, width)) in cells.iter().zip(WIDTHS).enumerate() {
-        // The numbers are on the right.
+        // Numbers are on the right.
         let _ = if index < 4 { write!(line, "{cell:<width$}  ") } else { write!(line, "{cell:>width$}  ") };
     }
     line + &cells[9] + "\n"
@@ -239,7 +239,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Lines of a case; with a planted fault, no miss is a known one.
+/// Lines of a case; with a planted fault, no miss counts as known.
 fn text(outcome: &Outcome, control: bool) -> String {
     let head = [outcome.case.name.to_owned(), outcome.solver.clone(), outcome.backends.names()];
     let time = format!("{:.1} s", outcome.wall);

@@ -1,4 +1,4 @@
-//! The command as a user meets it: exit codes, messages, files.
+//! The command from the outside: exit codes, messages, files.
 
 #[path = "command/runs.rs"]
 mod runs;

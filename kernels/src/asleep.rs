@@ -1,16 +1,16 @@
-//! Nodes of sponges that are asleep: their rows stay as they are, and cost next to nothing.
+//! Nodes of sleeping sponges: their rows are constant and cost almost nothing.
 //!
-//! A sponge that is asleep is at rest, and nothing that is awake is within its reach (`World` sees to that). Its nodes are held where
-//! they are: `pbd::predict` gives them no inverse mass, and `pbd::velocity` leaves position and velocity alone, so that no bit of them
-//! changes and the step after waking is the step that would have come next. Passes over nodes leave out groups that are all asleep. What
-//! they would have written is not read: neighbours belong to the same sponge, and `couple::controls` leaves the nodes out.
+//! A sleeping sponge is at rest, and no awake part is within its reach (`World` ensures that). Its nodes are held in place:
+//! `pbd::predict` gives them no inverse mass, and `pbd::velocity` leaves position and velocity alone. No bit of them
+//! changes, and the step after waking is the one that would have come next. Passes over nodes leave out groups that sleep as
+//! a whole. Nobody reads their results: neighbours belong to the same sponge, and `couple::controls` leaves the nodes out.
 
 use std::ops::Range;
 
-/// Rows of nodes that are asleep: on a device those of whole sponges, whose parameters say so.
+/// Rows of sleeping nodes. On a device these are whole sponges, marked in their parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Asleep {
-    /// In order, without a gap of nothing between two.
+    /// In order; adjacent ranges are joined.
     ranges: Vec<Range<usize>>,
 }
 
@@ -60,7 +60,8 @@ impl Asleep {
         starts.zip(ends).map(move |(start, end)| start.min(count)..end.min(count))
     }
 
-    /// The other rows of a range, in whole groups of so many rows from its beginning on: a group may have some that are asleep.
+    /// The other rows of a range, in whole groups of a given size from its beginning on. A group may have some sleeping
+    /// rows.
     pub(crate) fn awake_groups(&self, rows: Range<usize>, group: usize) -> Vec<Range<usize>> {
         let mut awake: Vec<Range<usize>> = Vec::new();
         for own in self.others(rows.end).filter(|own| own.start.max(rows.start) < own.end) {
@@ -75,7 +76,7 @@ impl Asleep {
         awake
     }
 
-    /// Whether all nodes of a group are asleep, whose rows follow each other; the last may be repeated.
+    /// Whether all nodes of a group with consecutive rows are asleep; the last may be repeated.
     pub(crate) fn has_group<const N: usize>(&self, nodes: &[u32; N]) -> bool {
         !self.ranges.is_empty() && self.has_all(nodes[0] as usize..nodes[N - 1] as usize + 1)
     }

@@ -42,7 +42,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Radius of the ball around the origin that holds the shape \[m\]; infinite for a plane.
+    /// Radius of the bounding sphere around the origin \[m\]; infinite for a plane.
     #[must_use]
     pub fn bounding_radius(&self) -> f32 {
         match self {
@@ -56,8 +56,8 @@ impl Shape {
 }
 
 impl Shape {
-    /// Radius of the ball around the origin outside of which distances are larger than `range` \[m\]: beside its edges a hull
-    /// is taken to be nearer than it is.
+    /// Radius of the sphere around the origin outside of which distances are larger than `range` \[m\]. Beside its edges the
+    /// distance from a hull is an underestimate.
     pub(crate) fn reach(&self, range: f32) -> f32 {
         let radius = self.bounding_radius();
         match self {
@@ -77,7 +77,7 @@ pub enum BodyKind {
     Dynamic,
     /// Not at all.
     Fixed,
-    /// By a script, whatever pushes against it.
+    /// By a script, independent of forces.
     Kinematic,
 }
 
@@ -94,7 +94,7 @@ pub struct BodyState {
     pub angular_velocity: Vec3,
 }
 
-/// Impulses that fluid and sponges gave to a body in one step, summed in f64 in a fixed order.
+/// Impulses of fluid and sponges on a body in one step, summed in f64 in a fixed order.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// Impulse \[N s\].
@@ -111,7 +111,7 @@ impl Wrench {
     }
 }
 
-/// What every chunk of rows gives to every body; chunks beyond those that are asked for are left out.
+/// The impulses of every chunk of rows on every body; chunks beyond the given number are left out.
 pub(crate) fn by_chunk(wrenches: &mut [Wrench], chunks: usize, bodies: usize) -> Vec<&mut [Wrench]> {
     match bodies {
         0 => (0..chunks).map(|_| &mut [][..]).collect(),
@@ -132,12 +132,12 @@ pub struct Body {
     pub friction: f32,
     /// Whether sponge nodes are kept out; a body that grips a sponge lets them in.
     pub touches_nodes: bool,
-    /// Whether the fluid at the surface moves with it (no-slip); else it slides along it.
+    /// Whether the fluid sticks to the surface (no-slip); otherwise it slides along it (free slip).
     pub no_slip: bool,
 }
 
 impl Body {
-    /// The body where it will be at the end of a step \[s\].
+    /// The body at the end of a step \[s\].
     #[must_use]
     pub fn at_end(&self, step: f32) -> Self {
         let mut body = self.clone();
@@ -149,7 +149,7 @@ impl Body {
         body
     }
 
-    /// Largest speed of its surface \[m/s\]; of a plane, that of the point that it is given by.
+    /// Largest speed of its surface \[m/s\]; of a plane, that of its reference point.
     #[must_use]
     pub fn fastest(&self) -> f32 {
         let radius = self.shape.bounding_radius();
@@ -185,7 +185,7 @@ impl ColumnData for Bodies {
     }
 }
 
-/// A body placed in the world, ready to be asked for distances.
+/// A body placed in the world, for distance queries.
 pub(crate) struct Placed<'a, S: Simd> {
     simd: S,
     shape: &'a Shape,
@@ -219,7 +219,7 @@ impl<'a, S: Simd> Placed<'a, S> {
 
     /// Signed distance from the surface (negative inside) and outward normal, at world points.
     ///
-    /// Beside a hull's edge the distance is that to the nearest face plane, less than the true one.
+    /// Beside a hull's edge the distance is that to the nearest face plane, an underestimate.
     #[inline(always)]
     pub(crate) fn distance(&self, point: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
         let (distance, normal) = self.local_distance(self.local(point));
@@ -254,8 +254,8 @@ impl<'a, S: Simd> Placed<'a, S> {
 
 /// Distances of eight points from a shape in its own frame, and the outward normals.
 ///
-/// Compiled on its own, with arrays between it and its callers: code for all shapes in the middle of every kernel that asks for
-/// a distance takes the compiler minutes.
+/// Compiled separately, with arrays at its interface: inlining the code of all shapes into every kernel with distances takes
+/// the compiler minutes.
 #[inline(never)]
 fn surface(level: fearless_simd::Level, shape: &Shape, [x, y, z]: &[[f32; LANES]; 3]) -> [[f32; LANES]; 4] {
     lanes::dispatch!(level, simd => {
@@ -318,7 +318,7 @@ fn cuboid<S: Simd>(simd: S, local: Vec3x8<S>, half_extents: Vec3) -> (f32x8<S>, 
     let length = dot(outside, outside).sqrt();
     let is_outside = length.simd_gt(zero);
     let scale = one / select(is_outside, length, one);
-    // Inside, the face that is nearest.
+    // Inside, the nearest face.
     let x_first = beyond[0].simd_ge(beyond[1]) & beyond[0].simd_ge(beyond[2]);
     let y_first = !x_first & beyond[1].simd_ge(beyond[2]);
     let z_first = !x_first & !y_first;

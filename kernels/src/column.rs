@@ -1,4 +1,4 @@
-//! What every column has: a life, padding, and words to hash.
+//! Common properties of columns: lifetime, padding, and words to hash.
 
 /// Coordinate of padding rows \[m\]: beyond every support radius, with a square that is still finite.
 pub const FAR: f32 = 1.0e15;
@@ -12,7 +12,7 @@ pub fn padded(rows: usize) -> usize {
     (rows + 8) / 8 * 8
 }
 
-/// How long the content of a column lives.
+/// Lifetime of the content of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Life {
     /// Survives a step; part of the digest and of a saved state.
@@ -34,7 +34,7 @@ pub struct Lane {
     pub unit: &'static str,
 }
 
-/// What a row of a column holds.
+/// Content of a row of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Element {
     /// Four floats: their lanes.
@@ -43,12 +43,12 @@ pub enum Element {
     Values(&'static str),
     /// A word of this unit.
     Words(&'static str),
-    /// Something of its own.
+    /// Another type.
     Other,
 }
 
 impl Element {
-    /// Bytes of a row of a plain array, 0 for what is none.
+    /// Bytes of a row of a plain array, 0 for other types.
     #[must_use]
     pub const fn bytes(self) -> usize {
         match self {
@@ -65,7 +65,7 @@ impl Element {
     }
 }
 
-/// What padding rows hold.
+/// Content of padding rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Padding {
     /// Zeros.
@@ -112,11 +112,11 @@ pub enum PlainMut<'a> {
     Words(&'a mut Vec<u32>),
 }
 
-/// What a column must offer to be hashed, and to be audited by the tests.
+/// Functions of columns for hashing, and for the audit of the tests.
 pub trait ColumnData {
     /// Calls `visit` with every 32-bit word of the first `rows` rows, in order.
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32));
-    /// Overwrites everything with values that no kernel can read without being noticed.
+    /// Overwrites everything with values that are noticed when a kernel reads them.
     fn poison(&mut self);
     /// The array, if it is a plain one.
     fn plain(&self) -> Option<Plain<'_>> {

@@ -1,12 +1,11 @@
 //! The stores: structures of arrays, each column declared once.
 //!
-//! A *column* is one physical quantity of one store, and the unit of scheduling, hashing and saving. Vector
-//! columns that neighbours read are packed rows of four floats, because one 16-byte load per neighbour is the
-//! fastest way to fetch it; the fourth float carries a scalar that is needed along with the vector.
+//! A *column* is one physical quantity of one store, and the unit of scheduling, hashing and saving. Vector columns that
+//! neighbours read are packed rows of four floats, because one 16-byte load per neighbour is fastest. The fourth float is a
+//! scalar that the same passes need.
 //!
-//! Rows are padded to a multiple of eight with at least one row to spare ([`padded`]). Padding rows of
-//! particles lie at [`FAR`], beyond every support radius, so that a list can be filled up with them: they add
-//! exact zeros to every sum.
+//! Rows are padded to a multiple of eight, by at least one row ([`padded`]). Padding rows of particles lie at [`FAR`],
+//! beyond every support radius, and fill up neighbour lists: they add exact zeros to every sum.
 
 use crate::{
     body::Bodies,
@@ -89,7 +88,7 @@ macro_rules! columns {
             pub $field: element!($element),)*
         })*
 
-        /// Where the scalars in the rows of columns are: `row[lane::fluid::boundary::SHARE]`. A vector comes first.
+        /// Index of the scalars in the rows of columns: `row[lane::fluid::boundary::SHARE]`. A vector comes first.
         pub mod lane {
             $($(#[$store_doc])*
             pub mod $store {
@@ -120,31 +119,31 @@ macro_rules! columns {
                 match self { $($(Self::$Column => concat!(stringify!($row), "_", stringify!($field)),)*)* }
             }
 
-            /// What a row holds, with SI units.
+            /// Content of a row, with SI units.
             #[must_use]
             pub const fn element(self) -> Element {
                 match self { $($(Self::$Column => layout!($element; $($lanes)*),)*)* }
             }
 
-            /// What padding rows hold.
+            /// Content of padding rows.
             #[must_use]
             pub const fn padding(self) -> Padding {
                 match self { $($(Self::$Column => padding!($($kind($padding))?),)*)* }
             }
 
-            /// How long the content lives.
+            /// Lifetime of the content.
             #[must_use]
             pub const fn life(self) -> Life {
                 match self { $($(Self::$Column => Life::$life,)*)* }
             }
 
-            /// Whether no device holds it, because twins compute it anew or find it in another form.
+            /// Whether no device stores it, because twins compute it anew or have it in another form.
             #[must_use]
             pub const fn is_on_host_only(self) -> bool {
                 match self { $($(Self::$Column => is_host!($($host)?),)*)* }
             }
 
-            /// What a scene must contain for the column to have rows, beside those of its store.
+            /// What a scene must contain for the column to have rows, in addition to those of its store.
             #[must_use]
             pub const fn need(self) -> Option<Need> {
                 match self { $($(Self::$Column => optional_need!($($need)?),)*)* }
@@ -191,8 +190,7 @@ columns! {
     fluid fluid: Fluid {
         /// Centre of the particle; w: pressure over density squared, p/rho^2 \[Pa m^6/kg^2\].
         FluidPosition = position: rows("m"; PRESSURE_OVER_SQUARED_DENSITY 3 "Pa m^6/kg^2") padded Row(FAR_ROW), State;
-        /// Velocity of the particle; w: its volume m/rho \[m^3\], or, where pressure is solved for, the compression that
-        /// it is allowed \[1\].
+        /// Velocity of the particle; w: its volume m/rho \[m^3\] or, with a pressure solve, its permitted compression \[1\].
         FluidVelocity = velocity: rows("m/s"; VOLUME 3 "m^3", ALLOWED_COMPRESSION 3 "1"), State;
         /// Identity of the particle, kept while rows are re-ordered.
         FluidId = id: words("1") padded Word(u32::MAX), State;
@@ -202,56 +200,54 @@ columns! {
         FluidNeighbors = neighbors: Neighbors("1"), Scratch;
         /// Mass density rho.
         FluidDensity = density: values("kg/m^3"), Scratch;
-        /// Acceleration by all forces of this step; w: compression that is allowed, see `sph::forces`.
+        /// Acceleration by all forces of this step; w: permitted compression without delay, see `sph::forces`.
         FluidAcceleration = acceleration: rows("m/s^2"; ALLOWED_COMPRESSION 3 "1"), Scratch;
-        /// Weight of the share of its neighbourhood that a particle near the surface lacks, see `sph::deficit`.
+        /// Weight of the deficit of neighbours of a particle near the surface, see `sph::deficit`.
         FluidDeficit = deficit: values("1"), Scratch, needs Cohesion;
         /// For every particle, the control rows within the suction radius.
         FluidControls = controls: Neighbors("1"), Scratch, needs Sponge;
-        /// For every entry of those lists, node volume times kernel.
+        /// For every entry of those lists, node volume times W.
         FluidControlWeights = control_weights: ListValues("1"), Scratch on host;
-        /// How far inside a sponge the particle is: sum of node volume times kernel, 0 outside, 1 inside.
+        /// Interior value of the particle: sum of node volumes times W, 0 outside of sponges, 1 inside.
         FluidInterior = interior: values("1"), Scratch, needs Sponge;
-        /// Rate at which drag takes the particle to the velocity of the sponge, and what its speed beside the sponge adds to
-        /// that \[1/m\]; z: root of how far the material there gives way to the pressure, over the water, see `couple::solid_yield` \[1\];
-        ///
+        /// Drag rate of the particle; y: its derivative by the speed relative to the sponge \[1/m\]; z: root of the
+        /// compliance of the material to the pressure, over that of water, see `couple::solid_yield` \[1\].
         FluidDragRate = drag_rate: rows(; RATE 0 "1/s", INERTIAL_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
         /// Impulse that the particle loses to the sponge, over its interior value.
         FluidDrag = drag: rows("kg m/s"; MASS 3 "kg"), Scratch, needs Sponge;
-        /// Position at the end of the step as far as it is known; w: change of the pressure over rest density
-        /// \[m^2/s^2\].
+        /// Predicted position at the end of the step; w: change of the kinematic pressure \[m^2/s^2\].
         FluidPredicted = predicted: rows("m"; PRESSURE_CHANGE 3 "m^2/s^2") padded Row(FAR_ROW), Scratch, needs Incompressible;
-        /// Gradient of the share of walls and bodies in the kernel's volume \[1/m\]; w: the share \[1\].
+        /// Gradient of the boundary volume fraction of walls, bodies and sponges \[1/m\]; w: the fraction \[1\].
         FluidBoundary = boundary: rows("1/m"; SHARE 3 "1"), Scratch, needs Incompressible;
-        /// Acceleration of a particle by its own pressure, over that pressure over rest density; w: compression
-        /// `rho / rho_0 - 1` before the solve.
+        /// Acceleration of a particle by its own pressure, over its kinematic pressure; w: compression `rho / rho_0 - 1`
+        /// before the solve.
         FluidFactors = factors: rows("1/m"; COMPRESSION 3 "1"), Scratch, needs Incompressible;
-        /// For every entry of the neighbour lists, volume times kernel gradient, over the distance vector.
+        /// For every entry of the neighbour lists, volume times the gradient of W, over the distance vector.
         FluidPairs = pairs: ListValues("1/m^2"), Scratch on host;
-        /// Pressure over rest density \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and compression
-        /// that is left \[1\].
+        /// Kinematic pressure \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and remaining compression
+        /// \[1\].
         FluidPressureRows = pressure_rows: rows(; PRESSURE 0 "m^2/s^2", CHANGE 1 "m^2/s^2", DIAGONAL 2 "s^2/m^2", COMPRESSION 3 "1") padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
         FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
-        /// Compression that sponges take by giving way to the change of the pressure, over the square of the step, see
-        /// `couple::solid_yield`. Empty where there are none.
+        /// Compression that sponges absorb by their compliance to the pressure change, over the square of the step, see
+        /// `couple::solid_yield`. Empty without sponges.
         FluidSolidYield = solid_yield: values("1/s^2"), Scratch, needs Incompressible;
-        /// Where the pressure solve stands.
+        /// State of the pressure solve.
         FluidPressureSolve = pressure_solve: PressureSolve("1"), Scratch;
-        /// Rate at which walls and bodies slow a particle down, along the axes: xx, yy, zz.
+        /// Rate of deceleration of a particle by walls and bodies, along the axes: xx, yy, zz.
         FluidFriction = friction: rows("1/s"), Scratch, needs ImplicitViscosity;
         /// The same between the axes: yz, zx, xy.
         FluidFrictionBetween = friction_between: rows("1/s"), Scratch, needs ImplicitViscosity;
-        /// What is left of the equation of the implicit viscosity.
+        /// Residual of the implicit viscosity.
         FluidViscosityResidual = viscosity_residual: rows("m/s"), Scratch, needs ImplicitViscosity;
-        /// Direction of the present round of that solve.
+        /// Direction of the present iteration of that solve.
         FluidViscosityDirection = viscosity_direction: rows("m/s"), Scratch, needs ImplicitViscosity;
         /// Product of its matrix with that direction.
         FluidViscosityProduct = viscosity_product: rows("m/s"), Scratch, needs ImplicitViscosity;
         /// Change of the velocity by the implicit viscosity so far.
         FluidViscosityChange = viscosity_change: rows("m/s"), Scratch, needs ImplicitViscosity;
-        /// Where that solve stands.
+        /// State of that solve.
         FluidViscositySolve = viscosity_solve: ViscositySolve("1"), Scratch;
         /// Extremes over chunks of particles, for the time step.
         FluidExtremes = extremes: Extremes("m/s"), Scratch;
@@ -267,9 +263,9 @@ columns! {
         NodeVolume = volume: values("m^3"), Constant;
         /// Index of the node's sponge.
         NodeSponge = sponge: words("1"), Constant;
-        /// 0 for nodes of the outer surface, else 1: surface nodes do not suck.
+        /// 0 for nodes of the outer surface, else 1: surface nodes have no suction.
         NodeSuction = suction: values("1"), Constant on host;
-        /// Kernel sum of node volumes at the node, at rest: what saturation is measured against.
+        /// Sum of node volumes times W at the node, at rest: the reference of saturation.
         NodeInterior = interior: values("1"), Constant on host;
         /// Body that holds the node, or `u32::MAX`.
         NodeGrip = grip: words("1") padded Word(u32::MAX), Constant;
@@ -279,43 +275,44 @@ columns! {
         NodeTopology = topology: Topology("1"), Constant on host;
         /// Neighbours and tets of every node.
         NodeStars = stars: Stars("1"), Constant on host;
-        /// Place of the node in the lattice at rest; w: how flat the surface is there, 1 on a face, 0 inside, see `pbd::pairs`.
+        /// Position of the node in the lattice at rest; w: flatness of the surface there, 1 on a face, 0 inside, see
+        /// `pbd::pairs`.
         NodeRest = rest: rows("m"; FLATNESS 3 "1"), Constant on host;
-        /// Outward normal of the surface of the sponge; w: area that the node stands for \[m^2\], 0 inside and where no sponge
-        /// can touch it.
+        /// Outward normal of the surface of the sponge; w: area that the node stands for \[m^2\], 0 inside and where no
+        /// sponge can touch it.
         NodeNormal = normal: rows("1"; AREA 3 "m^2"), Scratch, needs Touch;
-        /// For every surface node, those of other sponges or of its own that it may touch in this step.
+        /// For every surface node, the nodes of other sponges or of its own that it may touch in this step.
         NodePairs = pairs: Neighbors("1"), Scratch, needs Touch;
-        /// Force by what the node touches of sponges; w: lowest index of another sponge that it touches, or of its own.
+        /// Contact force of sponges on the node; w: lowest index of another sponge in contact, or of its own.
         NodeTouch = touch: rows("N"; LOWEST_SPONGE 3 "1"), Scratch, needs Touch;
-        /// Derivative of that force by the place of the node, with the opposite sign, along the axes: xx, yy, zz; w: highest index
-        /// of another sponge that it touches, or of its own.
+        /// Negative derivative of that force by the position of the node, along the axes: xx, yy, zz; w: highest index of
+        /// another sponge in contact, or of its own.
         NodeTouchStiffness = touch_stiffness: rows("N/m"; HIGHEST_SPONGE 3 "1"), Scratch, needs Touch;
         /// The same between the axes: xy, xz, yz.
         NodeTouchBetween = touch_between: rows("N/m"), Scratch, needs Touch;
-        /// Where the node would go without elastic forces and drag; w: its mass \[kg\], 0 for a held node.
+        /// Position of the node without elastic forces and drag; w: its mass \[kg\], 0 for a held node.
         NodeFree = free: rows("m"; MASS 3 "kg"), Scratch;
-        /// Where inertia and the drag of the fluid draw the node; w: the mass with which they do \[kg\].
+        /// Target of the node by inertia and the drag of the fluid; w: the mass of both \[kg\].
         NodeTarget = target: rows("m"; MASS 3 "kg"), Scratch;
-        /// What walls, bodies and grips gave to the node in this step; w: its mass if it is free to move, else minus the
-        /// mass that would resist like what holds it \[kg\].
+        /// Impulse of walls, bodies and grips on the node in this step; w: its mass if it is free to move, else the negative
+        /// mass equivalent to the stiffness of what holds it \[kg\].
         NodeReaction = reaction: rows("N s"; MASS 3 "kg"), Scratch;
         /// Predicted position, corrected by the constraints; w: inverse mass \[1/kg\].
         NodePredicted = predicted: rows("m"; INVERSE_MASS 3 "1/kg") padded Row(FAR_ROW), Scratch;
         /// External acceleration, by gravity and the fluid.
         NodeAcceleration = acceleration: rows("m/s^2"), Scratch;
-        /// Volume of the sponge around the node over that at rest \[1\]; times it: rate of the drag, and what the speed of
-        /// the water beside the sponge adds to that \[1/m\]; w: porosity \[1\].
+        /// Volume ratio of the sponge around the node \[1\]; times it: drag rate, and its derivative by the relative speed
+        /// of the water \[1/m\]; w: porosity \[1\].
         NodePores = pores: rows(; VOLUME_RATIO 0 "1", DRAG_RATE 1 "1/s", INERTIAL_DRAG_RATE 2 "1/m", POROSITY 3 "1"), Scratch;
-        /// Pore volume filled with fluid, over pore volume.
+        /// Water-filled pore volume over pore volume.
         NodeSaturation = saturation: values("1"), Scratch;
-        /// How wet the material of the node is, 0 to 1; its saturation in this step, at most 1; share of the receding
-        /// capillary pressure in its suction; w: how easily water moves through partly filled pores. Empty where no property
-        /// of a sponge depends on them, see `couple::wetting`.
+        /// Wetness of the material of the node, 0 to 1; its saturation in this step, at most 1; share of the receding
+        /// capillary pressure in its suction; w: mobility of the water, k_r / S. Empty where no property of a sponge depends
+        /// on wetness, see `couple::wetting`.
         NodeWetting = wetting: rows(; WETNESS 0 "1", SATURATION 1 "1", RECEDING_SHARE 2 "1", MOBILITY 3 "1"), State, needs Wetting;
-        /// Impulse of the drag of the fluid in this step; w: mass of the fluid that the node takes along \[kg\].
+        /// Impulse of the drag of the fluid in this step; w: mass of the fluid that moves with the node \[kg\].
         NodeDrag = drag: rows("N s"; MASS 3 "kg"), Scratch;
-        /// Moment of that impulse about the node: it acts where the particles are.
+        /// Moment of that impulse about the node: drag acts at the particles.
         NodeDragMoment = drag_moment: rows("N m s"), Scratch;
         /// Extremes over chunks of nodes, for the time step.
         NodeExtremes = extremes: Extremes("m/s"), Scratch;
@@ -326,7 +323,8 @@ columns! {
         ControlNode = node: words("1") padded Word(u32::MAX), Scratch, needs Fluid;
         /// Position of the node; w: its volume \[m^3\].
         ControlPosition = position: rows("m"; VOLUME 3 "m^3") padded Row(FAR_ROW), Scratch, needs Fluid;
-        /// Velocity of the node, filtered by the drag of the fluid; w: share of the drag, see `couple::drag` \[1/kg\].
+        /// Velocity of the node, filtered by the drag of the fluid; w: number of particles that share it over its mass, see
+        /// `couple::control_velocity` \[1/kg\].
         ControlVelocity = velocity: rows("m/s"; DRAG_SHARE 3 "1/kg"), Scratch, needs Fluid;
         /// Velocity of the node before the filter; w: inverse mass \[1/kg\].
         ControlUnfiltered = unfiltered: rows("m/s"; INVERSE_MASS 3 "1/kg"), Scratch, needs Fluid;
@@ -334,22 +332,22 @@ columns! {
         ControlCells = cells: Cells("1"), Scratch on host;
         /// For every control, the particles within the suction radius.
         ControlFluid = fluid: Neighbors("1"), Scratch, needs Fluid;
-        /// For every entry of those lists, node volume times kernel.
+        /// For every entry of those lists, node volume times W.
         ControlFluidWeights = fluid_weights: ListValues("1"), Scratch on host;
-        /// Where the node is expected at the end of the step; w: volume of its material, without pores \[m^3\].
+        /// Expected position of the node at the end of the step; w: volume of its material, without pores \[m^3\].
         ControlSolid = solid: rows("m"; VOLUME 3 "m^3"), Scratch, needs Fluid;
-        /// Pore volume filled with fluid, over pore volume.
+        /// Water-filled pore volume over pore volume.
         ControlSaturation = saturation: values("1"), Scratch, needs Fluid;
-        /// Control pressure times volume: negative, so that it sucks.
+        /// Control pressure times volume: negative for suction.
         ControlSuction = suction: values("Pa m^3"), Scratch, needs Fluid;
     }
     /// Rigid bodies, one row per body.
     bodies body: BodyStore {
         /// Shapes, poses and velocities.
         BodyStates = states: Bodies("m"), State;
-        /// What the fluid gave to the bodies in this step.
+        /// Wrenches of the fluid on the bodies in this step.
         BodyFluidWrenches = fluid_wrenches: Wrenches("N s"), Scratch;
-        /// What the sponges gave to the bodies in this step.
+        /// Wrenches of the sponges on the bodies in this step.
         BodyNodeWrenches = node_wrenches: Wrenches("N s"), Scratch;
     }
 }

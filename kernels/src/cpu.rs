@@ -1,7 +1,7 @@
 //! The CPU that kernels run on: a SIMD level, a pool of threads, and chunks of rows of fixed size.
 //!
-//! A chunk always has [`CHUNK`] rows whatever the number of threads, a row is written only by its own chunk,
-//! and sums over chunks are taken in the order of the chunks: threads change who computes, never what.
+//! A chunk always has [`CHUNK`] rows whatever the number of threads, and only its own chunk writes a row. Sums over chunks
+//! are taken in the order of the chunks. Results therefore do not depend on the number of threads.
 
 use std::fmt;
 #[cfg(feature = "threads")]
@@ -12,23 +12,23 @@ use crate::lanes::SimdLevel;
 /// Rows of a chunk.
 pub const CHUNK: usize = 64;
 
-/// Why a CPU context could not be made.
+/// Error of a CPU context.
 #[derive(Debug, thiserror::Error)]
 pub enum CpuError {
     /// The machine lacks the level.
     #[error("SIMD level `{level}` is not supported by this machine; supported: {supported}")]
     UnsupportedLevel {
-        /// What was asked for.
+        /// The requested level.
         level: SimdLevel,
-        /// What there is.
+        /// The supported levels.
         supported: String,
     },
     /// The number of threads is out of range, or the package was built without threads.
     #[error("{threads} threads asked for: {reason}")]
     Threads {
-        /// What was asked for.
+        /// The requested number.
         threads: usize,
-        /// Why not.
+        /// The reason.
         reason: String,
     },
 }
@@ -152,8 +152,8 @@ impl Cpu {
         });
     }
 
-    /// [`Self::for_chunks`] with working memory that lasts from chunk to chunk of a thread. What a body finds in it
-    /// must not show in what the body writes.
+    /// [`Self::for_chunks`] with working memory that a thread keeps from chunk to chunk. Its content must not affect the
+    /// results.
     pub(crate) fn for_chunks_with<M: Default, R: Rows>(
         &self,
         rows: R,
@@ -183,7 +183,7 @@ impl Cpu {
             }
             return;
         }
-        // Contiguous ranges per thread keep a chunk's data in the cache of one core from pass to pass.
+        // Contiguous ranges per thread keep the data of a chunk in the cache of one core from pass to pass.
         let left_parts = parts / 2;
         let left_chunks = chunks * left_parts / parts;
         let at = rows.rows().min(left_chunks * chunk);
@@ -204,7 +204,7 @@ impl Cpu {
     }
 }
 
-/// Rows that can be cut in two, to be handed to different threads.
+/// Rows that can be divided among threads.
 pub(crate) trait Rows: Send + Sized {
     /// Number of rows.
     fn rows(&self) -> usize;

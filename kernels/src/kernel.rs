@@ -1,4 +1,4 @@
-//! A kernel: what it reads and writes, what it needs, and how the CPU computes it.
+//! A kernel: its declaration, and its body for the CPU.
 
 #[cfg(feature = "gpu")]
 use crate::gpu::twins::Pass;
@@ -10,7 +10,7 @@ use crate::{
 
 pub use crate::need::Need;
 
-/// Columns that only the twin of a kernel reads or writes, because it has no other way to find or keep them.
+/// Columns that only the twin of a kernel reads or writes.
 #[cfg(all(test, feature = "gpu"))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TwinAccess {
@@ -40,16 +40,16 @@ pub struct Kernel {
     pub oracle: Oracle,
     /// Largest error of a column against the oracle, over the scale of its changes.
     ///
-    /// Rounding to f32 is 6e-8 of a value; sums of tens of terms and the Tait equation (seventh power) lose a little more.
+    /// Rounding to f32 is 6e-8 of a value. Sums of tens of terms and the Tait equation (seventh power) lose slightly more.
     /// Displacements of nodes are differences of positions that are a hundred times larger. Each bound is about four times
-    /// what was found.
+    /// the measured error.
     #[cfg(test)]
     pub(crate) bound: f64,
-    /// Largest error of the twin against the body for the CPU. As [`Self::bound`] but for sums that the two add up in another
-    /// order: the CPU adds up the 7000 particles of a node in the largest scene one after the other, a twin in thirty-two parts.
+    /// Largest error of the twin against the body for the CPU. As [`Self::bound`], except for sums in another order: the CPU
+    /// sums the 7000 particles of a node in the largest scene one after the other, a twin in thirty-two parts.
     #[cfg(all(test, feature = "gpu"))]
     pub(crate) twin_bound: f64,
-    /// What the twin reads and writes beyond [`Self::reads`] and [`Self::writes`].
+    /// Columns that the twin reads and writes beyond [`Self::reads`] and [`Self::writes`].
     #[cfg(all(test, feature = "gpu"))]
     pub(crate) twin_access: TwinAccess,
     /// The passes of the WGSL twin, in order.
@@ -87,8 +87,8 @@ impl Kernel {
     }
 }
 
-/// Declares the kernel of a module, `KERNEL`, with the path of the module for a name. The body is the function `cpu` of the module;
-/// `oracle` is the path of a function, `twin` a list of [`Pass`]es.
+/// Declares the kernel of a module, `KERNEL`, with the path of the module as its name. The body is the function `cpu` of the
+/// module, `oracle` the path of a function, and `twin` a list of [`Pass`]es.
 macro_rules! declare {
     (
         needs: [$($need:ident$(($solver:ident))?),* $(,)?],

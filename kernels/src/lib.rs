@@ -1,8 +1,9 @@
-//! How a phase of sorb computes: columns, kernel table, CPU bodies and oracles.
+//! Computation of the phases of a step: columns, kernel table, CPU bodies and oracles.
 //!
-//! One file per kernel. A kernel's name is its path: `sph::density` is `sph/density.rs`. It declares what it
-//! reads and writes, and has a body for the CPU that is generic over the SIMD level and runs on fixed chunks of
-//! rows; its oracle, a brute-force loop in f64, is in `oracle` (tests and feature `oracles`). Kernels know no scene, and no other kernel.
+//! There is one file per kernel. A kernel's name is its path: `sph::density` is `sph/density.rs`. It declares what it reads
+//! and writes, and has a body for the CPU that is generic over the SIMD level and runs on fixed chunks of rows. Its oracle,
+//! a brute-force loop in f64, is in `oracle` (tests and feature `oracles`). Kernels depend on no scene, and on no other
+//! kernel.
 
 pub mod asleep;
 pub mod body;
@@ -53,8 +54,8 @@ kernels! {
     } shared {
         pub cells, pub neighbors, pub(crate) scan, search, pub(crate) sort,
     }
-    /// The fluid: smoothed particle hydrodynamics, with an equation of state (the paper, section 3.1) or with a solve for
-    /// the pressure that keeps the density \[BK17\].
+    /// The fluid: smoothed particle hydrodynamics, with an equation of state (the paper, section 3.1) or with a pressure
+    /// solve \[BK17\].
     sph {
         density, pressure, forces, surface_tension, deficit, cohesion, repulsion, boundary_pressure,
         wall_friction, kick, viscosity_begin, viscosity_product, viscosity_update, viscosity_reaction,

@@ -1,4 +1,4 @@
-//! What a phase or a column is for.
+//! Content of a scene that a phase or a column is for.
 
 use crate::params::Solver;
 
@@ -9,9 +9,9 @@ pub enum Need {
     Fluid,
     /// A sponge.
     Sponge,
-    /// A sponge that this solver solves.
+    /// A sponge with this solver.
     Solver(Solver),
-    /// A sponge whose solver moves nodes first and contact afterwards.
+    /// A sponge whose solver moves nodes first and handles contact afterwards.
     Projection,
     /// Walls of a container, or bodies.
     Obstacles,
@@ -19,21 +19,21 @@ pub enum Need {
     Bodies,
     /// Fluid with surface tension from the colour field.
     SurfaceTension,
-    /// Fluid with surface tension from an energy of the surface.
+    /// Fluid with surface tension from a surface energy.
     Cohesion,
-    /// Walls or bodies that the fluid does not slide along.
+    /// No-slip walls or bodies.
     NoSlip,
-    /// Viscosity as part of the forces.
+    /// Explicit viscosity, as part of the forces.
     ExplicitViscosity,
-    /// Viscosity as a solve for the velocities at the end of the step.
+    /// Implicit viscosity, as a solve for the velocities at the end of the step.
     ImplicitViscosity,
     /// Pressure by an equation of state.
     EquationOfState,
-    /// Pressure by a solve that keeps the density.
+    /// A pressure solve, or position based fluids.
     Incompressible,
     /// Sponges as porous media: their material displaces fluid.
     Porous,
-    /// A sponge with properties that depend on how wet it is.
+    /// A sponge with properties that depend on wetness.
     Wetting,
     /// A sponge that can touch another or itself.
     Touch,

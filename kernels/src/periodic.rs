@@ -1,8 +1,7 @@
-//! Axes on which space repeats: what leaves the box on one side enters it on the other, and pairs see each other across.
+//! Periodic axes: what leaves the box on one side enters it on the other, and pairs interact across the sides.
 //!
-//! Particles stay in the box, so that two of them are at most one period apart and the nearest image of one beside the
-//! other is found by at most one shift. Nothing is closer to two images at once, because a period is longer than two
-//! support radii.
+//! Particles stay in the box. Two of them are at most one period apart, and one shift leads to the nearest image. A particle
+//! interacts with at most one image of another, because a period is longer than two support radii.
 
 use glam::Vec3;
 
@@ -11,7 +10,7 @@ use crate::{
     vector::{Vec3x8, minus, plus, splat},
 };
 
-/// A box that repeats along some of its axes.
+/// A box with periodic axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Periodic {
     low: Vec3,
@@ -20,19 +19,19 @@ pub struct Periodic {
 }
 
 impl Periodic {
-    /// A box from corner to corner \[m\] that repeats along the axes that are marked; none if no axis is.
+    /// A box from corner to corner \[m\] with the marked axes periodic; none if no axis is.
     #[must_use]
     pub fn new(low: Vec3, high: Vec3, axes: [bool; 3]) -> Option<Self> {
         axes.contains(&true).then_some(Self { low, high, axes })
     }
 
-    /// Length of the box along the axes on which it repeats, and zero along the others \[m\].
+    /// Length of the box along its periodic axes, and zero along the others \[m\].
     #[must_use]
     pub fn periods(&self) -> Vec3 {
         Vec3::select(self.axes.into(), self.high - self.low, Vec3::ZERO)
     }
 
-    /// Half of the periods; along the other axes farther than any two points are apart.
+    /// Half of the periods; along the other axes larger than any distance.
     #[must_use]
     pub(crate) fn halves(&self) -> Vec3 {
         Vec3::select(self.axes.into(), 0.5 * (self.high - self.low), Vec3::MAX)
@@ -44,13 +43,13 @@ impl Periodic {
         (self.low, self.high)
     }
 
-    /// `point` with the middle of the box on the axes on which it repeats.
+    /// `point` with the middle of the box along periodic axes.
     #[must_use]
     pub(crate) fn centred(&self, point: Vec3) -> Vec3 {
         Vec3::select(self.axes.into(), 0.5 * (self.low + self.high), point)
     }
 
-    /// Puts a point into the box, along the axes on which it repeats; what is not finite does not become so.
+    /// Wraps a point into the box along periodic axes; values that are not finite stay so.
     pub(crate) fn wrap(&self, point: &mut [f32; 4]) {
         for axis in (0..3).filter(|axis| self.axes[*axis]) {
             let (low, high) = (self.low[axis], self.high[axis]);
@@ -63,8 +62,8 @@ impl Periodic {
         }
     }
 
-    /// Replaces `shifts` by those of the images of the box that come within the radius of a box in it, the box itself
-    /// left out.
+    /// Replaces `shifts` by those of the images of the box that come within the radius of a box in it, without the box
+    /// itself.
     pub(crate) fn shifts(&self, low: [f32; 3], high: [f32; 3], radius: f32, shifts: &mut Vec<[f32; 3]>) {
         shifts.clear();
         shifts.push([0.0; 3]);
@@ -87,13 +86,13 @@ impl Periodic {
     }
 }
 
-/// How far apart particles are: the only thing in which passes over neighbours differ where space repeats. A type of its
-/// own for space that does not, so that it pays nothing.
+/// Difference of positions: the only thing in which passes over neighbours differ with periodic axes. Space without them has
+/// a type of its own, so that it pays nothing.
 pub(crate) trait Space<S: Simd>: Copy {
-    /// `a - b`, with the image of b that is nearest to a.
+    /// `a - b`, with the nearest image of b.
     fn apart(self, a: Vec3x8<S>, b: Vec3x8<S>) -> Vec3x8<S>;
 
-    /// `point`, which is a measured from anywhere, for that image of a that is nearest to the rows `entry` of `positions`.
+    /// `point`, relative to a, for the image of a that is nearest to the rows `entry` of `positions`.
     fn seen_from(
         self,
         simd: S,
@@ -103,7 +102,7 @@ pub(crate) trait Space<S: Simd>: Copy {
     ) -> Vec3x8<S>;
 }
 
-/// Space that does not repeat.
+/// Space without periodic axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Plain;
 
@@ -125,7 +124,7 @@ impl<S: Simd> Space<S> for Plain {
     }
 }
 
-/// Space that repeats.
+/// Space with periodic axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Repeated<S: Simd> {
     zero: f32x8<S>,
@@ -140,7 +139,7 @@ impl<S: Simd> Repeated<S> {
         Self { zero: lanes::splat(simd, 0.0), periods: splat(simd, periods), halves: splat(simd, halves) }
     }
 
-    /// What a difference of two positions lacks to be that to the nearest image. Padding rows are farther away than any
+    /// Shift from the difference of two positions to that of the nearest image. Padding rows are farther away than any
     /// period: one shift leaves them there.
     #[inline(always)]
     fn shift(self, apart: Vec3x8<S>) -> Vec3x8<S> {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{body::Wrench, column::ColumnData};
 
-/// What bounds the time step, over one chunk of rows.
+/// Extremes for the bounds of the time step, over one chunk of rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
     /// Largest squared speed \[m^2/s^2\].
@@ -53,7 +53,7 @@ impl ColumnData for Extremes {
 pub struct Wrenches(pub(crate) Vec<Wrench>);
 
 impl Wrenches {
-    /// What one body of `bodies` received, chunks added up in order.
+    /// Wrench on one body of `bodies`, summed over the chunks in order.
     #[must_use]
     pub fn total(&self, body: usize, bodies: usize) -> Wrench {
         let mut total = Wrench::default();

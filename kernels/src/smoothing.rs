@@ -1,24 +1,23 @@
-//! The smoothing function: Wendland's C2 kernel \[W95; DA12\].
+//! The smoothing function W(r): Wendland's C2 function \[W95; DA12\].
 //!
 //! ```text
 //! W(r) = 21 / (2 pi H^3) (1 - q)^4 (4 q + 1),   q = r / H < 1
 //! ```
 //!
-//! Differs from the paper, which names no kernel: it is its own gradient's potential (density and pressure
-//! agree, so that pressure conserves energy), it never lets particles pair, and gradient and value need one
-//! square root and no division.
+//! Differs from the paper, which names no function. Its gradient is consistent with its value, so that pressure conserves
+//! energy. It has no pairing instability. Gradient and value need one square root and no division.
 
 use std::f64::consts::PI;
 
 use crate::lanes::{self, Simd, f32x8, prelude::*};
 
-/// What is added to squared distances where they are divided by, over the square of the support radius.
+/// Term added to squared distances in denominators, over the square of the support radius.
 const SOFTENING: f64 = 0.0025;
 
-/// Wendland's C2 kernel for one support radius.
+/// Wendland's C2 function for one support radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wendland {
-    /// Distance at which the kernel becomes zero, H \[m\].
+    /// Distance at which the function becomes zero, H \[m\].
     pub support_radius: f32,
     inverse_radius: f32,
     value: f32,
@@ -28,7 +27,7 @@ pub struct Wendland {
 }
 
 impl Wendland {
-    /// The kernel with the given support radius H \[m\].
+    /// The function with the given support radius H \[m\].
     #[must_use]
     pub fn new(support_radius: f32) -> Self {
         let h = f64::from(support_radius);
@@ -60,15 +59,15 @@ impl Wendland {
         if q < 1.0 { 210.0 / (PI * support_radius.powi(5)) * (1.0 - q).powi(3) } else { 0.0 }
     }
 
-    /// Sum of `spacing^3 W` over a cubic lattice with a particle at the origin: 1 for a perfect kernel.
+    /// Sum of `spacing^3 W` over a cubic lattice with a particle at the origin: 1 if it equals the integral.
     #[must_use]
     pub fn lattice_sum(support_radius: f64, spacing: f64) -> f64 {
         let value = |distance| spacing.powi(3) * Self::value_f64(support_radius, distance);
         over_lattice(support_radius, spacing, value)
     }
 
-    /// What the Laplacian of \[MCG03, eq. 22\] makes of a Laplacian of 1 in a cubic lattice whose density is right: 1 for a
-    /// perfect kernel, 0.96 at a support of two spacings.
+    /// The sum of \[MCG03, eq. 22\] for a Laplacian of 1 in a cubic lattice of the right density: 1 if it equals the
+    /// integral, 0.96 at a support of two spacings.
     #[must_use]
     pub fn lattice_viscosity(support_radius: f64, spacing: f64) -> f64 {
         let scale = 45.0 / (PI * support_radius.powi(5)) / 6.0;
@@ -77,8 +76,8 @@ impl Wendland {
         sum * spacing.powi(3) / Self::lattice_sum(support_radius, spacing)
     }
 
-    /// The same for the viscosity along the line between particles \[M92, eq. 4.1\], as the mean over all directions of
-    /// the lattice: along its axes it is less, across its diagonals more.
+    /// The same for the viscosity along the line between particles \[M92, eq. 4.1\], as the mean over all directions of the
+    /// lattice: less along its axes, more across its diagonals.
     #[must_use]
     pub fn lattice_central_viscosity(support_radius: f64, spacing: f64) -> f64 {
         let softening = SOFTENING * support_radius * support_radius;
@@ -87,7 +86,7 @@ impl Wendland {
             / Self::lattice_sum(support_radius, spacing)
     }
 
-    /// What is added to squared distances where they are divided by: a twentieth of H, squared \[m^2\].
+    /// Term added to squared distances in denominators: a twentieth of H, squared \[m^2\].
     #[must_use]
     pub fn softening(&self) -> f32 {
         SOFTENING as f32 * self.support_radius * self.support_radius
@@ -99,7 +98,7 @@ impl Wendland {
         [self.inverse_radius, self.value, self.gradient, self.laplacian, self.viscosity]
     }
 
-    /// The kernel on eight lanes.
+    /// The function on eight lanes.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, simd: S) -> WendlandLanes<S> {
         let splat = |value| lanes::splat(simd, value);
@@ -114,7 +113,7 @@ impl Wendland {
     }
 }
 
-/// The kernel on eight lanes; all values are exact zeros at and beyond the support radius.
+/// The function on eight lanes; all values are exact zeros at and beyond the support radius.
 #[derive(Clone, Copy)]
 pub(crate) struct WendlandLanes<S: Simd> {
     simd: S,
@@ -126,7 +125,7 @@ pub(crate) struct WendlandLanes<S: Simd> {
 }
 
 impl<S: Simd> WendlandLanes<S> {
-    /// u = 1 - r / H, not below zero, from the squared distance.
+    /// u = 1 - r / H, at least zero, from the squared distance.
     #[inline(always)]
     pub(crate) fn closeness(self, distance_squared: f32x8<S>) -> f32x8<S> {
         let closeness = lanes::splat(self.simd, 1.0) - distance_squared.sqrt() * self.inverse_radius;
@@ -158,7 +157,7 @@ impl<S: Simd> WendlandLanes<S> {
         self.laplacian
     }
 
-    /// The Laplacian of the viscosity kernel of \[MCG03, eq. 22\] is `viscosity_scale u`, never negative.
+    /// The Laplacian of the viscosity function of \[MCG03, eq. 22\] is `viscosity_scale u`, never negative.
     #[inline(always)]
     pub(crate) fn viscosity_scale(self) -> f32x8<S> {
         self.viscosity
@@ -198,9 +197,9 @@ mod tests {
     fn the_integral_of_the_kernel_is_one() {
         let h = 0.37;
         assert!((integral(h, |r| Wendland::value_f64(h, r)) - 1.0).abs() < 1e-6);
-        // The control: a support that is 1 % too small is noticed.
+        // Negative control: a support that is 1 % too small is noticed.
         assert!((integral(h, |r| Wendland::value_f64(h * 0.99, r * 1.01)) - 1.0).abs() > 1e-3);
-        // Second moment of the viscosity kernel's Laplacian: 6, so that it gives the true Laplacian.
+        // Second moment of the Laplacian of the viscosity function: 6, so that it gives the true Laplacian.
         let viscosity = 45.0 / (PI * h.powi(5));
         assert!((integral(h, |r| r * r * viscosity * (1.0 - r / h)) - 6.0).abs() < 1e-5);
     }
@@ -241,7 +240,7 @@ mod tests {
     fn lattice_viscosity_tends_to_one() {
         let both = |h| [Wendland::lattice_viscosity(h, 1.0), Wendland::lattice_central_viscosity(h, 1.0)];
         for (coarse, fine) in both(2.0).into_iter().zip(both(8.0)) {
-            // What divisions are softened by stays.
+            // The softening of denominators remains.
             assert!((coarse - 1.0).abs() > 0.03 && (fine - 1.0).abs() < 0.012, "{coarse} {fine}");
         }
     }

@@ -1,17 +1,18 @@
-//! The way of points through a step, and the body that it would lead into.
+//! Path of points through a step, and its first intersection with a body.
 //!
-//! In the frame of the body, which moves and turns itself, a point goes straight from p to q. It is followed by steps that
-//! are safe \[H96\] until it meets the body at x:
+//! In the frame of the body, which moves and rotates, a point moves on a straight line from p to q. Sphere tracing \[H96\]
+//! follows it to the intersection x with the body:
 //!
 //! ```text
 //! x = p,   x <- x + D(x) (q - p) / |q - p|   until D(x) is nearly 0, or more than what is left of the way
 //! ```
 //!
-//! D is the distance from the surface less a margin, n the normal there. What counts is how far q lies behind the plane
-//! through the surface at x, `D(x) + (q - x) . n`, and not the distance of q, which may have passed the body: shapes are
-//! convex, so that what is outside of the plane is outside of the body, at any speed and of any thickness.
+//! D is the distance from the surface less a margin, and n the normal there. The depth is that of q behind the tangent plane
+//! at x, `D(x) + (q - x) . n`, not the distance of q, which may have passed the body. Shapes are convex, so that a point
+//! outside of the plane is outside of the body, at any speed and thickness.
 //!
-//! Particles are followed to where the body is at the end of the step, and what begins below the margin goes no deeper:
+//! For particles the body is at its place of the end of the step, and a particle that begins below the margin goes no
+//! deeper:
 //!
 //! ```text
 //! q <- q - min(0, max(0, D(x)) + (q - x) . n) n
@@ -23,12 +24,13 @@ use crate::{
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
-/// Most steps along a way: one that passes a surface at a grazing angle ends as if it met it where they end.
+/// Largest number of steps along a path. One that passes a surface at a grazing angle counts as an intersection where they
+/// end.
 pub(crate) const ADVANCES: usize = 12;
-/// Distance that counts as nothing, over the length of the way.
+/// Distance that counts as zero, over the length of the path.
 pub(crate) const NEARLY: f32 = 1.0e-3;
 
-/// Where ways meet a body.
+/// Intersections of paths with a body.
 pub(crate) struct Met<S: Simd> {
     /// D(x) \[m\].
     pub(crate) distance: f32x8<S>,
@@ -38,7 +40,7 @@ pub(crate) struct Met<S: Simd> {
     pub(crate) normal: Vec3x8<S>,
 }
 
-/// Follows ways from `from` to `to` in the frame of a body, to `margin` above its surface \[m\].
+/// Follows paths from `from` to `to` in the frame of a body, to `margin` above its surface \[m\].
 #[inline(always)]
 pub(crate) fn met<S: Simd>(
     simd: S,
@@ -59,7 +61,7 @@ pub(crate) fn met<S: Simd>(
         if !goes.any_true() {
             break;
         }
-        // Points that have arrived stay: the same place gives the same distance.
+        // Points that have arrived stay: the same position gives the same distance.
         let advance = select(goes, distance, zero);
         at = plus(at, times(direction, advance));
         left -= advance;
@@ -78,7 +80,7 @@ pub(crate) struct Swept<'a, S: Simd> {
 }
 
 impl<'a, S: Simd> Swept<'a, S> {
-    /// Points are kept `margin` away from the surface \[m\].
+    /// Points keep a distance of `margin` from the surface \[m\].
     #[inline(always)]
     pub(crate) fn new(simd: S, [before, after]: [&'a Body; 2], margin: f32) -> Self {
         Self {
@@ -89,7 +91,7 @@ impl<'a, S: Simd> Swept<'a, S> {
         }
     }
 
-    /// What has to be added to the places `to` at the end of the step of points that begin it at `from`.
+    /// Correction of the positions `to` at the end of the step of points that begin it at `from`.
     #[inline(always)]
     pub(crate) fn correction(&self, from: Vec3x8<S>, to: Vec3x8<S>) -> Vec3x8<S> {
         let simd = self.simd;

@@ -1,5 +1,5 @@
-// Thirty-two threads share the list of a control, which is long: eight controls a group. `list` has one row a control:
-// its length, then its entries.
+// Thirty-two threads share the long list of a control: eight controls per workgroup. `list` has one row per control: its
+// length, then its entries.
 
 var<workgroup> parts: array<vec4<f32>, 256>;
 
@@ -18,7 +18,7 @@ fn control_sum(lane: u32, own: vec4<f32>) -> vec4<f32> {
     }
     workgroupBarrier();
     let sum = parts[lane & 224u];
-    // The next sum begins where this one was read.
+    // The next sum overwrites the memory of this one.
     workgroupBarrier();
     return sum;
 }

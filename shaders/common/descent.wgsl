@@ -1,5 +1,5 @@
-// The energy of one node while all others stand still, and obstacles in its way; `descent.rs` and `obstacles.rs` have the
-// formulas. Uses the bindings `params`, `node_stars`, `node_position`, `node_predicted`, and `bodies`.
+// The energy of one node while all others are fixed, and its obstacles; `descent.rs` and `obstacles.rs` have the formulas.
+// Uses the bindings `params`, `node_stars`, `node_position`, `node_predicted`, and `bodies`.
 
 const LEAST_COMPLIANCE: f32 = 0.1;
 const SOLID: f32 = 0.2;
@@ -7,7 +7,7 @@ const SOLID: f32 = 0.2;
 struct Local {
     force: vec3<f32>,
     stiffness: mat3x3<f32>,
-    // The largest change of the volume of a tet, of either sign, over that at rest.
+    // The largest volume change of a tet, of either sign, over the volume at rest.
     strain: f32,
 }
 
@@ -27,7 +27,7 @@ fn outer(a: vec3<f32>, b: vec3<f32>) -> mat3x3<f32> {
 }
 
 fn inverse_of(matrix: mat3x3<f32>) -> mat3x3<f32> {
-    // Over its trace: the determinant of stiff material in short steps would be more than a number can be.
+    // Divided by its trace: the determinant of stiff material in short steps would overflow.
     let small = 1.0 / (matrix[0].x + matrix[1].y + matrix[2].z);
     let m = matrix * small;
     let a = cross(m[1], m[2]);
@@ -41,7 +41,7 @@ fn diagonal(value: f32) -> mat3x3<f32> {
     return mat3x3<f32>(vec3<f32>(value, 0.0, 0.0), vec3<f32>(0.0, value, 0.0), vec3<f32>(0.0, 0.0, value));
 }
 
-// Force by the viscosity of one tet, given the columns of its deformation now and before, times the edge.
+// Viscous force of one tet, from the columns of its deformation now and before, times the edge.
 fn viscosity(f: mat3x3<f32>, g: mat3x3<f32>, sponge: Sponge, rate: f32) -> Local {
     let shear = sponge.edge * sponge.mu / 12.0;
     let volume = sponge.edge * sponge.lambda / 12.0;
@@ -73,7 +73,7 @@ fn wetness_of(row: u32) -> f32 {
     return bitcast<f32>(node_stars[row * STAR + WETNESS]);
 }
 
-// Force by what a node touches of sponges, its stiffness along the axes and between them, from behind the stars.
+// Contact force of a node, its stiffness along the axes and between them, from behind the stars.
 fn touch_of(row: u32) -> array<vec3<f32>, 3> {
     let base = params.node_rows * STAR + row * TOUCH;
     var all = array<vec3<f32>, 3>();
@@ -85,7 +85,7 @@ fn touch_of(row: u32) -> array<vec3<f32>, 3> {
     return all;
 }
 
-// Force on a node at `x` by its material and by what it touches of sponges, and its stiffness.
+// Force on a node at `x` by its material and its contacts, and its stiffness.
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
     let base = row * STAR;
     let tets = node_stars[base + TETS];
@@ -94,7 +94,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     let dry_volume = sponge.edge * sponge.lambda / 12.0;
     let dry_rate = sponge.damping / step;
     let becomes_wet = sponge.softening > 0.0 || sponge.swelling > 0.0;
-    // Of a tet, which is as wet as its nodes on average; `wetted.rs` has the formulas.
+    // Of a tet with the mean wetness of its nodes; `wetted.rs` has the formulas.
     var edge = sponge.edge;
     var inverse_edge = 1.0 / edge;
     var shear = dry_shear;
@@ -116,7 +116,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             if (((tets >> tet) & 1u) == 0u) {
                 continue;
             }
-            // Where there is no table, all weights are 1.
+            // Without a table all weights are 1.
             var weight = 1.0;
             if (weights != 0u) {
                 weight = bitcast<f32>(node_stars[weights + tet]);
@@ -165,13 +165,13 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             vec3<f32>(touch[2].x, touch[1].y, touch[2].z),
             vec3<f32>(touch[2].y, touch[2].z, touch[1].z),
         );
-        // What touches something goes to its least energy, and not further.
+        // A node in contact moves to its minimum, without over-relaxation.
         strain += select(0.0, 1.0, touch[1].x + touch[1].y + touch[1].z > 0.0);
     }
     return Local(force, stiffness, strain);
 }
 
-// The way to where the energy is least without obstacles.
+// The way to the minimum of the energy without obstacles.
 fn least(local: Local, x: vec3<f32>, node_target: vec4<f32>, step: f32) -> Quadratic {
     let inertia = node_target.w / (step * step);
     let stiffness = local.stiffness + diagonal(inertia);
@@ -199,7 +199,7 @@ fn react(quadratic: Quadratic, depth: f32, normal: vec3<f32>, slide: vec3<f32>, 
     return Reaction(quadratic.inverse * force, force);
 }
 
-// What one body does to a point.
+// Contact of a point with one body.
 fn push_by_body(
     body: Body,
     quadratic: Quadratic,
@@ -209,7 +209,7 @@ fn push_by_body(
     step: f32,
 ) -> Reaction {
     let drift = body_velocity(body, point) * step;
-    // The body stands where it began the step: so is the node, in the body's frame.
+    // The body is at its place of the beginning of the step: so is the node, in the body's frame.
     let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
     let depth = -(met.distance + met.beyond);
     if (depth <= 0.0 || body.info.w == 0u) {
@@ -218,7 +218,7 @@ fn push_by_body(
     return react(quadratic, depth, out_of_body(body, met.normal), point - old - drift, body.surface.x);
 }
 
-// Where the walls leave a point, as `change` from it, and their force.
+// Position of a point after the walls, as `change` from it, and their force.
 fn push_by_walls(
     low: vec3<f32>,
     high: vec3<f32>,

@@ -1,5 +1,5 @@
-// Rate at which a surface that the fluid does not slide along slows a particle down at a distance, whatever the length of the step;
-// `wall_friction.rs` has the integral.
+// Rate of deceleration of a particle by a no-slip surface at a distance, without the limit by the step; `wall_friction.rs`
+// has the integral.
 
 const NEAREST: f32 = 0.125;
 

@@ -1,7 +1,7 @@
 // Cells over points: a dense grid, or a torus where the points may lie anywhere.
 //
-// On an axis that wraps, cells repeat: points far apart may share one, and the distance tells them apart. On the
-// others, what lies outside is kept in the outermost cell.
+// On an axis that wraps, cells repeat: distant points may share one, and the distance test separates them. On the others,
+// points outside are in the outermost cell.
 
 struct Grid {
     // w: one over the edge of a cell.
@@ -12,7 +12,7 @@ struct Grid {
     wrap: vec4<u32>,
 }
 
-// Distances in cells that rounding may hide: of the point, and of what it is compared with.
+// Rounding errors of distances in cells: of the point, and of the target.
 fn slack(coordinate: f32) -> f32 {
     return 0.002 + abs(coordinate) * 4.0e-7;
 }
@@ -21,7 +21,7 @@ fn coordinate_of(grid: Grid, value: f32, axis: u32) -> f32 {
     return (value - grid.origin[axis]) * grid.origin.w;
 }
 
-// A cell by its coordinate; not yet wrapped, but cut to the grid where it does not.
+// A cell by its coordinate; not yet wrapped, but clamped to the grid where it does not wrap.
 fn whole_cell(grid: Grid, coordinate: f32, axis: u32) -> i32 {
     let cell = i32(clamp(floor(coordinate), -1.0e9, 1.0e9));
     if (grid.wrap[axis] != 0u) {
@@ -45,7 +45,7 @@ fn cell_of(grid: Grid, point: vec3<f32>) -> u32 {
     return (z * grid.size.y + y) * grid.size.x + x;
 }
 
-// First and last cell of an axis that a ball may touch.
+// First and last cell of an axis that a ball may intersect.
 fn cells_around(grid: Grid, coordinate: f32, reach: f32, axis: u32) -> vec2<i32> {
     let low = whole_cell(grid, coordinate - reach, axis);
     let high = whole_cell(grid, coordinate + reach, axis);

@@ -1,6 +1,6 @@
-// The nearest images of neighbours where space repeats, as in `periodic.rs`.
+// The nearest periodic images of neighbours, as in `periodic.rs`.
 
-// What a difference of two positions lacks to be that to the nearest image.
+// Shift from the difference of two positions to that of the nearest image.
 fn image_shift(apart: vec3<f32>) -> vec3<f32> {
     if (params.periods.w == 0.0) {
         return vec3<f32>(0.0);
@@ -8,7 +8,7 @@ fn image_shift(apart: vec3<f32>) -> vec3<f32> {
     return select(vec3<f32>(0.0), -sign(apart) * params.periods.xyz, abs(apart) > params.half_periods.xyz);
 }
 
-// `a - b`, with the image of b that is nearest to a.
+// `a - b`, with the nearest image of b.
 fn apart_from(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
     let apart = a - b;
     if (params.periods.w == 0.0) {

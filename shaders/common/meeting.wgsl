@@ -1,5 +1,4 @@
-// Which sponges may touch, and what a pair of nodes is to each other; `pairs.rs` has the formulas. Used with the binding
-// `sponges`.
+// Sponges that may touch, and pairs of nodes; `pairs.rs` has the formulas. Used with the binding `sponges`.
 
 const FACING: f32 = 0.1;
 const ALIKE: f32 = 0.6;
@@ -21,7 +20,7 @@ fn contact_edge(sponge: u32) -> f32 {
     return sponges.all[sponge].edge * (1.0 + sponges.all[sponge].swelling);
 }
 
-// Facing is not above zero where the surfaces do not face each other; nothing else holds then.
+// `facing` is at most zero where the surfaces do not face each other; the other values are then invalid.
 fn pair_of(a: vec3<f32>, b: vec3<f32>, normal_a: vec3<f32>, normal_b: vec3<f32>) -> Pair {
     let weight_a = sqrt(dot(normal_a, normal_a));
     let weight_b = sqrt(dot(normal_b, normal_b));

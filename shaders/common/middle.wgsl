@@ -1,4 +1,4 @@
-// Where coordinates are taken from where their size would cost digits.
+// Origin of coordinates whose size would cost digits.
 fn middle() -> vec3<f32> {
     return params.middle.xyz;
 }

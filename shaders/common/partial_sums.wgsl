@@ -1,4 +1,4 @@
-// The sums of a group to its place among those of all groups.
+// Stores the sums of a workgroup among those of all workgroups.
 fn write_sums(group: u32, lane: u32, sums: Sums) {
     if (lane != 0u || group * 5u + 4u >= arrayLength(&partial_sums)) {
         return;

@@ -1,6 +1,6 @@
-// Share of walls and bodies in the volume around a point, as in `boundary.rs`: xyz its gradient, w the share.
+// Boundary volume fraction of walls and bodies around a point, as in `boundary.rs`: xyz its gradient, w the fraction.
 
-// Share, and its slope into the surface, at a distance.
+// Volume fraction, and its slope into the surface, at a distance.
 fn share_at(distance: f32) -> vec2<f32> {
     let depth = clamp(1.0 - distance / params.boundary_range, 0.0, 1.25);
     let square = depth * depth;

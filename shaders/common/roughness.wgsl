@@ -1,4 +1,4 @@
-// What of the roughness of the pressure the compression of a single step follows; `predict.rs` says why.
+// Stabilisation coefficient of a single step; `predict.rs` has the reason.
 fn prompt_roughness() -> f32 {
     if (params.roughness == 0.0) {
         return 0.0;

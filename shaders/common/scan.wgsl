@@ -1,4 +1,4 @@
-// Prefix sums over the threads of a group, in memory that they share; `scan_subgroup.wgsl` has the same functions.
+// Prefix sums over the threads of a workgroup, in its shared memory; `scan_subgroup.wgsl` has the same functions.
 
 struct Scan {
     // Sum over the threads before this one.

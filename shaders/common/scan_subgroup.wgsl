@@ -1,5 +1,5 @@
-// Prefix sums over the threads of a group, by operations within subgroups: what `scan.wgsl` does, for adapters that have
-// them and whose subgroups are runs of threads.
+// Prefix sums over the threads of a workgroup, by subgroup operations: as `scan.wgsl`, for adapters that have them and whose
+// subgroups are runs of threads.
 
 struct Scan {
     // Sum over the threads before this one.

@@ -1,6 +1,6 @@
-// Wendland's C2 kernel, as in `smoothing.rs`; all values are zero at and beyond the support radius.
+// Wendland's C2 function, as in `smoothing.rs`; all values are zero at and beyond the support radius.
 
-// u = 1 - r / H, not below zero, from the squared distance.
+// u = 1 - r / H, at least zero, from the squared distance.
 fn closeness(smoothing: Smoothing, square: f32) -> f32 {
     return max(1.0 - sqrt(square) * smoothing.inverse_radius, 0.0);
 }

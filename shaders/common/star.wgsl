@@ -1,13 +1,13 @@
-// The star of a node; `stars.rs` says what lies where. Used with the binding `stars`.
+// The star of a node; `stars.rs` has its layout. Used with the binding `stars`.
 
-// Words of a star: 8 corners, 6 directions, tets, sponge, bits of the wetness, place of the weights of the tets.
+// Words of a star: 8 corners, 6 directions, tets, sponge, bits of the wetness, index of the weights of the tets.
 const STAR: u32 = 18u;
 const DIRECTION: u32 = 8u;
 const TETS: u32 = 14u;
 const SPONGE: u32 = 15u;
 const WETNESS: u32 = 16u;
 const WEIGHTS: u32 = 17u;
-// Words of what touches a node, behind the stars of all nodes.
+// Words of the contact of a node, behind the stars of all nodes.
 const TOUCH: u32 = 9u;
 
 const RINGS = array<vec4<u32>, 6>(

@@ -1,6 +1,6 @@
-// Sums and largest values over the threads of a group, always in the same order.
+// Sums and maxima over the threads of a workgroup, always in the same order.
 
-// Four rows of sums and one of largest values.
+// Four rows of sums and one of maxima.
 struct Sums {
     a: vec4<f32>,
     b: vec4<f32>,

@@ -21,7 +21,7 @@ fn cuboid_surface(local: vec3<f32>, half: vec3<f32>) -> Surface {
     if (length > 0.0) {
         return Surface(sides * (outside * (1.0 / length)), length);
     }
-    // Inside, the face that is nearest.
+    // Inside, the nearest face.
     if (beyond.x >= beyond.y && beyond.x >= beyond.z) {
         return Surface(vec3<f32>(sides.x, 0.0, 0.0), beyond.x);
     }
@@ -77,7 +77,7 @@ fn turned(turn: vec4<f32>, axis: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v), 0.0);
 }
 
-// The body where it will be at the end of the step.
+// The body at the end of the step.
 fn at_end(body: Body) -> Body {
     var moved = body;
     moved.position = vec4<f32>(body.position.xyz + clock.step * body.linear.xyz, 0.0);

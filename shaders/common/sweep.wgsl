@@ -1,11 +1,11 @@
-// The way of a point through a step, and the body that it would lead into; `sweep.rs` has the rules.
+// Path of a point through a step, and its first intersection with a body; `sweep.rs` has the rules.
 
 const ADVANCES: u32 = 12u;
 const NEARLY: f32 = 1.0e-3;
-// Distance that nodes keep from bodies, in edges.
+// Clearance of nodes from bodies, in edges.
 const CLEARANCE: f32 = 1.0e-3;
 
-// Where a way meets a body: the distance there, and that of the end of the way from the plane less it.
+// Intersection of a path with a body: the distance there, and that of the end of the path from the plane less it.
 struct Met {
     distance: f32,
     beyond: f32,
@@ -21,7 +21,7 @@ fn out_of_body(body: Body, direction: vec3<f32>) -> vec3<f32> {
     return direction.x * body.x.xyz + direction.y * body.y.xyz + direction.z * body.z.xyz;
 }
 
-// Follows a way in the frame of the body.
+// Follows a path in the frame of the body.
 fn way_meets(body: Body, margin: f32, start: vec3<f32>, end: vec3<f32>) -> Met {
     let way = end - start;
     let length = sqrt(dot(way, way));
@@ -41,7 +41,7 @@ fn way_meets(body: Body, margin: f32, start: vec3<f32>, end: vec3<f32>) -> Met {
     return Met(surface.distance, dot(end - place, surface.normal), surface.normal);
 }
 
-// What has to be added to the place `end` of a point that begins the step at `start`.
+// Correction of the position `end` of a point that begins the step at `start`.
 fn swept(before: Body, after: Body, margin: f32, start: vec3<f32>, end: vec3<f32>) -> vec3<f32> {
     let surface = way_meets(before, margin, into_body(before, start), into_body(after, end));
     let beyond = min(max(surface.distance, 0.0) + surface.beyond, 0.0);

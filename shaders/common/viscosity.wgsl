@@ -1,5 +1,5 @@
-// The matrix of the implicit viscosity between a pair, as in `viscosity.rs`. `apart` leads from the
-// neighbour, and `relative` is what the own velocity has more, or another field in its place.
+// The matrix of the implicit viscosity between a pair, as in `viscosity.rs`. `apart` is the difference of positions to the
+// neighbour, and `relative` that of velocities, or of another field in their place.
 
 fn viscosity_pair(apart: vec3<f32>, relative: vec3<f32>) -> vec3<f32> {
     let square = dot(apart, apart);

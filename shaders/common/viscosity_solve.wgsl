@@ -1,4 +1,4 @@
-// Where a solve for the implicit viscosity stands, as in `viscosity_solve.rs`.
+// State of the solve for the implicit viscosity, as in `viscosity_solve.rs`.
 struct ViscositySolve {
     // Of the step along the direction, and of that direction in the next one.
     length: f32,

@@ -1,4 +1,4 @@
-// Sums over the threads of a group, always in the same order.
+// Sums over the threads of a workgroup, always in the same order.
 
 var<workgroup> impulses: array<vec3<f32>, 256>;
 var<workgroup> angular_impulses: array<vec3<f32>, 256>;

@@ -1,4 +1,4 @@
-// First pass of `couple::control_velocity`: velocities of the nodes in the order of the controls, and no drag yet.
+// First pass of `couple::control_velocity`: velocities of the nodes in the order of the controls, and zero drag.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

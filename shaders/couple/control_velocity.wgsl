@@ -1,5 +1,5 @@
 // #include smoothing, drag, control_group
-// Second pass of `couple::control_velocity`: how many particles share a node, over its mass.
+// Second pass of `couple::control_velocity`: number of particles that share a node, over its mass.
 //
 //     s_a = sum_i w_ia / m_a,   w_ia = V_a W_ia / chi_i
 

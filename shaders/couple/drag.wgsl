@@ -1,5 +1,5 @@
 // #include smoothing, drag
-// Drag of the sponge on the particles: one sweep for the impulse that each loses to it; `drag.rs` has the formulas.
+// Drag of the sponge on the particles: one sweep for the impulse of each on the sponge; `drag.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -42,7 +42,7 @@ fn main(
     let inverse = weight_inside(fluid_interior[row]);
     let rate = fluid_drag_rate[row].x * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;
-    // The column holds impulses over chi.
+    // The column has impulses over chi.
     let old = fluid_drag[row].xyz;
     let lacking = (fluid_velocity[row].xyz - sum.xyz * inverse) * (strength * inverse) - old;
     fluid_drag[row] = vec4<f32>(old + lacking * (1.0 / (1.0 + strength * (sum.w * inverse))), 0.0);

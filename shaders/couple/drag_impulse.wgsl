@@ -1,5 +1,5 @@
 // #include smoothing, drag
-// Impulse that every particle loses to the sponge, at the velocities that its nodes have so far; `drag_impulse.rs` has the
+// Drag impulse that every particle loses to the sponge, at the present velocities of the nodes; `drag_impulse.rs` has the
 // formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -47,7 +47,7 @@ fn main(
     let slowed = 1.0 + fluid_drag_rate[row].x * clock.step;
     let root = sqrt(slowed * slowed + 4.0 * clock.step * fluid_drag_rate[row].y * speed);
     let rate = (fluid_drag_rate[row].x + fluid_drag_rate[row].y * (2.0 * speed / (slowed + root))) * clock.step;
-    // The column holds impulses and masses over chi.
+    // The column has impulses and masses over chi.
     let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
     fluid_drag[row] = vec4<f32>(beside * strength, strength);
 }

@@ -1,5 +1,5 @@
 // #include smoothing, control_group
-// What the nodes receive of the impulses that the particles lose, and its moments; `drag_reaction.rs` has the formulas.
+// Drag impulses on the nodes, and their moments; `drag_reaction.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -40,7 +40,7 @@ fn main(
         turning -= cross(apart, impulse.xyz);
     }
     let sum = control_sum(lane, part);
-    // The sum's memory is used again.
+    // The memory of the sum is used again.
     workgroupBarrier();
     let moment = control_sum(lane, vec4<f32>(turning, 0.0));
     if (!is_row || (lane & 31u) != 0u) {

@@ -1,4 +1,4 @@
-// From here on the drag of the step is what it is: nodes no longer take fluid along; `drag_settled.rs` has the reason.
+// Fixes the drag of the step: nodes no longer move fluid with them; `drag_settled.rs` has the reason.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // #include smoothing, control_group, received
-// Where inertia and the drag of the fluid draw the nodes, for a sweep of vertex block descent; `drag_target.rs` has the
+// Targets of the nodes by inertia and the drag of the fluid, for a sweep of vertex block descent; `drag_target.rs` has the
 // formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -13,7 +13,7 @@
 @group(0) @binding(8) var<storage, read> node_free: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_target: array<vec4<f32>>;
 
-// Mass below which nothing is drawn.
+// Mass below which there is no target.
 const LEAST: f32 = 1.0e-20;
 
 @compute @workgroup_size(256)

@@ -1,4 +1,4 @@
-// Applies the drag to the particles: v_i -= J_i / m. The column holds impulses over chi.
+// Applies the drag to the particles: v_i -= J_i / m. The column has impulses over chi.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,6 @@
 // #include sponges
-// First pass of `couple::solid_pressure`: where nodes are expected at the end of the step, and the volume of their material.
+// First pass of `couple::solid_pressure`: expected positions of the nodes at the end of the step, and the volume of their
+// material.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

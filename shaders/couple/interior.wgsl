@@ -1,9 +1,9 @@
 // #include smoothing
-// How far inside a sponge every particle is, and how drag acts there.
+// Interior value of every particle in a sponge, and the drag rates there.
 //
 //     chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //
-// and how far the material follows the pressure, as `solid_yield.rs` has it.
+// and the compliance of the material, see `solid_yield.rs`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

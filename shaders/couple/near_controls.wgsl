@@ -1,6 +1,6 @@
 // #include grid
-// For every control, the particles within the coupling radius. Thirty-two threads share a control: each takes some rows
-// of cells, and knows where its entries go once all have counted.
+// For every control, the particles within the coupling radius. Thirty-two threads share a control: each takes some rows of
+// cells, and knows the slots of its entries once all have counted.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -13,8 +13,8 @@
 
 var<workgroup> found: array<u32, 256>;
 
-// Goes through the rows of cells of one thread: counts the points within the radius, and writes them from `slot` on
-// up to `last` if that is not before it.
+// Visits the rows of cells of one thread: counts the points within the radius, and writes them from `slot` on, up to `last`
+// if that is not before it.
 fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
     let radius = params.coupling.radius;
     let square = radius * radius;
@@ -42,7 +42,7 @@ fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
         let line = (wrapped(fluid_grid, z, 2u) * fluid_grid.size.y + wrapped(fluid_grid, y, 1u)) * fluid_grid.size.x;
         let span_x = cells_around(fluid_grid, at.x, sqrt(chord) + slack(at.x), 0u);
         var x = span_x.x;
-        // One run, or two where it crosses the seam of the torus.
+        // One run, or two where it crosses the end of the torus.
         while (x <= span_x.y) {
             let first = wrapped(fluid_grid, x, 0u);
             let end_cell = min(first + u32(span_x.y - x), fluid_grid.size.x - 1u);
@@ -77,7 +77,7 @@ fn main(
     let point = query.xyz;
     let sub = lane & 31u;
     var own = 0u;
-    // A node of a sponge that is asleep has no volume, and no particle near it.
+    // A node of a sleeping sponge has no volume, and no particle near it.
     if (is_row && query.w > 0.0) {
         own = visit(point, sub, 1u, 0u);
     }

@@ -47,7 +47,7 @@ fn main(
             let line = (plane + wrapped(control_grid, y, 1u)) * control_grid.size.x;
             let span_x = cells_around(control_grid, at.x, sqrt(chord) + slack(at.x), 0u);
             var x = span_x.x;
-            // One run, or two where it crosses the seam of the torus.
+            // One run, or two where it crosses the end of the torus.
             while (x <= span_x.y) {
                 let first = wrapped(control_grid, x, 0u);
                 let last = min(first + u32(span_x.y - x), control_grid.size.x - 1u);

@@ -1,5 +1,5 @@
 // #include sponges, star
-// What compression does to the pores of a sponge; `pores.rs` has the formulas.
+// Porosity, permeability and drag rates of a deformed sponge; `pores.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -44,7 +44,7 @@ fn main(
             if (((tets >> tet) & 1u) == 0u) {
                 continue;
             }
-            // Where there is no table, all weights are 1.
+            // Without a table all weights are 1.
             var weight = 1.0;
             if (weights != 0u) {
                 weight = bitcast<f32>(node_stars[weights + tet]);

@@ -9,7 +9,7 @@
 @group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_fluid: array<u32>;
-// Per node: its sponge, the bits of its suction, and the bits of its kernel sum at rest.
+// Per node: its sponge, the bits of its suction, and the bits of its sum of W at rest.
 @group(0) @binding(6) var<storage, read> node_traits: array<vec4<u32>>;
 @group(0) @binding(7) var<storage, read> control_node: array<u32>;
 @group(0) @binding(8) var<storage, read_write> control_saturation: array<f32>;

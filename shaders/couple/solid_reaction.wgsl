@@ -1,5 +1,5 @@
 // #include smoothing, control_group
-// What the pressure of the particles gives to the nodes; `solid_reaction.rs` has the formula.
+// Reaction of the nodes to the pressure of the particles; `solid_reaction.rs` has the formula.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

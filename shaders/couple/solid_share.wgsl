@@ -1,5 +1,5 @@
 // #include smoothing
-// Share of the sponge's material in the volume around a particle, where both are expected at the end of the step.
+// Solid volume fraction around a particle, at the expected positions at the end of the step.
 //
 //     lambda_i += sum_a V_s W(x*_i - x*_a)
 

@@ -1,5 +1,5 @@
 // #include smoothing
-// How far the material of the sponge gives way to what a solve changes of the pressure; `solid_yield.rs` says why.
+// Compliance of the material of the sponge to the pressure change of a solve; `solid_yield.rs` has the reason.
 //
 //     y_i = 2 f_i sum_j c_ij f_j (dP_j - dP_i)
 

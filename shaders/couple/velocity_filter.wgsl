@@ -1,5 +1,5 @@
 // #include smoothing, control_group, received
-// What the drag makes of the velocities of the nodes: u_a = u0_a + sum_i w_ia J_i / m_a.
+// Velocities of the nodes under the drag: u_a = u0_a + sum_i w_ia J_i / m_a.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

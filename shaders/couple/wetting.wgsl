@@ -1,12 +1,12 @@
 // #include sponges, star
-// How wet the material of every node is, and the suction of water that recedes; `wetting.rs` has the formulas.
+// Wetness of the material at every node, and the suction of receding water; `wetting.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
 @group(0) @binding(3) var<storage, read> control_node: array<u32>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-// Per node: its sponge, the bits of its suction, and the bits of its kernel sum at rest.
+// Per node: its sponge, the bits of its suction, and the bits of its sum of W at rest.
 @group(0) @binding(5) var<storage, read> node_traits: array<vec4<u32>>;
 @group(0) @binding(6) var<storage, read_write> control_saturation: array<f32>;
 @group(0) @binding(7) var<storage, read_write> control_suction: array<f32>;

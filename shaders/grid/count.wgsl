@@ -1,8 +1,8 @@
 // #include grid
-// First pass of the counting sort: the cell of every point, and how many points a cell and a page of 4096 cells have.
+// First pass of the counting sort: the cell of every point, and the number of points per cell and per page of 4096 cells.
 //
-// The slot that a point gets in its cell depends on which thread is first; `sort_fluid.wgsl` and `controls.wgsl` order
-// the points of a cell by the row they came from, so that the sort is stable.
+// The slot of a point in its cell depends on the order of the threads. `sort_fluid.wgsl` and `controls.wgsl` order the
+// points of a cell by their previous row, so that the sort is stable.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;

@@ -1,8 +1,8 @@
 // #include grid, smoothing
-// For every particle, the particles within the support radius, or whose images are; and, since every pair is at hand, the
-// density, which is what `sph::density` computes from the lists.
+// For every particle, the particles within the support radius, periodic images included. The pass also sums the density,
+// which `sph::density` computes from the lists.
 //
-// Rows of cells along x that the ball touches are runs of particles; the run is as long as the chord of the ball there.
+// Rows of cells along x that the support sphere intersects are runs of particles, as long as the chord of the sphere there.
 // `list[row]` is the number of neighbours, `list[(k + 1) * rows + row]` the k-th.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -21,7 +21,7 @@ struct Found {
     sum: f32,
 }
 
-// Adds the particles of a run of rows that are near a point.
+// Adds the particles near a point from a run of rows.
 fn add_run(before: Found, point: vec3<f32>, begin: u32, end: u32) -> Found {
     var found = before;
     let square = params.list_radius * params.list_radius;
@@ -65,7 +65,7 @@ fn add_ball(before: Found, point: vec3<f32>) -> Found {
             let line = (plane + wrapped(fluid_grid, y, 1u)) * fluid_grid.size.x;
             let span_x = cells_around(fluid_grid, at.x, sqrt(chord) + slack(at.x), 0u);
             var x = span_x.x;
-            // One run, or two where it crosses the seam of the torus.
+            // One run, or two where it crosses the end of the torus.
             while (x <= span_x.y) {
                 let first = wrapped(fluid_grid, x, 0u);
                 let last = min(first + u32(span_x.y - x), fluid_grid.size.x - 1u);
@@ -77,7 +77,7 @@ fn add_ball(before: Found, point: vec3<f32>) -> Found {
     return found;
 }
 
-// Whether images of the box come near a point: those before it (-1) and those behind it (1) along the axes that repeat.
+// Whether images of the box come near a point: those before it (-1) and those behind it (1) along periodic axes.
 fn touches(point: vec3<f32>, image: vec3<f32>) -> bool {
     let before = point - params.list_radius <= params.period_low.xyz;
     let behind = point + params.list_radius >= params.period_high.xyz;

@@ -1,5 +1,5 @@
 // #include grid, scan
-// Prefix sums, last pass: where every cell begins. Leaves the counts at zero for the next step.
+// Prefix sums, last pass: the first row of every cell. Sets the counts to zero for the next step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;

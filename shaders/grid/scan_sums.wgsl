@@ -1,6 +1,6 @@
 // #include grid, scan
-// Prefix sums, first pass, of grids with more than 256 pages: one group replaces the sums of the pages by the sums of all
-// pages before them. `count.wgsl` has added them up.
+// Prefix sums, first pass, of grids with more than 256 pages: one workgroup replaces the sums of the pages by the sums of
+// all pages before them. `count.wgsl` has computed the former.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;
@@ -14,7 +14,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let pages = grid.size.w / 4096u + 1u;
     var before = 0u;
     for (var first = 0u; first < pages; first += 1024u) {
-        // Four consecutive pages a thread.
+        // Four consecutive pages per thread.
         let own = first + lane * 4u;
         var values = vec4<u32>(0u);
         for (var k = 0u; k < 4u; k += 1u) {

@@ -1,6 +1,6 @@
 // #include grid
-// Rows grouped by cell, those of one cell in any order. Leaves the sums of the pages at zero for the next step: there are
-// no more pages than threads.
+// Rows grouped by cell, those of one cell in any order. Sets the sums of the pages to zero for the next step: there are no
+// more pages than threads.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;

@@ -1,6 +1,6 @@
 // #include grid
-// Last pass of the counting sort: brings the particles into the order of their cells, those of one cell in the order
-// they had.
+// Last pass of the counting sort: moves the particles into the order of their cells, those of one cell in their previous
+// order.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> fluid_grid: Grid;

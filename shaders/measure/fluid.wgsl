@@ -1,5 +1,5 @@
 // #include sums, partial_sums
-// What measures sum up over the particles, a group at a time.
+// Sums of the measures over the particles, per workgroup.
 //
 // a: momentum, twice the kinetic energy, b: angular momentum, number inside of sponges, all for a mass of one;
 // c: sum of the positions, sum of density errors; largest: squared speed, density error.
@@ -24,7 +24,7 @@ fn main(
         let v = fluid_velocity_next[row].xyz;
         let square = dot(v, v);
         var inside = 0.0;
-        // Without nodes there is nothing to be inside of, and the column has no rows.
+        // Without nodes nothing is inside, and the column has no rows.
         if (params.node_rows > 0u && fluid_interior[row] > 0.5) {
             inside = 1.0;
         }

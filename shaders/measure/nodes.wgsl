@@ -1,8 +1,8 @@
 // #include sums, partial_sums
-// What measures sum up over the nodes, a group at a time.
+// Sums of the measures over the nodes, per workgroup.
 //
 // a: momentum, twice the kinetic energy; b: angular momentum, mass; c: sum of mass times position, of volume times
-// saturation; d: volume; largest: squared speed, height of what is more than half saturated, depth of the lowest.
+// saturation; d: volume; largest: squared speed, height of nodes more than half saturated, depth of the lowest node.
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<storage, read> node_position: array<vec4<f32>>;

@@ -1,5 +1,5 @@
 // #include sponges, sums, partial_sums
-// What measures sum up over the tets, a group at a time. a: volume, energy of the strain as the solver of the sponge has it.
+// Sums of the measures over the tets, per workgroup. a: volume, elastic energy of the solver of the sponge.
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
@@ -10,7 +10,7 @@
 @group(0) @binding(6) var<storage, read> node_wetting: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> tet_weight: array<f32>;
 
-// Volume over that at rest below which the logarithm of `descent.rs` goes on as a polynomial.
+// Volume ratio below which the logarithm of `descent.rs` continues as a polynomial.
 const SOLID: f32 = 0.2;
 
 @compute @workgroup_size(256)
@@ -26,7 +26,7 @@ fn main(
         let solver = sponge.solver & ~ASLEEP;
         let tet = tets[row];
         if (sponge.softening > 0.0 || sponge.swelling > 0.0) {
-            // As `wetted.rs` has it.
+            // See `wetted.rs`.
             let two = vec2<f32>(node_wetting[tet.x].x, node_wetting[tet.y].x);
             let others = vec2<f32>(node_wetting[tet.z].x, node_wetting[tet.w].x);
             let wetness = 0.25 * dot(two + others, vec2<f32>(1.0));
@@ -63,7 +63,7 @@ fn main(
                 + sponge.lambda * (ratio - 1.0) * (ratio - 1.0);
         }
         let weight = tet_weight[row];
-        // The constraints of strain based dynamics know the tets alone.
+        // The constraints of strain based dynamics use no tet weights.
         let strained = select(1.0, weight, solver == VBD || solver == XPBD_NEO_HOOKEAN);
         own.a = vec4<f32>(volume * weight * ratio, 0.5 * volume * strained * energy, 0.0, 0.0);
     }

@@ -1,9 +1,9 @@
 // #include sums
-// The sums of all groups of one of the other passes, in a fixed order.
+// The sums of all workgroups of one of the other passes, in a fixed order.
 
 struct Summands {
     groups: u32,
-    // Which of the totals this is.
+    // Index of the total.
     place: u32,
     unused_0: u32,
     unused_1: u32,

@@ -1,5 +1,5 @@
 // #include sponges
-// The box around every sponge, as wide as its nodes may reach, one group per sponge.
+// The box around every sponge, enlarged by the reach of its nodes, one workgroup per sponge.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

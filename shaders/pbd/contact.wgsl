@@ -1,6 +1,6 @@
 // #include body, surface, sweep, sponges, wrench
-// Contact of nodes with walls and bodies, with friction; bodies receive the opposite impulse -m dy / h, added to what
-// the iterations before gave.
+// Contact of nodes with walls and bodies, with friction. Bodies receive the opposite impulse -m dy / h, added to that of
+// previous iterations.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -55,7 +55,7 @@ fn main(
     var old = vec3<f32>(0.0);
     var w = 0.0;
     var clearance = 0.0;
-    // Held nodes, those that are asleep, and those that meet obstacles in their own solver, stay where they are.
+    // Held nodes, sleeping nodes, and those whose own solver handles obstacles stay in place.
     var moves = false;
     if (is_row) {
         point = node_predicted[row].xyz;
@@ -72,7 +72,7 @@ fn main(
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
         let drift = body_velocity(body, point) * clock.step;
-        // The body stands where it began the step: so is the node, in the body's frame.
+        // The body is at its place of the beginning of the step: so is the node, in the body's frame.
         let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
         let depth = select(0.0, max(-(met.distance + met.beyond), 0.0), moves && body.info.w != 0u);
         let change = contact(depth, out_of_body(body, met.normal), point - old - drift, body.surface.x);
@@ -93,7 +93,7 @@ fn main(
     }
     if (is_row) {
         if (meets_walls) {
-            // One obstacle may have pushed into another: walls have the last word.
+            // One obstacle may push a node into another: walls come last.
             point = select(point, params.wall_low.xyz, point < params.wall_low.xyz);
             point = select(point, params.wall_high.xyz, point > params.wall_high.xyz);
         }

@@ -1,5 +1,5 @@
 // #include sponges
-// Where vertex block descent begins: z = y, y <- z - h^2 (1 - s) a.
+// First guess of vertex block descent: z = y, y <- z - h^2 (1 - s) a.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

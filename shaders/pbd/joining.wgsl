@@ -1,4 +1,4 @@
-// Which sponges touch each other through others: the bits of `touching.wgsl`, carried on until nothing is added.
+// Connected components of sponges in contact: the transitive closure of the bits of `touching.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<storage, read_write> sponge_ranges: array<vec2<u32>>;
@@ -9,7 +9,7 @@ fn main() {
         return;
     }
     let count = min(arrayLength(&sponge_ranges) / 8u, 256u);
-    // Through every sponge once, as Warshall has it.
+    // Through every sponge once: Warshall's algorithm.
     for (var through = 0u; through < count; through += 1u) {
         for (var own = 0u; own < count; own += 1u) {
             let pair = sponge_ranges[own * 8u + 4u + through / 64u];

@@ -1,6 +1,6 @@
 // #include sponges
-// Gives every node its part of the rigid motion that its sponge lacks, and keeps the share of the external acceleration
-// that it followed.
+// Adds to every node its part of the rigid motion that restores the momentum of its sponge, and stores the share of the
+// external acceleration that it followed.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -34,7 +34,7 @@ fn main(
         let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, x - sponge_motions[sponge * 3u].xyz);
         y += (sponge_motions[sponge * 3u + 1u].xyz + turn) * clock.step;
         if (params.wall_low.w > 0.0) {
-            // What is not a number stays so.
+            // NaN stays NaN.
             y = select(y, params.wall_low.xyz, y < params.wall_low.xyz);
             y = select(y, params.wall_high.xyz, y > params.wall_high.xyz);
         }

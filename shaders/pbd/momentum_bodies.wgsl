@@ -1,5 +1,5 @@
 // #include body, surface, sponges, wrench
-// What walls, bodies and grips give to the nodes that stay where they are while their sponge receives the motion that it lacks;
+// Impulses of walls, bodies and grips on the nodes that stay in place while their sponge receives its rigid motion;
 // `momentum.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -16,13 +16,13 @@
 
 const MARGIN: f32 = 1.0e-2;
 
-// The nearest body at the end of the step, if it is that near; else a row beyond all bodies.
+// The nearest body at the end of the step, if it is within the distance; otherwise a row beyond all bodies.
 fn touched(point: vec3<f32>, margin: f32) -> u32 {
     var found = params.body_rows;
     var least = margin;
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
-        // The body stands where it began the step: so does the point, in the body's frame.
+        // The body is at its place of the beginning of the step, and so is the point in the body's frame.
         let distance = body_surface(body, point - body_velocity(body, point) * clock.step).distance;
         if (body.info.w != 0u && distance < least) {
             found = index;

@@ -1,6 +1,6 @@
 // #include sponges
-// The rigid motion that makes up for the momentum that a sponge lacks, with those that it touches, one group per sponge;
-// `momentum.rs` has the formulas. Moments are taken about the first node of the first of them.
+// The rigid motion that restores the momentum of a sponge, together with those in contact with it, one workgroup per sponge;
+// `momentum.rs` has the formulas. Moments are about the first node of the first of them.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
@@ -26,7 +26,7 @@ struct Sums {
 
 var<workgroup> sums: array<Sums, 128>;
 
-// Whether a sponge lacks its momentum together with another.
+// Whether a sponge is corrected together with another.
 fn is_joined(own: u32, other: u32) -> bool {
     let pair = sponge_ranges[own * 8u + 4u + other / 64u];
     let word = select(pair.x, pair.y, (other / 32u) % 2u == 1u);

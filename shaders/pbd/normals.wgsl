@@ -1,5 +1,5 @@
 // #include sponges, star, meeting
-// Normals of surface nodes, as long as their weights, and their areas; `pairs.rs` has the formulas.
+// Normals of surface nodes, with their weights as lengths, and their areas; `pairs.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -36,7 +36,7 @@ fn may_touch(a: u32, b: u32, own: u32) -> bool {
     return pair.facing > 0.0 && pair.gap > -DEEP * edge && pair.gap < NEAR * edge && pair.aside < reach * reach;
 }
 
-// Puts a row into a list that is in order and has `found` entries.
+// Inserts a row into an ordered list of `found` entries.
 fn insert(row: u32, found: u32, other: u32) {
     var place = found;
     while (place > 0u && node_pairs[place * pair_grid.wrap.w + row] > other) {

@@ -1,5 +1,5 @@
 // #include body
-// Initial position change: y = x + h (v + h a). Held nodes go where their body takes them.
+// Initial position change: y = x + h (v + h a). Held nodes follow their body.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // #include body, surface, sweep, sponges, wrench, star, descent
-// What walls, bodies and grips gave to the nodes of vertex block descent; `reaction.rs` has the rules.
+// Impulses of walls, bodies and grips on the nodes of vertex block descent; `reaction.rs` has the rules.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

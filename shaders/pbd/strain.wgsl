@@ -139,7 +139,7 @@ fn main(
     old3 = node_position[tet.w].xyz;
     inverse_edge = 1.0 / sponge.edge;
     let rest = sponge.edge * sponge.edge * sponge.edge / 12.0;
-    // Iterations restart from no impulse: each takes its share of the stiffness.
+    // Iterations restart with zero multipliers: each has its share of the stiffness.
     let per_modulus = sponge.iterations / (rest * clock.step * clock.step);
     let damping = sponge.damping_time / clock.step;
     stretch(per_modulus / sponge.stretch_modulus, damping);

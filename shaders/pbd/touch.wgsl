@@ -1,5 +1,5 @@
 // #include sponges, star, meeting
-// What nodes of sponges that touch do to each other, with friction; `touch.rs` has the formulas.
+// Contact forces between nodes of sponges, with friction; `touch.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,4 +1,4 @@
-// Which other sponges every sponge touches, one group per sponge: a bit each, behind the ranges of its nodes.
+// Sponges in contact with every sponge, one workgroup per sponge: one bit each, behind the ranges of its nodes.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<storage, read> node_touch: array<vec4<f32>>;

@@ -56,20 +56,20 @@ fn main(
     var point = pushed(quadratic, relaxed, old, sponge);
     let off = point - relaxed;
     if (dot(off, off) > 0.0) {
-        // What is in the way answers to the energy, and not to what goes beyond.
+        // The contact force is that of the minimum, without over-relaxation.
         point = pushed(quadratic, moved(x.xyz, quadratic.way), old, sponge);
     }
     node_predicted[row] = vec4<f32>(point, x.w);
 }
 
-// A point a way on, rounded up or down by chance, in proportion to what is lost; `vbd.rs` says why.
+// Adds a way to a point with stochastic rounding, with a probability in proportion to the remainder; see `vbd.rs`.
 fn moved(point: vec3<f32>, way: vec3<f32>) -> vec3<f32> {
     let digit = max(abs(point), vec3<f32>(LEAST)) * EPSILON;
     let parts = way / digit * FINE + 0.5;
     return point + (way + (parts - floor(parts) - 0.5) * digit);
 }
 
-// Where all that is in the way leaves a point.
+// Position of a point after all obstacles.
 fn pushed(quadratic: Quadratic, start: vec3<f32>, old: vec3<f32>, sponge: Sponge) -> vec3<f32> {
     let low = params.wall_low.xyz;
     let high = params.wall_high.xyz;
@@ -83,7 +83,7 @@ fn pushed(quadratic: Quadratic, start: vec3<f32>, old: vec3<f32>, sponge: Sponge
     }
     if (has_walls) {
         point += push_by_walls(low, high, quadratic, point, old, 0.0).change;
-        // One obstacle may have pushed into another: walls have the last word.
+        // One obstacle may push a node into another: walls come last.
         point = select(point, low, point < low);
         point = select(point, high, point > high);
     }

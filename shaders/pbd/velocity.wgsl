@@ -1,6 +1,6 @@
 // #include sponges
-// Velocity from the corrected positions: v = (y - x) / h, x <- y; the largest speed, and the first row that is not
-// finite. Sponges that are asleep stay as they are.
+// Velocity from the corrected positions: v = (y - x) / h, x <- y; the largest speed, and the first row that is not finite.
+// Sleeping sponges are left alone.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
-// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls and, where space repeats, put into the box;
-// the largest speed, and the first row that is not finite. Leaves the particles in the columns that the next step sorts.
+// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls and wrapped along periodic axes; the largest
+// speed, and the first row that is not finite. Writes the particles to the columns that the next step sorts.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -13,7 +13,7 @@
 
 var<workgroup> largest: atomic<u32>;
 
-// What leaves the box along an axis on which space repeats enters it on the other side; what is not finite stays so.
+// A particle that leaves the box along a periodic axis enters it on the other side; values that are not finite stay so.
 fn wrapped_into_box(x: vec3<f32>) -> vec3<f32> {
     let low = params.period_low.xyz;
     let high = params.period_high.xyz;

@@ -1,5 +1,5 @@
 // #include wrench
-// What fluid and sponges gave to one body a group, over all groups of particles and nodes, in a fixed order.
+// Wrenches of fluid and sponges on one body per workgroup, summed over all groups of particles and nodes in a fixed order.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // #include body, surface, profile
-// Share of walls and bodies in the volume around a particle, at the end of the step.
+// Boundary volume fraction of walls and bodies around a particle, at the end of the step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

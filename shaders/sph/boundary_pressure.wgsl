@@ -3,7 +3,7 @@
 //
 //     a_i -= P_i grad lambda_i,   impulse of a body = m h sum_i P_i grad lambda_ik
 //
-// One wrench per body and group of 256 particles, added up by `body_wrenches.wgsl`.
+// One wrench per body and group of 256 particles, summed by `body_wrenches.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // #include body, surface, wrench, profile
-// What the change of the pressure gives to the bodies, where they will be at the end of the step.
+// Reaction of bodies to the change of the pressure, at their places of the end of the step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

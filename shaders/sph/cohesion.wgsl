@@ -1,5 +1,5 @@
 // #include smoothing, images
-// Surface tension: what an energy of the surface does to the particles.
+// Surface tension: force on the particles by a surface energy.
 //
 //     E = k sum_i V f(e_i),   a_i = k V^2 / m sum_j (w_i + w_j) grad W_ij   with w = f'
 

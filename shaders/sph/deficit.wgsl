@@ -1,5 +1,5 @@
 // #include smoothing, images, body, surface
-// What particles near the surface of the fluid are short of neighbours.
+// Deficit of neighbours of particles near the surface of the fluid.
 //
 //     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 
@@ -11,7 +11,7 @@
 @group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> fluid_deficit: array<f32>;
 
-// Share of a surface at a distance, as in `boundary.rs`.
+// Volume fraction of a surface at a distance, as in `boundary.rs`.
 fn share_of(distance: f32) -> f32 {
     let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, 1.25);
     let cube = depth * depth * depth;

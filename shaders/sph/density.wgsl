@@ -1,5 +1,5 @@
 // #include smoothing, images
-// Mass density by summation over lists that are there already.
+// Mass density by summation over existing lists.
 //
 //     rho_i = sum_j m W(|x_i - x_j|)
 

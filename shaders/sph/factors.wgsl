@@ -1,6 +1,6 @@
 // #include smoothing, sums, roughness, images
-// What a pressure solve needs to know of the predicted positions; `factors.rs` has the formulas. The pair factors c_ij are
-// computed where they are needed. Squared displacements are added up by `solve_begin.wgsl`.
+// Coefficients of the pressure solve at the predicted positions; `factors.rs` has the formulas. The pair factors c_ij are
+// computed where they are needed. `solve_begin.wgsl` sums the squared displacements.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -53,7 +53,7 @@ fn main(
         let wall = fluid_boundary[row];
         own -= wall.xyz;
         let least = params.lattice_diagonal / 3.0;
-        // The lists hold the particle itself, which is no pair.
+        // The lists contain the particle itself, which is no pair.
         let rough = (pairs - gradient) * prompt_roughness();
         let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step) + rough;
         let most = params.correction_speed * clock.step / params.spacing;

@@ -31,7 +31,7 @@ fn main(
     var pull = vec3<f32>(0.0);
     var central = vec3<f32>(0.0);
     var roughness = 0.0;
-    // Where pressure is solved for, particles keep their volume, and the row of the velocity carries something else.
+    // With a pressure solve particles keep their volume, and the fourth lane of the velocity has another quantity.
     let is_known = params.incompressible != 0u;
     let rest_volume = params.particle_mass / params.rest_density;
     let own_volume = select(own_velocity.w, rest_volume, is_known);

@@ -27,7 +27,7 @@ fn main(
         let own = fluid_velocity[row];
         fluid_velocity[row] = vec4<f32>(own.xyz + clock.step * a, own.w);
         let square = dot(a, a);
-        // Bits of numbers that are not negative have the order of the numbers; not a number is above all.
+        // Bits of non-negative floats have the order of the numbers; NaN is above all.
         if (is_finite(square)) {
             atomicMax(&largest, bitcast<u32>(square));
         }

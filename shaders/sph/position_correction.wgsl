@@ -1,4 +1,4 @@
-// End of a round of position based fluids: particles are moved to where the density is right, and have moved at that speed.
+// End of an iteration of position based fluids: moves the particles towards rest density, and their velocities accordingly.
 //
 //     x*_i += h^2 a_i,   v_i += h a_i
 

@@ -1,6 +1,6 @@
 // #include roughness
-// Where particles would be at the end of the step without a change of their pressure, kept inside the walls, and what
-// compression they are allowed, as `predict.rs` says.
+// Predicted positions at the end of the step without a change of the pressure, kept inside the walls, and the permitted
+// compression of `predict.rs`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -33,7 +33,7 @@ fn main(
     if (prompt < params.roughness) {
         share = prompt / params.roughness;
     }
-    // More than all of the volume is no compression.
+    // A value above the whole volume is no compression.
     let own = fluid_velocity[row].w;
     let before = select(0.0, own, abs(own) <= 1.0);
     let asked = fluid_acceleration[row].w;

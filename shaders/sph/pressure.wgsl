@@ -1,4 +1,4 @@
-// Pressure by an equation of state, not below zero: p / rho^2 beside the position, m / rho beside the velocity.
+// Pressure by an equation of state, at least zero: p / rho^2 beside the position, m / rho beside the velocity.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

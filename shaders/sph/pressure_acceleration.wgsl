@@ -1,5 +1,5 @@
 // #include smoothing, middle, roughness, images
-// One round of a pressure solve: acceleration by what the pressure has changed since the beginning of the step.
+// Iteration of the pressure solve: acceleration by the change of the pressure since the beginning of the step.
 //
 //     a_i = dP_i B_i + sum_j c_ij dP_j x_ij,   w_i = a_i . x_i - b e / h^2 dP_i
 

@@ -1,4 +1,4 @@
-// After a pressure solve: velocity by the change of the pressure, and the pressure for the next step.
+// After the pressure solve: velocity by the change of the pressure, and the pressure for the next step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

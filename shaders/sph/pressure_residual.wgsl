@@ -1,5 +1,5 @@
 // #include smoothing, middle, sums, roughness, images
-// One round of a pressure solve: the compression that is left, and the sums that `solve_round.wgsl` adds up.
+// Iteration of the pressure solve: the remaining compression, and the sums for `solve_round.wgsl`.
 //
 //     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i + y_i) + b e sum_j c_ij (dP_j - dP_i)
 

@@ -1,5 +1,5 @@
 // #include solve
-// One round of a pressure solve: a step along the projected gradient.
+// Iteration of the pressure solve: a step along the projected gradient.
 //
 //     P_i <- min(max(0, P_i + alpha r_i / M_i), (10 u)^2)
 

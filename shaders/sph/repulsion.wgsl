@@ -3,7 +3,7 @@
 //
 //     a_i += (k (R - d) - c v_n) n   where the distance d from the surface is less than R, not pulling
 //
-// Bodies receive the opposite: one wrench per body and group of 256 particles, added up by `body_wrenches.wgsl`.
+// Bodies receive the opposite: one wrench per body and group of 256 particles, summed by `body_wrenches.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

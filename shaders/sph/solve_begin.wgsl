@@ -1,5 +1,5 @@
 // #include sums, solve
-// Before the first round of a pressure solve: the tolerance, which falls with the mean displacement in the step.
+// Before the first iteration of the pressure solve: the tolerance, which falls with the mean displacement in the step.
 
 const ERROR_PER_DISPLACEMENT: f32 = 0.02;
 const LEAST_TOLERANCE: f32 = 1.0e-6;
@@ -15,7 +15,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
-    // Sums of groups that there are not stay zero.
+    // Sums of missing groups stay zero.
     let groups = arrayLength(&solve_sums) / 2u;
     var own = 0.0;
     for (var k = lane; k < groups; k += 256u) {

@@ -1,5 +1,5 @@
 // #include sums, solve
-// After a round of a pressure solve: how far to go in the next one, and whether there is one.
+// After an iteration of the pressure solve: the next step length, and whether there is another iteration.
 
 const FIRST_LENGTH: f32 = 0.6;
 
@@ -15,7 +15,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
-    // Sums of groups that there are not stay zero.
+    // Sums of missing groups stay zero.
     let groups = arrayLength(&solve_sums) / 2u;
     var own = vec4<f32>(0.0);
     var pressures = 0.0;

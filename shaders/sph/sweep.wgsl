@@ -1,5 +1,5 @@
 // #include body, surface, wrench, sweep
-// Velocities with which no particle goes through a body in the step; bodies receive the opposite impulse.
+// Limits velocities so that no particle passes a body in the step; bodies receive the opposite impulse.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // #include smoothing, images, viscosity, viscosity_solve
-// Before the first round of a solve for the implicit viscosity: what pairs add to the residual, and the first direction.
+// Before the first iteration of the implicit viscosity: the part of pairs in the residual, and the first direction.
 //
 //     r_i = p_i = -h D_i(v*)
 

@@ -1,5 +1,5 @@
 // #include body, surface, friction
-// Before a solve for the implicit viscosity: the friction of walls and bodies, its part of the residual, and no change yet.
+// Before the solve for the implicit viscosity: the friction of walls and bodies, its part of the residual, and zero change.
 //
 //     F_i = sum_s f(y) (1 - n n^T),   r_i = -h (F_i v_i - sum_s f(y) (1 - n n^T) v_s)
 

@@ -1,5 +1,6 @@
 // #include sums, viscosity_solve
-// After the product of a round of a solve for the implicit viscosity: how far to go along the direction, and its share in the next.
+// After the product of an iteration of the implicit viscosity: the step length along the direction, and its share in the
+// next.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<storage, read> viscosity_sums: array<vec4<f32>>;
@@ -10,7 +11,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
-    // Sums of groups that there are not stay zero.
+    // Sums of missing groups stay zero.
     var own = vec4<f32>(0.0);
     for (var k = lane; k < arrayLength(&viscosity_sums); k += 256u) {
         own += viscosity_sums[k];
@@ -21,7 +22,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     }
     fluid_viscosity_solve.length = 0.0;
     fluid_viscosity_solve.share = 0.0;
-    // There is no direction where nothing moves.
+    // Without motion there is no direction.
     if (sums.x > 0.0) {
         let length = sums.y / sums.x;
         fluid_viscosity_solve.length = length;

@@ -1,6 +1,6 @@
 // #include smoothing, images, viscosity, sums
-// One round of a solve for the implicit viscosity: the product of its matrix with the direction, and the sums that
-// `viscosity_length.wgsl` adds up.
+// Iteration of the implicit viscosity: the product of its matrix with the direction, and the sums for
+// `viscosity_length.wgsl`.
 //
 //     q_i = p_i + h (D_i(p) + F_i p_i)
 

@@ -1,5 +1,5 @@
 // #include body, surface, wrench, friction
-// What bodies that the fluid does not slide along take from it, where viscosity is implicit.
+// Reaction of no-slip bodies, where viscosity is implicit.
 //
 //     impulse = m h sum_i f(y) (v*_i + y_i - v_body)_t
 

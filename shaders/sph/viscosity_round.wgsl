@@ -1,5 +1,5 @@
 // #include sums, viscosity_solve
-// After a round of a solve for the implicit viscosity: whether there is another one.
+// After an iteration of the implicit viscosity: whether there is another one.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -12,7 +12,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
-    // Sums of groups that there are not stay zero.
+    // Sums of missing groups stay zero.
     var own = vec4<f32>(0.0);
     for (var k = lane; k < arrayLength(&viscosity_sums); k += 256u) {
         own += viscosity_sums[k];

@@ -1,5 +1,5 @@
 // #include body, surface, wrench, friction
-// Friction of the fluid at walls and bodies that it does not slide along.
+// Friction of the fluid at no-slip walls and bodies.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Largest difference of a channel (of 255) that a pixel may have from the frame before without being stored again.
+/// Largest difference of a channel (of 255) to the previous frame at which a pixel is not stored again.
 ///
 /// The comparison is with what the viewer has on screen, so the error does not add up over frames.
 const TOLERANCE: u8 = 2;
@@ -14,8 +14,8 @@ const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 /// An animated PNG file that repeats for ever, written frame by frame.
 ///
-/// Only the pixels that changed are stored. The file is complete after [`Animation::finish`], however many frames
-/// it got; dropping the value finishes it too, without a word about errors.
+/// Only changed pixels are stored. The file is complete after [`Animation::finish`], with any number of frames. Dropping the
+/// value finishes it too, and ignores errors.
 #[derive(Debug)]
 pub struct Animation {
     path: PathBuf,
@@ -31,7 +31,7 @@ pub struct Animation {
 }
 
 impl Animation {
-    /// Creates the file, replacing one that is there; `frames` is the number expected and may turn out wrong.
+    /// Creates the file, replacing an existing one; `frames` is the expected number and may turn out wrong.
     ///
     /// `frames_per_second` is 0.02 to 1000.
     ///
@@ -159,7 +159,7 @@ impl Animation {
 impl Drop for Animation {
     fn drop(&mut self) {
         if !self.finished {
-            // A destructor has nobody to report to; `finish` is the way to learn of errors.
+            // A destructor cannot return errors; `finish` does.
             let _ = self.complete();
         }
     }
@@ -184,7 +184,7 @@ impl Patch {
     fn changes(image: &Image, canvas: &[u8]) -> Self {
         let (new, old) = (image.pixels.as_chunks::<3>().0, canvas.as_chunks::<3>().0);
         let changed = |i: usize| (0..3).any(|c| new[i][c].abs_diff(old[i][c]) > TOLERANCE);
-        // An animation's frame must not be empty: with no change, one pixel stands for "as before".
+        // A frame of an animation must not be empty: without changes, one transparent pixel stands for the previous frame.
         let (mut left, mut right, mut top, mut bottom) = (u32::MAX, 0, u32::MAX, 0);
         for y in 0..image.height {
             let row = y as usize * image.width as usize;
@@ -250,7 +250,7 @@ impl Patch {
     }
 }
 
-/// Contents of the chunk that says how many frames there are and that they repeat for ever.
+/// Contents of the chunk with the number of frames, repeated for ever.
 fn control(frames: u32) -> [u8; 8] {
     let mut bytes = [0; 8];
     bytes[..4].copy_from_slice(&frames.to_be_bytes());

@@ -1,6 +1,6 @@
-//! Work on independent bands of rows, on all threads or one: what a band computes does not depend on which.
+//! Work on independent bands of rows, on all threads or one. The result of a band does not depend on the number of threads.
 
-/// Rows of samples in a band; fixed, so that the work is cut the same way whatever the number of threads.
+/// Rows of samples in a band; fixed, so that the division does not depend on the number of threads.
 pub(super) const BAND: usize = 32;
 
 /// Runs `work` on every job.

@@ -3,7 +3,7 @@ use glam::Vec3;
 /// Nearest distance (as a fraction of the distance to the target) at which something is drawn.
 const NEAR: f32 = 1e-3;
 
-/// Where the picture is taken from.
+/// Point of view of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Position in m.
@@ -34,7 +34,7 @@ impl Camera {
             let sign = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
             half * Vec3::new(sign(1), sign(2), sign(4))
         };
-        // The target slides along the picture's up direction until the top and bottom margins are equal.
+        // The target moves along the picture's up direction until the top and bottom margins are equal.
         let (mut shift, mut distance) = (0.0_f32, 0.0_f32);
         for _ in 0..8 {
             distance = 0.0;
@@ -55,7 +55,7 @@ impl Camera {
     }
 }
 
-/// A camera with the raster it fills: `x` to the right and `y` down in samples, depth along `forward` in m.
+/// A camera with its raster: `x` to the right and `y` down in samples, depth along `forward` in m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     pub(super) eye: Vec3,
@@ -116,7 +116,8 @@ impl View {
         )
     }
 
-    /// Ray through a sample's centre, with a component of 1 along `forward`: depth times this is the offset from the eye.
+    /// Ray through the centre of a sample, with a component of 1 along `forward`: depth times this is the offset from the
+    /// eye.
     pub(super) fn ray(&self, x: usize, y: usize) -> Vec3 {
         let (right, up) = self.slopes(x as f32, y as f32);
         self.forward + self.right * right + self.up * up

@@ -1,4 +1,4 @@
-//! Colours are linear light in `Vec3` (red, green, blue) until the very end.
+//! Colours are linear light in `Vec3` (red, green, blue) until they are encoded as bytes.
 
 use glam::Vec3;
 
@@ -43,7 +43,7 @@ pub(super) fn index(value: f32) -> usize {
     value as usize
 }
 
-/// Largest whole number not above `value`, cut to what an `i32` holds.
+/// Largest whole number not above `value`, clamped to the range of `i32`.
 #[expect(clippy::cast_possible_truncation, reason = "`as` saturates; callers clip to the picture")]
 pub(super) fn floor(value: f32) -> i32 {
     value.floor() as i32
@@ -62,7 +62,7 @@ pub(super) fn tone(colour: Vec3) -> Vec3 {
     let slope = (WHITE - KNEE) / (1.0 - KNEE);
     let mapped = KNEE + (1.0 - KNEE) * (slope * x / (1.0 + (slope - 1.0) * x));
     let scaled = colour * (mapped / peak);
-    // Very bright light turns white, as film and eyes do.
+    // Very bright light turns white, as on film.
     scaled.lerp(Vec3::splat(mapped), 0.35 * x)
 }
 
@@ -72,7 +72,7 @@ pub(super) fn smooth(low: f32, high: f32, value: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A number in 0..1 that looks random, from a key.
+/// A pseudo-random number in 0..1 from a key.
 pub(super) fn unit(key: u32) -> f32 {
     let mut x = key.wrapping_mul(0x9E37_79B1) ^ 0x85EB_CA6B;
     x = (x ^ (x >> 16)).wrapping_mul(0x7FEB_352D);

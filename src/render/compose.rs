@@ -35,14 +35,14 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
     Image { width, height, pixels: develop(&samples, columns) }
 }
 
-/// The particles in sight, their radius scaled.
+/// The visible particles, with scaled radius.
 pub(super) fn balls(stage: &Stage<'_>, scale: f32) -> Vec<Ball> {
     let ball =
         |(i, &(_, centre)): (usize, &(usize, Vec3))| Ball::new(&stage.view, i, centre, stage.radius * scale);
     stage.particles.iter().enumerate().filter_map(ball).collect()
 }
 
-/// Colours of whole rows of pixels: once for a pixel whose samples see one thing, else for every sample.
+/// Colours of whole rows of pixels: one per pixel if all its samples see one thing, else one per sample.
 fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, first: usize, band: &mut [Vec3]) {
     let columns = stage.view.width;
     for row in (0..band.len() / columns).step_by(SAMPLES) {
@@ -51,7 +51,7 @@ fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, firs
             let places = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
             let codes = places.map(|(x, y)| layer.code[y * columns + x]);
             let item = Item::from_code(codes[0]);
-            // Bodies have sharp edges and painted marks inside one and the same item.
+            // Bodies have sharp edges and painted marks inside one item.
             let one = codes.iter().all(|&code| code == codes[0]) && !matches!(item, Item::Body(_));
             let colour = |(x, y): (usize, usize)| {
                 let (at, ray) = (y * columns + x, stage.view.ray(x, y));

@@ -9,7 +9,7 @@ pub enum RenderError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// The PNG encoder refused the pixels.
@@ -17,7 +17,7 @@ pub enum RenderError {
     Encode {
         /// The file.
         path: PathBuf,
-        /// What the encoder said.
+        /// Error of the encoder.
         source: png::EncodingError,
     },
     /// A width or height of 0, or a side longer than PNG can hold.
@@ -55,10 +55,10 @@ pub enum RenderError {
     FrameRate {
         /// The file.
         path: PathBuf,
-        /// The rate asked for.
+        /// The requested rate.
         value: f32,
     },
-    /// The animation was finished before its first frame; no valid file can be made of that.
+    /// The animation was finished before its first frame: no valid file is possible.
     #[error("{}: an animation needs at least one frame", path.display())]
     NoFrames {
         /// The file.

@@ -37,7 +37,7 @@ impl Image {
         buffer.flush().map_err(|source| RenderError::write(path, source))
     }
 
-    /// Refuses what a PNG file cannot hold.
+    /// Refuses images that a PNG file cannot hold.
     pub(super) fn check(&self, path: &Path) -> Result<(), RenderError> {
         check_size(path, self.width, self.height)?;
         let expected = self.width as usize * self.height as usize * 3;

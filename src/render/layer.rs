@@ -1,4 +1,4 @@
-//! Depth and identity of what every sample sees.
+//! Depth and item that every sample sees.
 
 use super::bands::{self, BAND};
 use super::camera::View;
@@ -13,9 +13,9 @@ use std::ops::Range;
 pub(super) enum Item {
     Nothing,
     Particle(usize),
-    /// Place in the list of triangles that can be drawn.
+    /// Index in the list of drawable triangles.
     Triangle(usize),
-    /// Place in the stage's list of solids.
+    /// Index in the list of solids of the stage.
     Body(usize),
     Floor,
 }
@@ -24,7 +24,7 @@ const KIND: u32 = 29;
 const INDEX: u32 = (1 << KIND) - 1;
 
 impl Item {
-    /// The number a layer stores.
+    /// The code of the item in a layer.
     pub(super) fn code(self) -> u32 {
         #[expect(
             clippy::cast_possible_truncation,
@@ -52,7 +52,7 @@ impl Item {
     }
 }
 
-/// Nearest depth (m along the view; infinite where there is nothing) and its owner, for every sample.
+/// Nearest depth (m along the view; infinite where there is nothing) and its item, for every sample.
 pub(super) struct Layer {
     pub(super) depth: Vec<f32>,
     pub(super) code: Vec<u32>,
@@ -66,7 +66,7 @@ struct Band<'a> {
     code: &'a mut [u32],
 }
 
-/// A ball as the view sees it.
+/// A ball as seen by the view.
 pub(super) struct Ball {
     pub(super) centre: Vec3,
     pub(super) radius: f32,
@@ -145,7 +145,7 @@ impl Flat {
 
     /// Calls `put(column, value)` for the samples of a row whose centre is inside.
     pub(super) fn row(&self, y: usize, width: usize, mut put: impl FnMut(usize, f32)) {
-        // Sides are widened by this much (samples), so that rounding leaves no gap between neighbours.
+        // Edges are widened by this much (samples), so that rounding leaves no gap between neighbours.
         const SLACK: f32 = 1e-3;
         let ([x0, x1, x2], [y0, y1, y2], [v0, v1, v2]) = (self.x, self.y, self.value);
         let area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
@@ -180,7 +180,7 @@ impl Flat {
     }
 }
 
-/// Puts the indices of things into the bands of rows that they touch.
+/// Assigns the indices of items to the bands of rows that they touch.
 pub(super) fn bin(rows: impl Iterator<Item = Range<usize>>, height: usize) -> Vec<Vec<usize>> {
     let mut bins = vec![Vec::new(); height.div_ceil(BAND)];
     for (index, rows) in rows.enumerate() {
@@ -228,7 +228,7 @@ impl Layer {
             .collect()
     }
 
-    /// Everything that hides what lies behind it; `balls` are the particles to draw as such.
+    /// Everything opaque; `balls` are the particles to draw as balls.
     pub(super) fn opaque(stage: &Stage<'_>, balls: &[Ball]) -> Self {
         let view = &stage.view;
         let flats: Vec<(usize, Flat)> = flats(stage);
@@ -348,7 +348,7 @@ impl Band<'_> {
                 if ray.y >= 0.0 {
                     continue;
                 }
-                // A little nearer than it is, to win against a plane body at the same height.
+                // Slightly nearer than it is, to hide a plane body at the same height.
                 let depth = -height / ray.y * 0.9999;
                 let at = (y - self.first) * self.width + x;
                 if depth < self.depth[at]

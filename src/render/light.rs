@@ -8,10 +8,10 @@ use std::ops::Range;
 
 /// Texels along a side of the shadow map.
 const SIDE: usize = 1024;
-/// Tangent of the light's angular radius: how fast a shadow softens with the distance to what casts it.
+/// Tangent of the light's angular radius: the penumbra grows by this with the distance to the occluder.
 const SOFTNESS: f32 = 0.10;
 
-/// Radius in texels of the search for what casts a shadow; less than a block.
+/// Radius in texels of the search for occluders; less than a block.
 const SEARCH: f32 = 14.0;
 /// Texels along a side of a block.
 const BLOCK: usize = 16;
@@ -21,7 +21,7 @@ pub(super) fn direction() -> Vec3 {
     Vec3::new(-0.42, 1.0, 0.36).normalize()
 }
 
-/// Height (m, towards the light) of the first thing that light meets, over a square across the light.
+/// Height (m, towards the light) of the first surface that light meets, over a square across the light.
 pub(super) struct Shadows {
     across: Vec3,
     along: Vec3,
@@ -165,7 +165,7 @@ impl Shadows {
             let [x, y] = SPIRAL[k];
             (here.x + radius * (x * cosine - y * sine), here.y + radius * (x * sine + y * cosine))
         };
-        // First how far what casts the shadow is on average, then a disc as wide as the penumbra there.
+        // First the mean distance of the occluders, then a disc as wide as the penumbra there.
         if !self.any_above(here.x, here.y, here.z + self.texel * 2.0) {
             return 1.0;
         }
@@ -183,7 +183,7 @@ impl Shadows {
         }
         let radius = (gap / found * SOFTNESS / self.texel).clamp(1.2, 40.0);
         if found > 5.5 && radius <= SEARCH {
-            // Covered all around: no part of a disc inside the search can be lit by much.
+            // Covered all around: almost no part of a disc inside the search can be lit.
             return 0.0;
         }
         // A wide disc on a slope must not meet the slope itself.

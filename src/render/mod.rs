@@ -1,4 +1,4 @@
-//! Pictures of a scene, drawn on the CPU: reads views of the state and writes nothing back.
+//! Pictures of a scene, drawn on the CPU. They read views of the state and write nothing back.
 //!
 //! [`draw`] turns a [`Picture`] (borrowed positions, triangles and bodies) and a [`Camera`] into an [`Image`].
 //! An [`Animation`] appends images to one animated PNG file. The pixels are the same for every number of threads.
@@ -69,7 +69,7 @@ pub struct Picture<'a> {
     pub particle_radius: f32,
     /// Positions of the sponge nodes: xyz, w is ignored.
     pub nodes: &'a [[f32; 4]],
-    /// How wet each node is, 0 (dry) to 1 (soaked): as long as `nodes`, or empty for dry.
+    /// Wetness of each node, 0 (dry) to 1 (soaked): as long as `nodes`, or empty for dry.
     pub wetness: &'a [f32],
     /// Outer surface of the sponges as indices into `nodes`, wound counter-clockwise seen from outside.
     pub triangles: &'a [[u32; 3]],

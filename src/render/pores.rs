@@ -1,34 +1,34 @@
-//! Pits in the sponge's skin, tied to the material: they stretch and travel with it.
+//! Drawn pores in the surface of the sponge, tied to the material: they stretch and move with it.
 //!
-//! Each triangle carries the points of a regular grid in its barycentric coordinates. A point on a corner or a side
-//! is keyed by the nodes it lies between, so that the two triangles at a side agree about its pit.
+//! Each triangle carries the points of a regular grid in its barycentric coordinates. The nodes next to a point on a corner
+//! or a side are its key, so that both triangles draw the same pore.
 
 use super::colour::{floor, smooth, unit};
 use glam::Vec3;
 
-/// What the pores do to a point of the skin.
+/// Effect of the pores at a point of the surface.
 pub(super) struct Pit {
-    /// Fraction of the light that is left, 0..=1.
+    /// Fraction of the light that remains, 0..=1.
     pub(super) openness: f32,
     /// Tilt of the normal, in the triangle's plane.
     pub(super) tilt: Vec3,
 }
 
-/// A triangle of the skin: corners (m) and the keys of its nodes.
+/// A triangle of the surface: corners (m) and the keys of its nodes.
 pub(super) struct Patch {
     pub(super) corners: [Vec3; 3],
     pub(super) nodes: [u32; 3],
     pub(super) key: u32,
 }
 
-/// Pits of two sizes at barycentric coordinates `at`; `pores` coarse ones fit along a side, and detail below `blur`
-/// (in triangle sides per pixel) is left out.
+/// Pores of two sizes at barycentric coordinates `at`; `pores` coarse ones fit along a side. Detail below `blur` (in
+/// triangle sides per pixel) is left out.
 pub(super) fn pit(patch: &Patch, at: [f32; 3], pores: f32, blur: f32) -> Pit {
     let mut pit = Pit { openness: 1.0, tilt: Vec3::ZERO };
     for (layer, count, depth, chance) in
         [(0, pores, 0.78, 0.55), (1, pores * 2.0, 0.62, 0.6), (2, pores * 5.0, 0.42, 0.7)]
     {
-        // A pit is about half a grid cell wide: fade it out from three pixels to one.
+        // A pore is about half a grid cell wide: fade it out from three pixels to one.
         let visible = smooth(0.9, 0.3, count * blur);
         if visible > 0.0 {
             grid(patch, at, count, layer, (depth * visible, chance), &mut pit);
@@ -37,12 +37,12 @@ pub(super) fn pit(patch: &Patch, at: [f32; 3], pores: f32, blur: f32) -> Pit {
     pit
 }
 
-/// One size of pits.
+/// Pores of one size.
 fn grid(patch: &Patch, at: [f32; 3], count: f32, layer: u32, (depth, chance): (f32, f32), pit: &mut Pit) {
     let scaled = at.map(|b| b.clamp(0.0, 1.0) * count);
     let base = scaled.map(f32::floor);
     let rest: f32 = count - base.iter().sum::<f32>();
-    // The cell's three corners: upright cells have one unit left to give, inverted ones two.
+    // The three corners of the cell. The fractional parts of upright cells sum to one, those of inverted cells to two.
     let points: [[f32; 3]; 3] = std::array::from_fn(|i| {
         let mut point = base;
         if rest < 1.5 {
@@ -67,7 +67,7 @@ fn grid(patch: &Patch, at: [f32; 3], count: f32, layer: u32, (depth, chance): (f
             pit.openness *= 1.0 - shade;
             let [a, b, c] = patch.corners;
             let outward = (a * u + b * v + c * w).normalize_or_zero();
-            // The wall of a pit leans to its middle.
+            // The wall of a pore leans to its middle.
             let wall = smooth(0.0, 0.6, distance) * smooth(1.0, 0.7, distance);
             pit.tilt -= outward * (0.9 * depth * wall);
         }

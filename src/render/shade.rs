@@ -1,4 +1,4 @@
-//! Colour of what a sample sees.
+//! Colour of the item that a sample sees.
 
 use super::colour::{smooth, unit};
 use super::layer::Item;
@@ -24,13 +24,13 @@ const BODIES: [Vec3; 6] = [
     Vec3::new(0.55, 0.52, 0.46),
 ];
 
-/// How a surface answers light.
+/// Optical properties of a surface.
 pub(super) struct Matter {
     pub(super) colour: Vec3,
     pub(super) normal: Vec3,
-    /// Strength and tightness (exponent) of the highlight.
+    /// Strength and exponent of the highlight.
     pub(super) gloss: (f32, i32),
-    /// How much sky it mirrors at grazing angles.
+    /// Share of the sky that it reflects at grazing angles.
     pub(super) mirror: f32,
 }
 
@@ -100,12 +100,12 @@ pub(super) fn colour(stage: &Stage<'_>, item: Item, point: Vec3, ray: Vec3, ligh
     lit
 }
 
-/// Light that a surface sends back along `ray`.
+/// Light that a surface reflects along `ray`.
 pub(super) fn answer(matter: &Matter, ray: Vec3, light: Light) -> Vec3 {
     let (normal, view, towards) = (matter.normal, -ray.normalize_or_zero(), light::direction());
     let hemisphere = BOUNCE.lerp(SKY, 0.5 + 0.5 * normal.y) * light.sky;
     let key = KEY * (normal.dot(towards).max(0.0) * light.key);
-    // A little light from the eye keeps shapes legible in the shade.
+    // A little light from the eye keeps shapes visible in the shadow.
     let front = Vec3::splat(0.10 * normal.dot(view).max(0.0) * light.sky);
     let mut result = matter.colour * (hemisphere + key + front);
     let half = (view + towards).normalize_or_zero();
@@ -139,7 +139,7 @@ fn ground(colour: Vec3, normal: Vec3) -> Matter {
     Matter { colour, normal, gloss: (0.0, 1), mirror: 0.0 }
 }
 
-/// The floor's checks and grid lines, evened out where they get smaller than a pixel (`scale` samples a metre).
+/// The squares and grid lines of the floor, averaged where they become smaller than a pixel (`scale` samples per metre).
 fn tiles(floor: &Floor, point: Vec3, scale: f32) -> Vec3 {
     let base = Vec3::new(0.50, 0.51, 0.52);
     let inside = point.x >= floor.low.x
@@ -174,7 +174,7 @@ fn skin(stage: &Stage<'_>, triangle: usize, point: Vec3, normal: Vec3) -> Matter
     let pit = pores::pit(&patch, at, sponge.pores, 2.0 / samples.max(1e-3));
     let shades = patch.nodes.map(|key| unit(key ^ 0x51ed_270b));
     let tint = 0.93 + 0.14 * (shades[0] * u + shades[1] * v + shades[2] * w);
-    // Pits are darker and redder: light bounces about in them.
+    // Pores are darker and redder by multiple scattering.
     let depth = 1.0 - pit.openness;
     let stain = Vec3::new(1.0 - 0.72 * depth, 1.0 - 0.86 * depth, 1.0 - 0.93 * depth);
     let colour = DRY.lerp(WET, smooth(0.0, 1.0, wet)) * tint * stain;

@@ -1,13 +1,13 @@
-//! Rays against the bodies' shapes.
+//! Intersection of rays with the shapes of bodies.
 
 use super::DrawnBody;
 use crate::rigid::Shape;
 use glam::{Mat3, Vec3};
 
-/// A body ready for rays.
+/// A body prepared for intersection.
 pub(super) struct Solid<'a> {
     shape: &'a Shape,
-    /// Place in the picture's list, which also picks the colour.
+    /// Index in the picture's list, which also selects the colour.
     pub(super) index: usize,
     pub(super) position: Vec3,
     /// Local to world.
@@ -17,7 +17,7 @@ pub(super) struct Solid<'a> {
     pub(super) translucent: bool,
 }
 
-/// Where a ray is inside a shape.
+/// The part of a ray inside a shape.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     pub(super) enter: f32,
@@ -28,7 +28,7 @@ pub(super) struct Span {
 }
 
 impl<'a> Solid<'a> {
-    /// The body, or nothing where its pose or size is not usable.
+    /// The body, or nothing where its pose or size is not valid.
     pub(super) fn new(index: usize, body: &DrawnBody<'a>) -> Option<Self> {
         let radius = match body.shape {
             Shape::Plane => f32::INFINITY,
@@ -60,7 +60,7 @@ impl<'a> Solid<'a> {
         self.rotation.transpose() * (point - self.position)
     }
 
-    /// The stretch of a ray inside the shape, if the ray starts outside and hits; normals in world axes.
+    /// The part of a ray inside the shape, if the ray starts outside and hits; normals in world axes.
     pub(super) fn span(&self, origin: Vec3, direction: Vec3) -> Option<Span> {
         let inverse = self.rotation.transpose();
         let (o, d) = (inverse * (origin - self.position), inverse * direction);
@@ -78,13 +78,13 @@ impl<'a> Solid<'a> {
         })
     }
 
-    /// How far a point on the surface is from the nearest edge of the shape (m): only cuboids have edges to show.
+    /// Distance of a point on the surface to the nearest edge of the shape (m): only cuboids have drawn edges.
     pub(super) fn edge_distance(&self, point: Vec3) -> f32 {
         let Shape::Cuboid { half_extents } = self.shape else {
             return f32::INFINITY;
         };
         let inside = (*half_extents - self.local(point).abs()).max(Vec3::ZERO).to_array();
-        // The smallest of the three is the face the point lies on; the next one is the way to an edge.
+        // The smallest of the three belongs to the face of the point; the next one is the distance to an edge.
         let [a, b, c] = inside;
         a.max(b).min(a.max(c)).min(b.max(c))
     }
@@ -101,7 +101,7 @@ impl<'a> Solid<'a> {
 }
 
 fn plane(o: Vec3, d: Vec3) -> Option<Span> {
-    // Seen from its outer side only: a wall between the eye and the scene would hide everything.
+    // Visible from its outer side only: a wall between the eye and the scene would hide everything.
     (o.y > 0.0 && d.y < 0.0).then(|| Span {
         enter: -o.y / d.y,
         exit: f32::INFINITY,
@@ -141,7 +141,7 @@ fn hull(o: Vec3, d: Vec3, planes: &[(Vec3, f32)]) -> Option<Span> {
     (span.enter > f32::MIN && span.exit < f32::MAX).then_some(span)
 }
 
-/// Cuts a span at the half-space `normal . x <= offset`.
+/// Clips a span at the half-space `normal . x <= offset`.
 fn clip(span: &mut Span, normal: Vec3, offset: f32, o: Vec3, d: Vec3) -> Option<()> {
     let (slope, gap) = (normal.dot(d), offset - normal.dot(o));
     if slope < 0.0 {
@@ -177,7 +177,7 @@ fn capsule(o: Vec3, d: Vec3, half_height: f32, radius: f32) -> Option<Span> {
             keep(span);
         }
     }
-    // Between the caps: the ball's formula in the plane across the axis.
+    // Between the caps: the formula of the ball in the plane across the axis.
     let flat = Vec3::new(1.0, 0.0, 1.0);
     if (d.x != 0.0 || d.z != 0.0)
         && let Some(span) = ball(o * flat, d * flat, radius)

@@ -1,17 +1,17 @@
-//! The sponge's outer surface, made ready for drawing.
+//! The sponge's outer surface, prepared for drawing.
 
 use super::Picture;
 use glam::Vec3;
 
 /// The sponge's surface: only `triangles` may be used to index the other columns.
 pub(super) struct Surface {
-    /// Triangles that can be drawn: their place in the picture's list and their corners.
+    /// Triangles that can be drawn: their index in the picture's list and their corners.
     pub(super) triangles: Vec<(usize, [usize; 3])>,
-    /// Position of each node as it is drawn.
+    /// Drawn position of each node.
     pub(super) positions: Vec<Vec3>,
     /// Outward unit normal of each node of the surface.
     pub(super) normals: Vec<Vec3>,
-    /// How wet each node is, 0..=1.
+    /// Wetness of each node, 0..=1.
     pub(super) wetness: Vec<f32>,
     /// Pores along a triangle's side.
     pub(super) pores: f32,
@@ -27,8 +27,8 @@ impl Surface {
             .enumerate()
             .filter_map(|(i, &[a, b, c])| Some((i, [corner(a)?, corner(b)?, corner(c)?])))
             .collect();
-        // A lattice cut along its planes has a zigzag surface that no sponge has. Taubin's pair of a shrinking
-        // and a slightly larger growing step takes the zigzag out and keeps the volume.
+        // A lattice cut along its planes has a zigzag surface, unlike a sponge. Taubin smoothing, a shrinking step and a
+        // slightly larger growing step, removes it and keeps the volume.
         for weight in [0.6, -0.63, 0.6, -0.63, 0.6, -0.63] {
             relax(&mut positions, &triangles, weight);
         }
@@ -37,7 +37,7 @@ impl Surface {
             .map(|i| picture.wetness.get(i).copied().unwrap_or(0.0))
             .map(|w| if w.is_finite() { w.clamp(0.0, 1.0) } else { 0.0 })
             .collect();
-        // From the count alone, so that the pores stay where they are while the sponge deforms.
+        // From the count alone, so that the pores keep their place while the sponge deforms.
         let pores = (9000.0 / triangles.len().max(1) as f32).sqrt().round().clamp(1.0, 12.0);
         Self { triangles, positions, normals, wetness, pores }
     }
@@ -60,7 +60,7 @@ fn relax(positions: &mut [Vec3], triangles: &[(usize, [usize; 3])], weight: f32)
     }
 }
 
-/// Normals weighted by area, evened out once over the neighbours.
+/// Normals weighted by area, averaged once over the neighbours.
 fn normals(positions: &[Vec3], triangles: &[(usize, [usize; 3])]) -> Vec<Vec3> {
     let mut normals = vec![Vec3::ZERO; positions.len()];
     for &(_, [a, b, c]) in triangles {

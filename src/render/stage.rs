@@ -1,4 +1,4 @@
-//! A picture made ready for drawing: what is finite, where it is, how large the scene is.
+//! A picture prepared for drawing: finite values only, the middle and the size of the scene.
 
 use super::camera::{Camera, View};
 use super::shapes::Solid;
@@ -18,17 +18,17 @@ pub(super) struct Floor {
 pub(super) struct Stage<'a> {
     pub(super) picture: &'a Picture<'a>,
     pub(super) view: View,
-    /// Particles with a finite position: place in the list and position.
+    /// Particles with a finite position: index in the list and position.
     pub(super) particles: Vec<(usize, Vec3)>,
     pub(super) radius: f32,
     pub(super) solids: Vec<Solid<'a>>,
     pub(super) sponge: Surface,
     pub(super) floor: Option<Floor>,
-    /// Middle of the box around what is drawn, which steadies itself on the container: it must not jump between frames.
+    /// Middle of the box around the drawn items, stabilised by the container: it must not jump between frames.
     pub(super) centre: Vec3,
     /// Diagonal of the box in m.
     pub(super) size: f32,
-    /// Speed that is drawn palest, m/s.
+    /// Speed of the palest water, m/s.
     pub(super) fast: f32,
 }
 
@@ -60,17 +60,17 @@ impl<'a> Stage<'a> {
         Self { picture, view, particles, radius, solids, sponge, floor, centre, size, fast }
     }
 
-    /// Distance from the scene's centre where the ground starts to melt into the sky.
+    /// Distance from the scene's centre where the ground begins to fade into the sky.
     pub(super) fn fade_start(&self) -> f32 {
         0.6 * self.size
     }
 
-    /// Distance from the scene's centre where it has melted into the sky.
+    /// Distance from the scene's centre where it has faded completely.
     pub(super) fn fade_end(&self) -> f32 {
         2.6 * self.size
     }
 
-    /// How fast a particle is, 0 (still) to 1 (as fast as a fall through the scene).
+    /// Speed of a particle, 0 (still) to 1 (as fast as a fall through the scene).
     pub(super) fn speed(&self, particle: usize) -> f32 {
         let Some(&[x, y, z, _]) = self.picture.velocities.get(particle) else {
             return 0.0;
@@ -108,13 +108,13 @@ fn extent(
         let usable = low.is_finite() && high.is_finite();
         return if usable { (low, high.max(low + 1e-6)) } else { (Vec3::splat(-0.5), Vec3::splat(0.5)) };
     };
-    // Strays do not stretch the box beyond one container on each side, and it grows in steps of a quarter.
+    // Stray particles do not stretch the box beyond one container on each side, and it grows in steps of a quarter.
     let side = (b - a).max(Vec3::splat(1e-6));
     let steps = |distance: Vec3| ((distance / side * 4.0).ceil() * 0.25).clamp(Vec3::ZERO, Vec3::ONE) * side;
     (a - steps(a - low.min(a)), a + side + steps(high.max(b) - b))
 }
 
-/// 1, 2 or 5 times a power of ten, not above `length` by much.
+/// 1, 2 or 5 times a power of ten, at most slightly above `length`.
 fn round_pitch(length: f32) -> f32 {
     let power = 10.0_f32.powf(length.log10().floor());
     let lead = length / power;

@@ -1,4 +1,4 @@
-//! Water as one smooth surface: the particles' depth, smoothed, with light lost along the way through.
+//! Water as one smooth surface: the smoothed depth of the particles, with absorption along the ray.
 
 use super::bands::{self, BAND};
 use super::colour::{floor, smooth};
@@ -13,7 +13,7 @@ use glam::Vec3;
 const SWELL: f32 = 1.5;
 /// Balls of half the spacing fill about half of the water's volume.
 const FILLING: f32 = 1.0 / 0.52;
-/// How much red, green and blue is lost over a tenth of the scene's diagonal.
+/// Absorption of red, green and blue over a tenth of the scene's diagonal.
 const ABSORPTION: Vec3 = Vec3::new(1.5, 0.5, 0.25);
 
 /// Water of one pixel.
@@ -32,7 +32,7 @@ struct Pixel {
 
 const DRY: Pixel = Pixel { depth: f32::INFINITY, thickness: 0.0, speed: 0.0, normal: Vec3::ZERO, key: 1.0 };
 
-/// Pours the water over samples that show everything else; gives the samples and their new depth.
+/// Draws the water over samples that show everything else; returns the samples and their new depth.
 pub(super) fn pour(
     stage: &Stage<'_>,
     shadows: &Shadows,
@@ -68,7 +68,7 @@ pub(super) fn pour(
     (result, depth)
 }
 
-/// Length of water in front of the opaque things, and its speed, per pixel.
+/// Length of water in front of the opaque items, and its speed, per pixel.
 fn thickness(stage: &Stage<'_>, depth: &[f32]) -> Vec<Pixel> {
     let view = &stage.view;
     let balls = balls(stage, 1.0);
@@ -93,7 +93,7 @@ fn thickness(stage: &Stage<'_>, depth: &[f32]) -> Vec<Pixel> {
     pixels
 }
 
-/// One pass of a smoothing filter that keeps apart what lies further apart than a few particles.
+/// One pass of an edge-preserving smoothing filter: depths more than a few particles apart do not mix.
 fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -> Vec<Pixel> {
     let height = pixels.len() / width;
     let apart = 3.0 * stage.radius;
@@ -111,7 +111,7 @@ fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -
             let (mut depth, mut thick, mut speed, mut total) = (0.0, 0.0, 0.0, 0.0);
             for other in at.saturating_sub(taps)..(at + taps + 1).min(limit) {
                 let near = if sideways { pixels[y * width + other] } else { pixels[other * width + x] };
-                // What is far in front belongs to another sheet of water; what is far behind counts as just behind.
+                // A pixel far in front belongs to another sheet of water. One far behind counts as just behind.
                 if near.depth == f32::INFINITY || near.depth < pixel.depth - apart {
                     continue;
                 }
@@ -148,7 +148,7 @@ fn orient(stage: &Stage<'_>, shadows: &Shadows, pixels: &[Pixel], width: usize) 
                 let depth = pixels[ny * width + nx].depth;
                 ((depth - pixel.depth).abs() < apart).then(|| place(nx, ny))
             };
-            // From neighbour to neighbour, or from here to the one that lies on the same sheet.
+            // From neighbour to neighbour, or to the neighbour on the same sheet.
             let slope =
                 |before: Option<Vec3>, after: Option<Vec3>| after.unwrap_or(here) - before.unwrap_or(here);
             let left = (x > 0).then(|| near(x - 1, y)).flatten();
@@ -168,7 +168,7 @@ fn orient(stage: &Stage<'_>, shadows: &Shadows, pixels: &[Pixel], width: usize) 
     result
 }
 
-/// The water of a pixel, or of a neighbour where a sample at the water's edge has none of its own.
+/// The water of a pixel, or of a neighbour where a sample at the edge of the water has none.
 fn wet(pixels: &[Pixel], width: usize, x: usize, y: usize) -> Option<Pixel> {
     let height = pixels.len() / width;
     let own = pixels[y * width + x];
@@ -180,12 +180,12 @@ fn wet(pixels: &[Pixel], width: usize, x: usize, y: usize) -> Option<Pixel> {
         .find(|pixel| pixel.depth < f32::INFINITY)
 }
 
-/// What comes through the water, what it scatters and what it mirrors.
+/// Light that the water transmits, scatters and reflects.
 fn water(stage: &Stage<'_>, pixel: Pixel, (x, y): (usize, usize), samples: &[Vec3], depth: &[f32]) -> Vec3 {
     let view = &stage.view;
     let ray = view.ray(x, y);
     let (towards, normal) = (-ray.normalize_or_zero(), pixel.normal);
-    // Thin water at an outline still is a drop thick.
+    // Thin water at an outline is still a drop thick.
     let thickness = pixel.thickness.max(1.5 * stage.radius);
     let shift = 0.22 * thickness.min(0.1 * stage.size) * view.focal / pixel.depth;
     let bent = |at: usize, by: f32, limit: usize| {

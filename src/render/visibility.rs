@@ -1,7 +1,7 @@
-//! How much sky and how much key light each pixel sees.
+//! Visible share of sky and key light of each pixel.
 //!
-//! Worked out once a pixel with patterns that differ between neighbours, then evened out over surfaces: a quarter of
-//! the work of doing it per sample, and no noise is left.
+//! Computed once per pixel with patterns that differ between neighbours, then averaged over surfaces. This is a quarter of
+//! the work of sampling per sample, and leaves no noise.
 
 use super::bands::{self, BAND};
 use super::layer::{Item, Layer};
@@ -19,7 +19,7 @@ pub(super) struct Light {
     depth: f32,
 }
 
-/// Longest way from a pixel to a sample of its surroundings, in heights of the picture.
+/// Longest distance from a pixel to a sample of its surroundings, in heights of the picture.
 const REACH: f32 = 0.08;
 
 const CLEAR: Light = Light { sky: 1.0, key: 1.0, depth: f32::INFINITY };
@@ -30,7 +30,7 @@ pub(super) struct Visibility {
     light: Vec<Light>,
 }
 
-/// Sines and cosines of the sixteen turns of the pattern.
+/// Sines and cosines of the sixteen rotations of the pattern.
 type Turns = [(f32, f32); 16];
 
 impl Visibility {
@@ -51,7 +51,7 @@ impl Visibility {
         Self { width, light }
     }
 
-    /// Light at a sample: of its pixel, or of the neighbour that is nearest in depth where an edge runs through.
+    /// Light at a sample: that of its pixel, or at an edge that of the neighbour nearest in depth.
     pub(super) fn at(&self, x: usize, y: usize, depth: f32) -> Light {
         let (px, py) = (x / 2, y / 2);
         let height = self.light.len() / self.width;
@@ -99,7 +99,7 @@ fn gather(
     Light { sky, key, depth }
 }
 
-/// Tiles of pixels that have nothing but floor and sky within the reach of a sample.
+/// Tiles of pixels with nothing but floor and sky within the reach of a sample.
 struct Open {
     columns: usize,
     tiles: Vec<bool>,
@@ -132,7 +132,7 @@ impl Open {
     }
 }
 
-/// Obscurance from the depths around a pixel: every sample above the tangent plane takes light away.
+/// Ambient occlusion from the depths around a pixel: every sample above the tangent plane takes light away.
 fn sky(
     stage: &Stage<'_>,
     layer: &Layer,
@@ -189,7 +189,7 @@ fn even_out(light: &[Light], width: usize, sideways: bool) -> Vec<Light> {
                 for i in at.saturating_sub(2)..(at + 3).min(limit) {
                     let other = if sideways { light[y * width + i] } else { light[i * width + x] };
                     if (other.depth - pixel.depth).abs() < 0.012 * pixel.depth {
-                        // The outermost of the five share one place in the pattern of four.
+                        // The two outermost of the five share one place in the pattern of four.
                         let weight = if i.abs_diff(at) == 2 { 0.5 } else { 1.0 };
                         sky += weight * other.sky;
                         key += weight * other.key;
@@ -206,7 +206,7 @@ fn even_out(light: &[Light], width: usize, sideways: bool) -> Vec<Light> {
 }
 
 impl Light {
-    /// Nothing in the way.
+    /// No occlusion.
     pub(super) fn clear() -> Self {
         CLEAR
     }

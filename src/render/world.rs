@@ -38,9 +38,10 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
     draw(&picture, camera, width, height)
 }
 
-/// How wet each node looks; before the first step, what the scene says.
+/// Drawn wetness of each node; before the first step that of the scene.
 ///
-/// The outermost nodes do not suck, and the water stays one layer below them: a skin looks as wet as what lies under it.
+/// The outermost nodes have no suction, and the water stays one layer below them. The surface looks as wet as the layer
+/// below it.
 fn wetness(world: &World) -> Vec<f32> {
     let lattice = world.lattice();
     let saturations = world.node_saturations();
@@ -49,7 +50,7 @@ fn wetness(world: &World) -> Vec<f32> {
         return lattice.node_sponge.iter().map(|&sponge| sponges[sponge as usize].saturation).collect();
     }
     let mut wetness: Vec<f32> = saturations.iter().map(|saturation| saturation.clamp(0.0, 1.0)).collect();
-    // Twice: an edge of the block has no node inside beside it, only nodes of the faces.
+    // Twice: an edge of the block has no inner neighbours, only nodes of the faces.
     let mut known: Vec<bool> = lattice.node_surface.iter().map(|surface| !surface).collect();
     for _ in 0..2 {
         let mut sums = vec![(0.0, 0.0_f32); wetness.len()];
@@ -94,13 +95,13 @@ mod tests {
                 .unwrap_or_else(|error| panic!("{error}"))
         };
         let lowest = |wetness: &[f32]| wetness.iter().copied().fold(1.0, f32::min);
-        // Strong enough to hold the water up to its top.
+        // Enough to hold the water up to its top.
         let mut soaked = world(&["sponges.sponge.entry_pressure=1500"]);
         for _ in 0..6 {
             soaked.advance_frame().unwrap_or_else(|error| panic!("{error}"));
         }
         let (skin, drawn) = (lowest(soaked.node_saturations()), lowest(&wetness(&soaked)));
-        // The control: what is drawn is not what the outermost nodes say.
+        // Negative control: the drawn wetness is not that of the outermost nodes.
         assert!(skin < 0.4, "{skin}");
         assert!(drawn > 0.6, "{drawn}");
         let dry = world(&["sponges.sponge.saturation=0"]);

@@ -30,7 +30,7 @@ pub enum RigidError {
         /// What is accepted.
         reason: &'static str,
     },
-    /// A dynamic body was given to an engine that only knows fixed and kinematic ones.
+    /// A dynamic body was given to an engine that supports only fixed and kinematic ones.
     #[error("body `{body}` is dynamic: build with the feature `rigid`, or make it fixed or kinematic")]
     DynamicUnsupported {
         /// Name of the body.
@@ -108,7 +108,7 @@ pub enum RigidError {
     /// A host's own engine failed.
     #[error("rigid-body engine: {message}")]
     Engine {
-        /// What it said.
+        /// Message of the engine.
         message: String,
     },
 }

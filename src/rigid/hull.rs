@@ -4,20 +4,20 @@ use glam::{DVec3, Vec3};
 use rapier3d::parry::transformation::try_convex_hull;
 use std::collections::BTreeMap;
 
-/// Most corners that a hull may have.
+/// Largest number of corners of a hull.
 ///
-/// Contacts slow down with every corner, and facets that meet at less than about a degree confuse the contact
-/// search: simplify the mesh first.
+/// Contacts slow down with every corner, and facets that meet at less than about a degree confuse the contact search.
+/// Simplify the mesh first.
 pub const MAX_HULL_VERTICES: usize = 1024;
 
 /// Thickness over length below which points count as lying in one plane.
 const FLATNESS: f64 = 1e-3;
 
-/// Facets with this cosine between their normals, and this distance over the hull's length, are one plane.
+/// Facets whose normals have this cosine, at this distance over the length of the hull, are one plane.
 const SAME_NORMAL: f64 = 1.0 - 1e-6;
 const SAME_OFFSET: f64 = 1e-4;
 
-/// How far from the origin the centre of mass may lie, over the hull's length.
+/// Largest distance of the centre of mass from the origin, over the length of the hull.
 const CENTRED: f64 = 1e-3;
 
 /// Why there is no usable hull.
@@ -56,15 +56,15 @@ pub enum HullError {
         /// The centre of mass.
         centre: String,
     },
-    /// The points defeated the numerics of the hull search.
+    /// The hull search failed numerically.
     #[error("no hull found: {message}")]
     Failed {
-        /// What the search said.
+        /// Message of the search.
         message: String,
     },
 }
 
-/// A hull in its own frame, and where that frame was.
+/// A hull in its own frame, and the place of that frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexHull {
     /// A [`Shape::Hull`] with the centre of mass at the origin.
@@ -93,7 +93,7 @@ pub fn convex_hull(points: &[Vec3]) -> Result<ConvexHull, HullError> {
         return Err(HullError::TooManyVertices { found: vertices.len() });
     }
     check_closed(vertices.len(), &triangles)?;
-    // Integrals about a corner of the hull keep their digits however far away the world's origin is.
+    // Integrals about a corner of the hull keep their precision at any distance from the world's origin.
     let base = vertices[0].as_dvec3();
     let solid = Solid::new(|i| vertices[i as usize].as_dvec3() - base, &triangles);
     if solid.volume <= 0.0 {
@@ -109,7 +109,7 @@ pub fn convex_hull(points: &[Vec3]) -> Result<ConvexHull, HullError> {
     Ok(ConvexHull { shape: Shape::Hull { planes, vertices, triangles }, offset })
 }
 
-/// Checks a hull that somebody else has built; vertex numbers and finiteness are checked already.
+/// Checks a hull from outside this module; vertex numbers and finiteness are checked already.
 pub(super) fn check_hull(
     planes: &[(Vec3, f32)],
     vertices: &[Vec3],
@@ -156,7 +156,7 @@ fn distinct(points: &[Vec3]) -> Result<Vec<Vec3>, HullError> {
     Ok(numbered.into_iter().map(|(point, _)| point).collect())
 }
 
-/// The length of the point set, or an error if it has no thickness to speak of.
+/// The length of the point set, or an error if it has almost no thickness.
 fn thickness(points: &[Vec3]) -> Result<f64, HullError> {
     let base = points[0].as_dvec3();
     let farthest = |distance: &dyn Fn(DVec3) -> f64| {
@@ -179,7 +179,7 @@ fn thickness(points: &[Vec3]) -> Result<f64, HullError> {
     if width > FLATNESS * length && height > FLATNESS * length { Ok(length) } else { Err(HullError::Flat) }
 }
 
-/// Every edge must be run through once in each direction, and every vertex must be used.
+/// Every edge must appear once in each direction, and every vertex must be used.
 fn check_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> Result<(), HullError> {
     let mut edges: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     let mut used = vec![false; vertex_count];
@@ -206,7 +206,7 @@ fn planes(vertices: &[Vec3], triangles: &[[u32; 3]], length: f64) -> Vec<(Vec3, 
         let (a, b, c) = (corner(a), corner(b), corner(c));
         let normal = (b - a).cross(c - a);
         let area = normal.length();
-        // A sliver's normal is noise; its neighbours span the same face.
+        // The normal of a sliver is noise; its neighbours span the same face.
         if area > 1e-10 * length * length {
             let normal = normal / area;
             facets.push((area, normal, normal.dot((a + b + c) / 3.0)));

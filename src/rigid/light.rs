@@ -1,30 +1,30 @@
-//! Bodies that are light against what they displace.
+//! Bodies that are light compared with what they displace.
 //!
-//! Fluid finds its pressure, and sponges their contact, with bodies on their way as they are; bodies take the impulses afterwards. A
-//! body of far less mass than what has to make room for it would be thrown further than that goes, and back in the next step, each time
-//! further. In truth it carries a share of the fluid along, half of what it displaces if it is a ball (its added mass). So a body that
-//! is touched has at least a quarter of the inertia of what it displaces:
+//! The pressure solve and the contact of sponges take the motion of bodies in a step as prescribed. Bodies receive the
+//! impulses afterwards. A body much lighter than what it displaces would overshoot, and overshoot back in the next step
+//! (added-mass instability). In reality it accelerates a part of the fluid, for a ball half of what it displaces (its added
+//! mass). A body in contact therefore has at least a quarter of the inertia of what it displaces:
 //!
 //! ```text
 //! m* dv = J + m g h,   m* = max(m, rho_0 V / 4)
 //! ```
 //!
-//! with J the impulse of the step. Its weight is its own, and with it its draft. The added mass comes on top, from the fluid: a ball of no
-//! mass that is let go under water takes off a third slower than it should, one of a tenth of the density a fifth, and from a quarter on nothing
-//! changes. Less than a quarter still gains energy (`docs/stress.md`).
+//! J is the impulse of the step. Weight and draft are unchanged. The fluid adds the added mass. A ball without mass that is
+//! released under water starts a third too slowly, one of a tenth of the density a fifth. From a quarter of the density on
+//! nothing changes. With less than a quarter the ball still gains energy (docs/pressure-solve.md, docs/history.md).
 
 use glam::DVec3;
 
 use super::{BodyKind, RigidEngine, Wrench};
 use crate::scene::Scene;
 
-/// Least inertia of a body that is touched, over that of what it displaces.
+/// Smallest inertia of a body in contact, over that of what it displaces.
 const LEAST_INERTIA: f64 = 0.25;
 
-/// How far the bodies of a scene are lighter than they may be in a step.
+/// Inertia factors of light bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct LightBodies {
-    /// m / m* of every body that fluid touches, and of every body that only nodes touch.
+    /// m / m* of every body in contact with fluid, and of every body in contact with nodes only.
     shares: Vec<[f64; 2]>,
     gravity: DVec3,
 }
@@ -40,7 +40,7 @@ impl LightBodies {
         Self { shares: shares.collect(), gravity: scene.gravity.as_dvec3() }
     }
 
-    /// What the engine is to give its bodies, of what fluid and nodes gave them in a step \[s\].
+    /// Wrenches for the engine, from those that fluid and nodes gave the bodies in a step \[s\].
     pub(crate) fn wrenches(
         &self,
         engine: &dyn RigidEngine,
@@ -60,7 +60,7 @@ impl LightBodies {
             if share == 1.0 || inverse_mass == 0.0 {
                 return Wrench { impulse, angular_impulse };
             }
-            // The engine adds the whole of the weight, of which a body of more inertia takes a share only.
+            // The engine adds the whole weight, but a body with more inertia takes only a share of its acceleration.
             let weight = self.gravity * (f64::from(step) / inverse_mass);
             Wrench {
                 impulse: impulse * share - weight * (1.0 - share),
@@ -90,7 +90,8 @@ mod tests {
     const STEP: f32 = 0.002;
     const GRAVITY: f32 = 9.81;
 
-    /// Velocity along y of a ball of some density after a step in which it was given what is stated, over its weight in the step.
+    /// Velocity along y of a ball of some density after a step with the given impulses, which are over its weight in the
+    /// step.
     fn after_a_step(density: f32, by_fluid: f64, by_nodes: f64) -> f32 {
         let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.05 }, Vec3::ZERO, density);
         let sponge = Sponge { density: 100.0, ..Sponge::default() };
@@ -121,15 +122,15 @@ mod tests {
         let fall = GRAVITY * STEP;
         let is =
             |found: f32, expected: f32| assert!((found - expected).abs() < 1e-4 * fall, "{found} {expected}");
-        // A hundredth of the density of water: borne by its weight, it rests; in the air it falls as all things do.
+        // At a hundredth of the density of water: supported by its weight, it rests. In the air it falls like any body.
         is(after_a_step(10.0, 1.0, 0.0), 0.0);
         is(after_a_step(10.0, 0.0, 0.0), -fall);
-        // Pushed by more, it answers as a body of 250 kg/m^3.
+        // Pushed harder, it responds as a body of 250 kg/m^3.
         is(after_a_step(10.0, 11.0, 0.0), 0.4 * fall);
         // Under a sponge of 100 kg/m^3, as one of 25.
         is(after_a_step(10.0, 0.0, 11.0), 4.0 * fall);
         is(after_a_step(1.0, 0.0, 11.0), 0.4 * fall);
-        // The control: from a quarter of the density on nothing changes.
+        // Negative control: from a quarter of the density on nothing changes.
         is(after_a_step(250.0, 11.0, 0.0), 10.0 * fall);
         is(after_a_step(25.0, 0.0, 11.0), 10.0 * fall);
     }

@@ -109,7 +109,7 @@ fn outer(v: DVec3) -> DMat3 {
 
 /// Principal moments of a symmetric matrix and the rotation from their axes to the matrix's frame.
 ///
-/// Jacobi's method: square roots only, hence the same bits everywhere, and no absolute threshold, so that the
+/// Jacobi's method uses square roots only, which give the same bits everywhere. It has no absolute threshold, so that the
 /// inertia of a pebble is as exact as that of a house.
 #[cfg(feature = "rigid")]
 pub(super) fn principal_moments(matrix: DMat3) -> (DVec3, DQuat) {

@@ -32,7 +32,7 @@ impl Mechanics {
         }
     }
 
-    /// Of body number `index` of an engine; `None` if its mass is infinite (fixed and kinematic bodies).
+    /// Mechanics of body number `index` of an engine; `None` if its mass is infinite (fixed and kinematic bodies).
     ///
     /// May panic like [`RigidEngine::state`] if there is no such body.
     #[must_use]

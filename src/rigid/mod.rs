@@ -1,13 +1,11 @@
-//! Rigid bodies: what moves them, and the one door through which fluid and sponge push them.
+//! Rigid bodies: the engines that move them, and the one interface through which fluid and sponge push them.
 //!
-//! A [`RigidEngine`] takes one [`Wrench`] per body and advances the bodies by one step. [`ScriptedEngine`]
-//! knows fixed and kinematic bodies only and needs no physics engine. With the feature `rigid`,
-//! `RapierEngine` adds dynamic bodies, moved by rapier3d. A host with an engine of its own implements the
-//! trait instead.
+//! A [`RigidEngine`] takes one [`Wrench`] per body and advances the bodies by one step. [`ScriptedEngine`] supports fixed
+//! and kinematic bodies only and needs no physics engine. With the feature `rigid`, `RapierEngine` adds dynamic bodies,
+//! moved by rapier3d. A host with its own engine implements the trait instead.
 //!
-//! The same inputs give the same bits on every run: bodies are inserted in the order given, nothing sleeps of its own accord,
-//! and scripted poses are evaluated in closed form from the time, with trigonometry that does not depend on
-//! the platform.
+//! The same inputs give the same bits on every run. Bodies are inserted in the order given, and nothing sleeps by itself.
+//! Scripted poses are closed forms of the time, with trigonometry that does not depend on the platform.
 
 mod error;
 #[cfg(feature = "rigid")]
@@ -23,7 +21,7 @@ mod setup;
 #[cfg(test)]
 mod tests;
 
-// The contracts shared with the kernels and the scene. The files of this folder take them from here.
+// The interface shared with the kernels and the scene. The files of this folder import these types from here.
 pub use sorb_kernels::body::{Body, BodyKind, BodyState, Shape, Wrench};
 
 use crate::scene::Motion;
@@ -43,7 +41,7 @@ pub use setup::BodySetup;
 use glam::Mat3;
 use std::fmt;
 
-/// What the simulator needs from whatever moves the rigid bodies.
+/// Interface between the simulator and the engine that moves the rigid bodies.
 ///
 /// Bodies are numbered from zero in the order in which they were given; the numbers never change.
 /// [`BodyState`] is at the centre of mass, in the world's frame, in SI units.
@@ -53,13 +51,12 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
     /// Number of bodies.
     fn body_count(&self) -> usize;
 
-    /// Who moves the body.
+    /// What moves the body.
     fn kind(&self, index: usize) -> BodyKind;
 
     /// Pose and velocity now.
     ///
-    /// The velocity of a kinematic body is the one that it keeps from now on, hence zero once its motion is
-    /// over.
+    /// The velocity of a kinematic body is that from now on, hence zero once its motion is over.
     fn state(&self, index: usize) -> BodyState;
 
     /// Inverse of the mass \[1/kg\]; zero for fixed and kinematic bodies.
@@ -76,18 +73,17 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// `dt` that is not finite and above zero, a wrong number of wrenches, or a wrench that is not finite:
-    /// nothing has moved then. A state that is no longer finite after the step: the run cannot go on.
+    /// nothing has moved then. A state that is not finite after the step: the run cannot continue.
     fn step(&mut self, dt: f32, wrenches: &[Wrench]) -> Result<(), RigidError>;
 
-    /// Lets time pass \[s\] in which nothing moves: bodies stay where they are, with their velocities, and scripts go on from the
-    /// time after it.
+    /// Lets time pass \[s\] in which nothing moves: bodies keep their places and velocities, and scripts continue after it.
     fn wait(&mut self, time: f64);
 
-    /// Holds a dynamic body where it is, at rest, whatever acts on it, or lets it go on with the velocity that it had. Mass and inertia
-    /// stay what they are. No body that moves is near one that is held. Without effect on fixed and kinematic bodies.
+    /// Holds a dynamic body in place, at rest, whatever acts on it, or releases it with its former velocity. Mass and
+    /// inertia are unchanged. No moving body is near a held one. No effect on fixed and kinematic bodies.
     fn hold(&mut self, index: usize, is_held: bool);
 
-    /// Copies the engine with everything that its future depends on: the copy continues with the same bits.
+    /// Copies the engine with all of its state: the copy continues with the same bits.
     fn boxed_clone(&self) -> Box<dyn RigidEngine>;
 }
 

@@ -5,11 +5,11 @@ use glam::{DQuat, DVec3};
 
 /// Relative distance below which the time counts as having reached the end of a motion.
 ///
-/// A time summed from `f32` steps carries the rounding of the step: 100 steps of 0.01 s end 2e-8 s short of
-/// 1 s, and a motion that ends at 1 s must be over by then.
+/// A time summed from `f32` steps carries their rounding: 100 steps of 0.01 s end 2e-8 s short of 1 s. A motion that ends at
+/// 1 s must be over by then.
 const TIME_TOLERANCE: f64 = 2.0 * (f32::EPSILON as f64);
 
-/// The start pose of a body and all that moves it.
+/// The start pose of a body and its motions.
 #[derive(Clone, Debug)]
 pub(crate) struct Script {
     start: BodyState,
@@ -17,14 +17,14 @@ pub(crate) struct Script {
 }
 
 impl Script {
-    /// The motions are expected to be checked, the rotation to be of unit length.
+    /// The motions must be valid and the rotation of unit length.
     pub(crate) fn new(start: BodyState, motions: &[Motion]) -> Self {
         Self { start, motions: motions.to_vec() }
     }
 
     /// Pose at `time` \[s\] and the exact derivative of the pose to the right of it.
     ///
-    /// Every motion moves what the motions before it in the list have made of the start pose.
+    /// Every motion acts on the result of the motions before it in the list.
     pub(crate) fn state(&self, time: f64) -> BodyState {
         if self.motions.is_empty() {
             return self.start;
@@ -68,7 +68,7 @@ impl Script {
     }
 }
 
-/// Time spent in `[start, end]` by `time`, and whether the motion goes on after `time`.
+/// Time spent in `[start, end]` by `time`, and whether the motion continues after `time`.
 fn elapsed(time: f64, start: f32, end: f32) -> (f64, bool) {
     let (start, end) = (f64::from(start), f64::from(end));
     let begun = time >= start * (1.0 - TIME_TOLERANCE);

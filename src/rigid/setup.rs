@@ -9,27 +9,26 @@ const NOT_BELOW_ZERO: &str = "finite and at least 0";
 /// How far the squared length of a quaternion may be from one.
 const UNIT_TOLERANCE: f32 = 1e-3;
 
-/// What a body is at the start.
+/// Initial description of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySetup {
     /// Name, used in errors.
     pub name: String,
     /// Geometry, with the centre of mass at the origin of the body's frame.
     pub shape: Shape,
-    /// Who moves it.
+    /// What moves it.
     pub kind: BodyKind,
     /// Density \[kg/m³\]; above 0 for dynamic bodies, without effect for the others.
     pub density: f32,
     /// Pose and velocity at time zero. Only dynamic bodies may have a velocity here: a kinematic body takes
     /// it from its motions.
     pub state: BodyState,
-    /// Coefficient of friction, at least 0. A contact takes the mean of its two bodies, and that of the body
-    /// alone at a wall of the container.
+    /// Coefficient of friction, at least 0. A contact of two bodies takes the mean, and a contact with a wall of the
+    /// container that of the body alone.
     pub friction: f32,
     /// Coefficient of restitution, 0 to 1, combined in the same way.
     pub restitution: f32,
-    /// What moves a kinematic body; empty for the others. Each motion moves what the ones before it in the
-    /// list have made of the start pose.
+    /// Motions of a kinematic body; empty for the others. Each motion acts on the result of those before it in the list.
     pub motions: Vec<Motion>,
 }
 
@@ -157,11 +156,11 @@ fn check_motion(body: &BodySetup, index: usize, motion: &Motion) -> Result<(), R
         }
     };
     body.number(key("start"), start, start.is_finite() && start >= 0.0, NOT_BELOW_ZERO)?;
-    // An infinite end is welcome: the motion never stops.
+    // An infinite end is allowed: the motion never stops.
     body.number(key("end"), end, end >= start, "at least `start`")
 }
 
-/// Checks what a step is given, before anything moves.
+/// Checks the arguments of a step, before anything moves.
 pub(super) fn check_step(dt: f32, wrenches: &[Wrench], names: &[String]) -> Result<(), RigidError> {
     if !(dt.is_finite() && dt > 0.0) {
         return Err(RigidError::TimeStep { dt });

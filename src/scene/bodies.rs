@@ -15,16 +15,16 @@ pub struct Body {
     pub name: String,
     /// Geometry. Required in files.
     pub shape: ShapeKind,
-    /// Who moves it: forces (`dynamic`), nobody (`fixed`) or its `motions` (`kinematic`); default `dynamic`.
+    /// What moves it: forces (`dynamic`), nothing (`fixed`) or its `motions` (`kinematic`); default `dynamic`.
     #[cfg_attr(feature = "serde", serde(with = "KindKey"), schemars(with = "KindKey"))]
     pub kind: BodyKind,
-    /// Density of a dynamic body. One of less than a quarter of the density of what touches it has its own weight, but the
-    /// inertia of a quarter. Range 1 to 100000 kg/m^3; default 1000.
+    /// Density of a dynamic body. A body of less than a quarter of the density of what touches it keeps its weight, but has
+    /// the inertia of a quarter. Range 1 to 100000 kg/m^3; default 1000.
     pub density: f32,
     /// Centre of mass (plane: a point of the surface). Range -1000 to 1000 m; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub position: Vec3,
-    /// Orientation at time zero; default unturned.
+    /// Orientation at time zero; default no rotation.
     pub rotation: Rotation,
     /// Velocity of a dynamic body at time zero. Range -100 to 100 m/s; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
@@ -34,14 +34,14 @@ pub struct Body {
     pub angular_velocity: Vec3,
     /// Coulomb friction. Range 0 to 10; default 0.5.
     pub friction: f32,
-    /// Whether water at its surface moves with it; default false: it slides along it.
+    /// Whether water sticks to its surface (no-slip); default false: water slides along it (free slip).
     pub no_slip: bool,
-    /// Share of the approach speed that a bounce gives back. Range 0 to 1; default 0.1.
+    /// Coefficient of restitution: share of the approach speed after a bounce. Range 0 to 1; default 0.1.
     pub restitution: f32,
     /// Scripted motions of a kinematic body; default none.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub motions: Vec<Motion>,
-    /// Whether a fixed or kinematic body holds the sponge nodes that are inside it at time zero; default false.
+    /// Whether a fixed or kinematic body holds the sponge nodes that are inside it at time zero (a grip); default false.
     pub grip: bool,
 }
 
@@ -86,7 +86,7 @@ impl Body {
 }
 
 // The type itself belongs to a crate without serde, so its keys in files are declared here.
-/// Who moves a body.
+/// What moves a body.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(remote = "BodyKind", rename_all = "snake_case")]
@@ -161,12 +161,12 @@ impl ShapeKind {
     }
 }
 
-/// Orientation as an axis and an angle; the default is unturned.
+/// Orientation as an axis and an angle; the default is no rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Rotation {
-    /// Axis of the turn, of any length but zero. Range -1000 to 1000; default (0, 1, 0).
+    /// Axis of rotation, of any length but zero. Range -1000 to 1000; default (0, 1, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub axis: Vec3,
     /// Angle, counter-clockwise seen from the tip of the axis. Range -3600 to 3600 degrees; default 0.
@@ -180,22 +180,22 @@ impl Default for Rotation {
 }
 
 impl Rotation {
-    /// Turn of some degrees about an axis.
+    /// Rotation by some degrees about an axis.
     #[must_use]
     pub fn new(axis: Vec3, degrees: f32) -> Self {
         Self { axis, degrees }
     }
 
-    /// The unit quaternion, with the same bits on every platform; a zero axis gives the identity.
+    /// The unit quaternion, with the same bits on every platform. A zero axis gives the identity.
     #[must_use]
     pub fn quaternion(self) -> Quat {
         turn(self.axis, f64::from(self.degrees).to_radians())
     }
 }
 
-/// Unit quaternion of a turn by an angle \[rad\] about an axis of any length.
+/// Unit quaternion of a rotation by an angle \[rad\] about an axis of any length.
 ///
-/// In f64 and through the portable `libm`, since the platform's sine differs from machine to machine.
+/// In f64 and through the portable `libm`, because the sine of the platform differs from machine to machine.
 fn turn(axis: Vec3, angle: f64) -> Quat {
     let Some(unit) = axis.as_dvec3().try_normalize() else {
         return Quat::IDENTITY;

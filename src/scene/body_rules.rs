@@ -1,4 +1,4 @@
-//! The rules that a rigid body must obey.
+//! The rules for rigid bodies.
 
 use glam::{DVec3, Vec3};
 
@@ -7,7 +7,7 @@ use super::number::{number_text, vector_text};
 use super::validate::inside;
 use super::{Body, BodyKind, Motion, Scene, ShapeKind};
 
-/// Adds what is wrong with a body whose numbers are in their ranges.
+/// Adds the problems of a body whose numbers are in their ranges.
 pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut Vec<Problem>) {
     let mut broken = |field: &str, value: String, rule: &str| {
         problems.push(Problem::rule(format!("{table}.{field}"), value, rule));
@@ -65,7 +65,7 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
     }
 }
 
-/// Whether points span no volume worth a body: under a millionth of the cube of their extent.
+/// Whether points span almost no volume: less than a millionth of the cube of their extent.
 fn flat(points: &[Vec3]) -> bool {
     let origin = points[0].as_dvec3();
     let arms = || points.iter().map(|point| point.as_dvec3() - origin);

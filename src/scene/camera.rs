@@ -30,7 +30,7 @@ impl Default for Camera {
 }
 
 impl Scene {
-    /// The scene's camera or, when it has none, one that sees all of [`Scene::bounds`] from above and to the right.
+    /// The camera of the scene. Without one, a camera that sees all of [`Scene::bounds`] from above and to the right.
     #[must_use]
     pub fn viewpoint(&self) -> Camera {
         if let Some(camera) = self.camera {
@@ -44,8 +44,8 @@ impl Scene {
         Camera { eye: target + 3.6 * radius * direction, target, ..Camera::default() }
     }
 
-    /// Corners of the smallest axis-aligned box around the container or, in an open scene, around water, sponges and
-    /// bodies at time zero (planes left out) \[m\]; a box of 0.2 m around the origin when there is nothing.
+    /// Corners of the smallest axis-aligned box around the container \[m\]. In an open scene it encloses water, sponges and
+    /// bodies at time zero, without planes. An empty open scene has a box of 0.2 m around the origin.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
         if let Domain::Box { minimum, maximum, .. } = self.domain {

@@ -1,4 +1,4 @@
-//! Compares a parsed file with the schema, so that every slip is named by its key before serde sees the value.
+//! Compares a parsed file with the schema, so that every mistake is reported by its key before serde reads the value.
 
 use serde_json::Value as Json;
 use toml::{Table, Value};
@@ -23,7 +23,7 @@ pub(super) fn value_text(value: &Value) -> String {
     }
 }
 
-/// Follows references and passes by the `null` of optional keys.
+/// Follows references, and skips the `null` of optional keys.
 fn resolve(mut schema: &'static Json) -> &'static Json {
     loop {
         let target = match (schema.get("$ref").and_then(Json::as_str), schema.get("anyOf")) {
@@ -96,7 +96,7 @@ fn array(schema: &'static Json, elements: &[Value], value: &Value, path: &str, p
     }
 }
 
-/// One of several words, or of several tables that differ in the word at `kind`.
+/// One of several words, or one of several tables that differ in the word at `kind`.
 fn choice(variants: &'static [Json], value: &Value, path: &str, problems: &mut Vec<Problem>) {
     let tag = |variant: &'static Json| variant.pointer("/properties/kind/const").and_then(Json::as_str);
     let word = |variant: &'static Json| variant.get("const").and_then(Json::as_str);
@@ -150,7 +150,7 @@ fn wrong_type(path: &str, value: &Value, expected: String) -> Problem {
     Problem::new(path, value_text(value), Defect::WrongType { expected, found })
 }
 
-/// What a node of the schema wants, in words.
+/// What a node of the schema expects, in words.
 fn expected(schema: &'static Json, kind: &str) -> String {
     let bound = |name: &str| schema.get(name).map(Json::to_string);
     match (kind, bound("minimum"), bound("maximum")) {

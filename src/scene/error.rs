@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, in words that name the file, the key, the value and the range.
+//! Errors of scenes. Their messages name the file, the key, the value and the range.
 
 use std::fmt;
 
@@ -13,10 +13,10 @@ pub enum SceneError {
     Read {
         /// The file.
         file: String,
-        /// What the system said.
+        /// The message of the system.
         source: std::io::Error,
     },
-    /// The name of the file says neither TOML nor JSON.
+    /// The file name ends in neither `.toml` nor `.json`.
     #[error("{file}: unknown kind of scene file; expected a name that ends in `.toml` or `.json`")]
     Extension {
         /// The file.
@@ -34,7 +34,7 @@ pub enum SceneError {
         /// What the parser expected.
         message: String,
     },
-    /// Keys or values are wrong: all that were found, not only the first.
+    /// Keys or values are wrong. Has all problems that were found, not only the first.
     #[error("{}", list(file, problems))]
     Invalid {
         /// The file, or `scene NAME` for one built in code.
@@ -73,7 +73,7 @@ pub enum SceneError {
     /// The scene cannot be written as text.
     #[error("cannot write the scene: {message}")]
     Write {
-        /// What the writer said.
+        /// The message of the writer.
         message: String,
     },
 }
@@ -89,7 +89,7 @@ impl SceneError {
     }
 }
 
-/// One thing that is wrong with a scene.
+/// One problem of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// The key, such as `sponges[0].permeability`.
@@ -217,7 +217,7 @@ fn hint(nearest: Option<&str>) -> String {
     nearest.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }
 
-/// The candidate most similar to a word, if it is similar enough to be a slip of the pen.
+/// The candidate most similar to a word, if it is similar enough to be a typing error.
 #[cfg(feature = "serde")]
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let word = word.to_lowercase();
@@ -225,7 +225,7 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     for candidate in candidates {
         let similarity = strsim::normalized_damerau_levenshtein(&word, candidate)
             .max(0.9 * strsim::jaro_winkler(&word, candidate));
-        // The first of equals wins, so the answer does not depend on anything but the order of the keys.
+        // The first of equal candidates wins, so that the answer depends on the order of the keys only.
         if best.is_none_or(|(record, _)| similarity > record) {
             best = Some((similarity, candidate));
         }

@@ -1,13 +1,13 @@
-//! How big a scene is, before anything is allocated.
+//! Size of a scene, before anything is allocated.
 
 use glam::Vec3;
 
 use super::{FluidBlock, Scene, Sponge};
 
-/// Most fluid particles that a scene may have.
+/// Largest number of fluid particles of a scene.
 pub const MAXIMUM_PARTICLES: u64 = 50_000_000;
 
-/// Most sponge nodes that a scene may have.
+/// Largest number of sponge nodes of a scene.
 pub const MAXIMUM_NODES: u64 = 10_000_000;
 
 /// Approximate sizes of a scene; exact for whole blocks that touch nothing.
@@ -22,7 +22,7 @@ pub struct Estimate {
 }
 
 impl Scene {
-    /// Estimates the numbers of particles, nodes and tets. Cheap: looks at sizes only.
+    /// Estimates the numbers of particles, nodes and tets from sizes alone.
     #[must_use]
     pub fn estimate(&self) -> Estimate {
         let nodes = self.sponges.iter().map(nodes).sum::<f64>();

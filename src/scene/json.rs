@@ -1,11 +1,11 @@
-//! JSON as the same tree of values as TOML, with keys that are given twice refused as TOML does.
+//! JSON as the same tree of values as TOML. Duplicate keys are refused, as TOML does.
 
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use toml::{Table, Value};
 
-/// A JSON value in TOML's terms; `None` for `null`, which means the same as an absent key.
+/// A JSON value in TOML's types; `None` for `null`, which means an absent key.
 pub(super) struct Tree(pub(super) Option<Value>);
 
 impl<'de> Deserialize<'de> for Tree {
@@ -36,7 +36,7 @@ impl<'de> Visitor<'de> for TreeVisitor {
     }
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
-        // Far outside every range either way.
+        // Outside every range in either form.
         Ok(Some(i64::try_from(value).map_or(Value::Float(value as f64), Value::Integer)))
     }
 

@@ -1,9 +1,9 @@
-//! The one table of ranges: validation, schema and a test of the docs read it.
+//! The table of ranges. Validation, schema and a test of the docs use it.
 
 use super::number::Numbers;
 use super::{Body, Camera, Domain, Fluid, FluidBlock, Motion, Rotation, Scene, ShapeKind, Sponge, Time};
 
-/// Allowed range of one key; both ends belong to it.
+/// Allowed range of one key; both ends are included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// Key with `[]` for "every element", such as `sponges[].permeability`; a vector's range holds for each component.
@@ -49,13 +49,13 @@ pub fn limits() -> impl Iterator<Item = &'static Limit> {
         .chain(of(CAMERA))
 }
 
-/// A range and the way to its numbers; `None` where the variant at hand lacks the key.
+/// A range and access to its numbers; `None` where the present variant lacks the key.
 pub(super) struct Row<T> {
     pub(super) limit: Limit,
     pub(super) field: fn(&T) -> Option<&dyn Numbers>,
 }
 
-/// Rows of a structure, whose fields are named as the keys.
+/// Rows of a structure, whose fields have the names of the keys.
 macro_rules! fields {
     ($owner:ty, $table:literal; $($field:ident: $minimum:literal to $maximum:literal, $unit:literal;)+) => {
         &[$(Row {

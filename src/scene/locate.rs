@@ -1,4 +1,4 @@
-//! From a key to the line and column where a TOML file writes it.
+//! Line and column of a key in a TOML file.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -13,7 +13,7 @@ pub(super) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     (line, before[line_start..].chars().count() + 1)
 }
 
-/// Where a key is written, or the innermost table around it that is; `None` for a key whose first part is absent.
+/// Place of a key, or of the innermost table around it that is present; `None` for a key whose first part is absent.
 pub(super) fn locate(text: &str, key: &str) -> Option<(usize, usize)> {
     let document = DeTable::parse(text).ok()?;
     let mut parts = key::parts(key)?.into_iter();

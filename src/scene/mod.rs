@@ -1,8 +1,8 @@
-//! Declarative scenes: what the world contains at time zero, in SI units, Y up.
+//! Declarative scenes: the content of the world at time zero, in SI units, Y up.
 //!
-//! A [`Scene`] is plain data. Build one in code with struct update syntax, or read a TOML or JSON file with the
-//! feature `serde`. Every number has a documented range; one table ([`limits`](fn@limits)) feeds the validation, the
-//! JSON schema and a test of these docs.
+//! A [`Scene`] is plain data. Build one in code with struct update syntax, or read a TOML or JSON file with the feature
+//! `serde`. Every number has a documented range. One table ([`limits`](fn@limits)) is the source of the validation, the JSON
+//! schema and a test of these docs.
 //!
 //! ```
 //! use glam::Vec3;

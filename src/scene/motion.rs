@@ -7,7 +7,7 @@ use crate::rigid::Script;
 
 /// One scripted motion, active from `start` to `end`.
 ///
-/// Motions may overlap: each acts, in the order of the list, on what the ones before it give.
+/// Motions may overlap. Each acts, in the order of the list, on the result of the previous ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
@@ -17,14 +17,14 @@ pub enum Motion {
         /// Velocity. Range -100 to 100 m/s.
         #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
         velocity: Vec3,
-        /// Time of the first movement. Range 0 to 100000 s.
+        /// Time at which the motion begins. Range 0 to 100000 s.
         start: f32,
-        /// Time of rest, after `start`. Range 0 to 100000 s.
+        /// Time at which it ends, after `start`. Range 0 to 100000 s.
         end: f32,
     },
-    /// Turn at constant rate about an axis in the world.
+    /// Rotation at constant rate about an axis in the world.
     Turn {
-        /// Axis, of any length but zero. Range -1000 to 1000.
+        /// Axis of rotation, of any length but zero. Range -1000 to 1000.
         #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
         axis: Vec3,
         /// A point on the axis. Range -1000 to 1000 m.
@@ -32,15 +32,15 @@ pub enum Motion {
         pivot: Vec3,
         /// Rate, counter-clockwise seen from the tip of the axis. Range -1000 to 1000 rad/s.
         rate: f32,
-        /// Time of the first movement. Range 0 to 100000 s.
+        /// Time at which the motion begins. Range 0 to 100000 s.
         start: f32,
-        /// Time of rest, after `start`. Range 0 to 100000 s.
+        /// Time at which it ends, after `start`. Range 0 to 100000 s.
         end: f32,
     },
 }
 
 impl Motion {
-    /// Times of the first movement and of rest \[s\].
+    /// Begin and end \[s\].
     #[must_use]
     pub fn interval(&self) -> (f32, f32) {
         match *self {
@@ -50,9 +50,9 @@ impl Motion {
 }
 
 impl Body {
-    /// Pose and velocity that the script gives at a time \[s\]; without motions the pose at time zero.
+    /// Pose and velocity of the script at a time \[s\]; without motions the pose at time zero.
     ///
-    /// Exact for every time: nothing is accumulated from step to step.
+    /// Exact for every time: nothing accumulates from step to step.
     #[must_use]
     pub fn state_at(&self, time: f64) -> BodyState {
         Script::new(self.start(), &self.motions).state(time)

@@ -1,4 +1,4 @@
-//! Numbers inside fields: how validation walks them and how messages print them.
+//! Numbers inside fields: how validation visits them and how messages print them.
 
 use glam::{UVec3, Vec3};
 
@@ -55,7 +55,7 @@ impl Numbers for UVec3 {
     }
 }
 
-/// The shortest text that reads back as the same number, with an exponent where zeros would crowd it.
+/// The shortest text that reads back as the same number, with an exponent where there would be many zeros.
 pub(super) fn number_text(value: f32) -> String {
     let size = value.abs();
     if size != 0.0 && size.is_finite() && !(1e-3..1e6).contains(&size) {

@@ -9,8 +9,8 @@ impl Scene {
     /// Changes one key: `time.duration=5`, `sponges[0].permeability=1e-10`, `sponges.0.edge=0.008`,
     /// `sponges.NAME.porosity=0.8`, `fluid.blocks[0].maximum=[0.1, 0.2, 0.1]`.
     ///
-    /// The value is TOML; a bare word is taken as text. Keys that are absent, such as `fluid.sound_speed`, are added.
-    /// Replace a table to change its `kind`: `domain={kind="open"}`.
+    /// The value is TOML, and a bare word is text. Absent keys, such as `fluid.sound_speed`, are added. Replace a table to
+    /// change its `kind`: `domain={kind="open"}`.
     ///
     /// # Errors
     /// [`SceneError::Override`] for a text without `=`, an element that is not there or a value that is not TOML;
@@ -78,7 +78,7 @@ fn index_of(elements: &[Value], part: &str, array: &str) -> Result<usize, String
 }
 
 fn parse(text: &str) -> Result<Value, String> {
-    // A second line would smuggle in a second key.
+    // A second line would add a second key.
     let parsed = toml::from_str::<Table>(&format!("value = {text}")).map(|mut table| {
         let only = table.len() == 1;
         table.remove("value").filter(|_| only)

@@ -1,27 +1,27 @@
-//! How much work a scene puts into its precision: lists of key changes, chosen by measurement (docs/precision).
+//! Qualities of a scene: lists of key changes, chosen by measurement (docs/precision).
 
 use std::{fmt, str::FromStr};
 
 use super::error::nearest;
 use super::{FluidSolver, Scene, SceneError, Solver};
 
-/// How much work goes into precision; what it changes is in [`Quality::changes`].
+/// Trade-off between precision and run time; [`Quality::changes`] lists what it changes.
 ///
-/// It changes solvers' settings only. What a picture shows, and most of the error of water in sponges, depends on the
-/// resolution: [`Scene::scaled`].
+/// It changes settings of the solvers only. Pictures, and most of the error of water in sponges, depend on the resolution:
+/// [`Scene::scaled`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// Less run time: fewer neighbours, longer steps and fewer sweeps, but no looser pressure: from a tolerance of 3e-3 on,
-    /// fine water comes off its walls.
+    /// Less run time: fewer neighbours, longer steps and fewer sweeps. The tolerance of the pressure is not looser: from
+    /// 3e-3 on, fine water separates from its walls.
     Fast,
     /// The defaults of all keys.
     #[default]
     Balanced,
-    /// Most precision that these settings give.
+    /// Highest precision that these settings give.
     Accurate,
 }
 
-/// Keys of the time, of water that `dfsph` solves, and of sponges that `vbd` solves, with their values.
+/// Keys and values for time, water solved by `dfsph` and sponges solved by `vbd`.
 struct Changes {
     time: &'static [(&'static str, &'static str)],
     fluid: &'static [(&'static str, &'static str)],
@@ -29,7 +29,7 @@ struct Changes {
 }
 
 impl Quality {
-    /// All of them, from the fastest on.
+    /// All qualities, from the fastest on.
     pub const ALL: [Self; 3] = [Self::Fast, Self::Balanced, Self::Accurate];
 
     /// Name on the command line.
@@ -62,9 +62,9 @@ impl Quality {
         }
     }
 
-    /// What it changes in a scene, as [`Scene::with_overrides`] takes it.
+    /// The changes for a scene, as [`Scene::with_overrides`] takes them.
     ///
-    /// Other solvers than `dfsph` and `vbd` keep what the scene says: their iterations change the material.
+    /// Solvers other than `dfsph` and `vbd` keep the keys of the scene: their iterations change the material.
     #[must_use]
     pub fn changes(self, scene: &Scene) -> Vec<String> {
         let Changes { time, fluid, sponge } = self.keys();
@@ -104,10 +104,11 @@ impl FromStr for Quality {
 }
 
 impl Scene {
-    /// The scene at a quality: the keys of [`Quality::changes`] are set, whatever the scene says about them.
+    /// The scene at a quality: sets the keys of [`Quality::changes`], whatever their values in the scene.
     ///
     /// # Errors
-    /// As [`Scene::with_overrides`], for example where `time.minimum_step` is above the longest step of the quality.
+    /// As [`Scene::with_overrides`], for example where `time.minimum_step` is above the longest step of the
+    /// quality.
     pub fn with_quality(&self, quality: Quality) -> Result<Self, SceneError> {
         let changes = quality.changes(self);
         self.with_overrides(changes.iter().map(String::as_str))

@@ -1,4 +1,4 @@
-//! The same scene, finer or coarser.
+//! A scene at another resolution.
 
 use glam::UVec3;
 
@@ -8,11 +8,11 @@ use super::{Scene, SceneError, Sponge};
 const RESOLUTIONS: (f32, f32) = (0.1, 8.0);
 
 impl Scene {
-    /// The same geometry with particles and lattice cells `resolution` times as fine: twice the resolution has about 8
-    /// times the particles and nodes. Range 0.1 to 8; 1 changes nothing.
+    /// The same geometry with particles and lattice cells `resolution` times as fine. Twice the resolution has about 8 times
+    /// the particles and nodes. Range 0.1 to 8; 1 changes nothing.
     ///
-    /// A sponge keeps its length along x exactly; the other two are rounded to whole cells,
-    /// which keeps its bottom and its middle along z in place.
+    /// A sponge keeps its length along x exactly. The other two are rounded to whole cells, with its bottom and its middle
+    /// along z in place.
     ///
     /// # Errors
     /// [`SceneError::Resolution`] for a factor outside the range, [`SceneError::Invalid`] where the finer scene is too

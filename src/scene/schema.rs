@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::{Limit, Scene, VERSION, limits};
 
-/// Keys that a file must have although the type has a default for them.
+/// Keys that a file must contain although the type has a default for them.
 const REQUIRED: &[(&str, &[&str])] = &[
     ("", &["version"]),
     ("fluid.blocks[]", &["minimum", "maximum"]),
@@ -14,13 +14,13 @@ const REQUIRED: &[(&str, &[&str])] = &[
     ("bodies[]", &["name", "shape"]),
 ];
 
-/// The schema as a value; files are checked against it before they become a [`Scene`].
+/// The schema as a value. Files are checked against it before they become a [`Scene`].
 pub(super) static SCHEMA: LazyLock<Value> = LazyLock::new(build);
 
 /// JSON schema of scene files, indented, with a line feed at the end.
 ///
-/// Each number has its `minimum`, `maximum` and, as `x-unit`, its SI unit. It holds for TOML files as well: editors
-/// that know JSON schemas complete and check both.
+/// Each number has its `minimum`, `maximum` and, as `x-unit`, its SI unit. It holds for TOML files as well. Editors use it
+/// to complete and check both.
 #[must_use]
 pub fn schema() -> String {
     format!("{:#}\n", *SCHEMA)
@@ -50,7 +50,7 @@ fn build() -> Value {
     schema
 }
 
-/// Follows references and alternatives from a node to all table nodes that it can mean, as JSON pointers.
+/// Follows references and alternatives from a node to all table nodes that it can stand for, as JSON pointers.
 fn tables(schema: &Value, pointers: &[String]) -> Vec<String> {
     let mut found = Vec::new();
     for pointer in pointers {
@@ -101,7 +101,7 @@ fn bound(node: &mut Value, limit: &Limit) {
     node.insert("x-unit".to_owned(), limit.unit.into());
 }
 
-/// The number that the decimal digits of an f32 name, not the f64 next to its binary value.
+/// The number that the decimal digits of an f32 represent, not the f64 next to its binary value.
 fn decimal(value: f32, whole: bool) -> Value {
     let text = value.to_string();
     if whole && let Ok(integer) = text.parse::<i64>() {
@@ -110,7 +110,7 @@ fn decimal(value: f32, whole: bool) -> Value {
     text.parse::<f64>().map_or(Value::Null, Value::from)
 }
 
-/// Gives decimals their short form and drops what only Rust understands.
+/// Gives decimals their short form and removes what only Rust uses.
 fn tidy(node: &mut Value) {
     match node {
         Value::Object(map) => tidy_table(map),

@@ -1,4 +1,4 @@
-//! Sponges: blocks of a body-centred cubic lattice, or shapes cut out of one.
+//! Sponges: blocks of a body-centred cubic lattice, or shapes cut out of such blocks.
 
 use glam::{UVec3, Vec3};
 
@@ -16,7 +16,7 @@ pub enum Axis {
     Z,
 }
 
-/// What is kept of the lattice block.
+/// Shape that is cut out of the lattice block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
@@ -24,11 +24,11 @@ pub enum SpongeShape {
     /// The whole block.
     #[default]
     Block,
-    /// The ellipsoid that touches all six faces.
+    /// The ellipsoid that touches all six faces of the block.
     Ellipsoid,
-    /// The (elliptic) cylinder that touches four faces.
+    /// The (elliptic) cylinder that touches four faces of the block.
     Cylinder {
-        /// Direction of the cylinder.
+        /// Axis of the cylinder.
         axis: Axis,
     },
 }
@@ -56,7 +56,7 @@ pub enum Solver {
     /// Strain based dynamics, the model of the paper: `stretch_modulus`, `shear_modulus`, `volume_modulus` and
     /// `damping_time`.
     Sbd,
-    /// Two coupled Neo-Hookean constraints per tet: at small strain the material of `vbd`, at short steps of one sweep.
+    /// Two coupled Neo-Hookean constraints per tet: at small strain the material of `vbd`, in short steps of one sweep.
     XpbdNeoHookean,
 }
 
@@ -69,7 +69,7 @@ pub struct Sponge {
     pub name: String,
     /// Edge of a lattice cell. Range 1e-4 to 1 m; default 0.01.
     ///
-    /// 2 to 3 times the fluid's `spacing` works best; outside 1 to 8 times the scene is refused.
+    /// 2 to 3 times the fluid's `spacing` works best. Outside 1 to 8 times the scene is refused.
     pub edge: f32,
     /// Lattice cells along each axis. Range 2 to 1024; default (8, 8, 8).
     ///
@@ -79,59 +79,60 @@ pub struct Sponge {
     /// Lowest corner of the lattice block. Range -1000 to 1000 m; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub position: Vec3,
-    /// What is kept of the block; default all of it.
+    /// Shape that is cut out of the block; default all of it.
     pub shape: SpongeShape,
     /// Velocity at time zero. Range -100 to 100 m/s; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub velocity: Vec3,
     /// Mass of the dry sponge over its volume, pores included. Range 1 to 5000 kg/m^3; default 50.
     ///
-    /// A block weighs this times the volume of its box. Below 10 the lattice is so light that the water's pressure noise shakes it.
+    /// A block weighs this times the volume of its box. Below 10 the lattice is so light that noise of the water pressure
+    /// shakes it.
     pub density: f32,
-    /// Share of the volume that is pores. Range 0.05 to 0.99; default 0.9.
+    /// Porosity: pore volume over volume. Range 0.05 to 0.99; default 0.9.
     pub porosity: f32,
-    /// Permeability of the pores: lower lets water in and out more slowly. Range 1e-14 to 1e-5 m^2;
-    /// default 1e-9.
+    /// Permeability of the sponge at rest: lower values let water in and out more slowly. Range 1e-14 to 1e-5 m^2; default
+    /// 1e-9.
     ///
-    /// That of the sponge at rest. With `fluid.coupling = "porous"` it falls as pores close, as Kozeny and Carman have it:
+    /// With `fluid.coupling = "porous"` it falls as compression closes pores, after Kozeny and Carman:
     /// `K (phi / phi_0)^3 ((1 - phi_0) / (1 - phi))^2`.
     pub permeability: f32,
-    /// How much more than in proportion fast water is slowed, Forchheimer's coefficient: its drag per volume of sponge
-    /// is `viscosity / permeability * q + density * forchheimer / sqrt(permeability) * q^2` for a flow q per area. Range 0 to
+    /// Forchheimer coefficient: drag in proportion to the square of the speed of the water. The drag per volume of sponge is
+    /// `viscosity / permeability * q + density * forchheimer / sqrt(permeability) * q^2` for a flow q per area. Range 0 to
     /// 2; default 0. Foams have about 0.1, beds of grains 0.5. With `fluid.coupling = "porous"`.
     pub forchheimer: f32,
-    /// Capillary pressure of the saturated sponge; water climbs to about this over (density * gravity). Range 0 to
-    /// 100000 Pa; default 500.
+    /// Capillary pressure of the saturated sponge. Water climbs to about this over (density * gravity). Range 0 to 100000
+    /// Pa; default 500.
     ///
-    /// Above 2000 the sponge pulls a coat of water around itself.
+    /// Above 2000 a layer of water forms around the sponge.
     pub entry_pressure: f32,
-    /// Reach of a node's suction, in `edge`s. Range 1 to 2.5; default 1.5.
+    /// Support radius of the suction of a node, in `edge`s. Range 1 to 2.5; default 1.5.
     ///
-    /// Below 1 there are spots that no node reaches.
+    /// Below 1 there are points that no node reaches.
     pub suction_radius: f32,
-    /// How much stronger a dry sponge sucks than a saturated one. Range 0 to 5; default 1.
+    /// Additional suction of a dry sponge, over that of a saturated one. Range 0 to 5; default 1.
     ///
     /// Control pressure = `-entry_pressure * (1 + saturation_gain * (1 - saturation))`.
     pub saturation_gain: f32,
-    /// Stiffness of the zero-distance constraint that returns the suction to the sponge, in units of the exact
-    /// reaction. Range 0 to 2; default 1.
+    /// Stiffness of the zero-distance constraint that returns the suction to the sponge, over that of the exact reaction.
+    /// Range 0 to 2; default 1.
     ///
-    /// At 1 momentum is conserved and a sponge standing in water stays where it is.
+    /// At 1 momentum is conserved, and a sponge standing in water stays in place.
     pub reaction: f32,
-    /// How elasticity is solved: `vbd` (default), `sbd` or `xpbd_neo_hookean`.
+    /// Elastic solver: `vbd` (default), `sbd` or `xpbd_neo_hookean`.
     pub solver: Solver,
-    /// Young's modulus of the sponge with its pores: stress over strain of a bar that is pulled. Range 10 to 1e9 Pa;
-    /// default 20000. Of `vbd` and `xpbd_neo_hookean`, like the next two.
+    /// Young's modulus of the sponge with its pores: stress over strain of a bar in tension. Range 10 to 1e9 Pa; default 20000.
+    /// Of `vbd` and `xpbd_neo_hookean`, like the next two.
     pub young_modulus: f32,
-    /// Poisson's ratio: how much thinner a bar becomes over how much longer. Range 0 to 0.49; default 0.2.
+    /// Poisson's ratio: transverse contraction over elongation of a bar. Range 0 to 0.49; default 0.2.
     ///
     /// Above 0.45 the lattice itself is too stiff.
     pub poisson_ratio: f32,
-    /// Viscous stress over elastic stress per strain rate. Range 0 to 10 s; default 0.
+    /// Damping time (Kelvin-Voigt): viscous stress over elastic stress per strain rate. Range 0 to 10 s; default 0.
     ///
-    /// A vibration of angular frequency `w` fades at the rate `damping * w * w / 2`. The solver itself damps as much as
-    /// about a step's length here does. `xpbd_neo_hookean` becomes soft where this is long compared with the time in which
-    /// an elastic wave crosses a cell, `edge * sqrt(density / young_modulus)`.
+    /// A vibration of angular frequency `w` decays at the rate `damping * w * w / 2`. The solver itself damps about as much
+    /// as a damping time of one step. `xpbd_neo_hookean` becomes soft where this is long compared with the time in which an
+    /// elastic wave crosses a cell, `edge * sqrt(density / young_modulus)`.
     pub damping: f32,
     /// Stiffness of `sbd` against stretching. Range 10 to 1e9 Pa; default 20000.
     pub stretch_modulus: f32,
@@ -139,42 +140,40 @@ pub struct Sponge {
     pub shear_modulus: f32,
     /// Stiffness of `sbd` against changes of volume. Range 10 to 1e9 Pa; default 20000.
     pub volume_modulus: f32,
-    /// Time in which internal vibration of `sbd` fades. Range 0 to 10 s; default 5e-4.
+    /// Time in which internal vibrations of `sbd` decay. Range 0 to 10 s; default 5e-4.
     pub damping_time: f32,
     /// Solver sweeps per step. Range 1 to 64; default 4.
     ///
-    /// `vbd`: more sweeps follow fast motion better, 4 are a good number; what is at rest is exact at any. `sbd`:
-    /// more sweeps are stiffer under load, and 1 is the number of the paper. `xpbd_neo_hookean` takes one, whatever this
-    /// says. Cost grows in proportion.
+    /// `vbd`: more sweeps follow fast motion better, and statics are exact at any number. `sbd`: more sweeps are stiffer
+    /// under load, and the paper uses 1. `xpbd_neo_hookean` always takes one. Cost grows in proportion.
     pub iterations: u32,
-    /// Coulomb friction against walls, and against other sponges, where it is the mean of both. Range 0 to 10; default 0.5.
+    /// Coulomb friction against walls. Two sponges have the mean of both. Range 0 to 10; default 0.5.
     pub friction: f32,
-    /// Whether the sponge can touch itself where it is folded or wrung; default false. With `solver = "vbd"`. Nodes that are less than four
-    /// edges apart at rest never touch. Different sponges of this solver always touch each other.
+    /// Whether the sponge can touch itself where it is folded or wrung; default false. With `solver = "vbd"`. Nodes less
+    /// than four edges apart at rest never touch. Different sponges of this solver always touch each other.
     pub self_contact: bool,
-    /// Share of the pores filled with water at time zero. Range 0 to 1; default 0.
+    /// Water-filled pore volume over pore volume at time zero. Range 0 to 1; default 0.
     pub saturation: f32,
-    /// Share of its stiffness that wet material lacks: Young's modulus is `young_modulus * (1 - softening * wetness)`. Range 0 to
-    /// 0.95; default 0. Cellulose loses 0.5 to 0.9. With `fluid.coupling = "porous"`, like the next four.
+    /// Share of its stiffness that wet material loses: Young's modulus is `young_modulus * (1 - softening * wetness)`. Range
+    /// 0 to 0.95; default 0. Cellulose loses 0.5 to 0.9. With `fluid.coupling = "porous"`, like the next four.
     pub softening: f32,
-    /// How much longer wet material is at rest: an edge of the lattice is `edge * (1 + swelling * wetness)`. Range 0 to 0.5;
-    /// default 0. Cellulose has 0.1 to 0.3. The mass of the material stays and so does its volume without pores: pores become
+    /// Elongation of wet material at rest: an edge of the lattice is `edge * (1 + swelling * wetness)`. Range 0 to 0.5;
+    /// default 0. Cellulose has 0.1 to 0.3. The mass of the material and its volume without pores are constant: pores become
     /// wider.
     pub swelling: f32,
-    /// Time in which material becomes as wet as its pores are filled. Range 0 to 1000 s; default 0.1.
+    /// Time constant with which the wetness of the material follows its saturation. Range 0 to 1000 s; default 0.1.
     ///
-    /// At time zero all material is dry. Much below 0.05 `swelling` shakes the sponge as single particles come and go.
+    /// At time zero all material is dry. Much below 0.05, `swelling` shakes the sponge as single particles pass.
     pub wetting_time: f32,
-    /// Exponent n of the relative permeability `k_r = S^n` of pores of which water fills the part S: the flow is `permeability * k_r`
-    /// over the viscosity for every gradient of the pressure. Range 1 to 8; default 1, at which water is as fast in a few pores as in
-    /// all of them. Brooks and Corey have `3 + 2 / l` for a distribution of pores of index l, 3 to 4 in foams.
+    /// Exponent n of the relative permeability `k_r = S^n` at saturation S: the flow under any pressure gradient is in
+    /// proportion to `permeability * k_r` over the viscosity. Range 1 to 8; default 1, at which the velocity of the water
+    /// does not depend on S. Brooks and Corey have `3 + 2 / l` for a pore size distribution index l, 3 to 4 in foams.
     pub relative_permeability_exponent: u32,
-    /// Capillary pressure against which water leaves pores, in place of `entry_pressure` at which it enters them: a sponge that is lifted
-    /// out of water holds a column of about this over (density * gravity). Range 0 to 100000 Pa; default 0,
-    /// which stands for `entry_pressure`, below which it must not be.
+    /// Capillary pressure against which water leaves pores, where `entry_pressure` is that at which it enters them. A sponge
+    /// that is lifted out of water holds a column of about this over (density * gravity). Range 0 to 100000 Pa; default 0,
+    /// which stands for `entry_pressure`, the smallest other value.
     ///
-    /// Both are counted positive where they hold water. Between them a node goes from one to the other while its saturation changes by a
-    /// tenth.
+    /// Both are positive where they hold water. A node goes from one to the other while its saturation changes by a tenth.
     pub receding_pressure: f32,
 }
 
@@ -229,7 +228,7 @@ impl Sponge {
         self.edge * self.cells.as_vec3()
     }
 
-    /// Whether a property depends on how wet the sponge is.
+    /// Whether a property depends on the wetness of the sponge.
     #[must_use]
     pub fn depends_on_wetness(&self) -> bool {
         let [softening, swelling] = [self.softening, self.swelling];

@@ -33,7 +33,7 @@ impl Scene {
         })
     }
 
-    /// Reads a scene from JSON; `file` is the name for messages. `null` means the same as an absent key.
+    /// Reads a scene from JSON; `file` is the name for messages. `null` means an absent key.
     ///
     /// # Errors
     /// [`SceneError::Syntax`] with line and column, or [`SceneError::Invalid`] with all problems.
@@ -44,7 +44,7 @@ impl Scene {
             column: error.column(),
             message: error.to_string(),
         })?;
-        // `null` at the top is no scene: an empty table, which lacks its version.
+        // `null` at the top is an empty table, which lacks its version.
         Self::from_value(tree.unwrap_or(Value::Table(toml::Table::new())), file)
     }
 
@@ -70,7 +70,7 @@ impl Scene {
     /// The scene as TOML, which [`Scene::from_toml`] reads back to an equal scene.
     ///
     /// # Errors
-    /// [`SceneError::Write`] should the writer refuse a value; it refuses none of a valid scene.
+    /// [`SceneError::Write`] if the writer refuses a value; it accepts all values of a valid scene.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         toml::to_string(self).map_err(|error| SceneError::Write { message: error.to_string() })
     }
@@ -78,7 +78,7 @@ impl Scene {
     /// The scene as indented JSON, which [`Scene::from_json`] reads back to an equal scene.
     ///
     /// # Errors
-    /// [`SceneError::Write`] should the writer refuse a value; it refuses none of a valid scene.
+    /// [`SceneError::Write`] if the writer refuses a value; it accepts all values of a valid scene.
     pub fn to_json(&self) -> Result<String, SceneError> {
         serde_json::to_string_pretty(self).map_err(|error| SceneError::Write { message: error.to_string() })
     }
@@ -86,7 +86,7 @@ impl Scene {
     /// Checks a value against the schema, converts it and validates the result.
     pub(super) fn from_value(value: Value, file: &str) -> Result<Self, SceneError> {
         let invalid = |problems| SceneError::Invalid { file: file.to_owned(), problems };
-        // Alone and first: another version may have other keys, and complaints about those would mislead.
+        // Before anything else: another version may have other keys, and errors about those would mislead.
         if let Some(version) = value.get("version").filter(|version| version.is_integer())
             && version.as_integer() != Some(VERSION.into())
         {
@@ -95,14 +95,14 @@ impl Scene {
         }
         let mut problems = check(&value);
         if !problems.is_empty() {
-            // What is wrong with the whole file has no key.
+            // Problems of the whole file have no key.
             for problem in problems.iter_mut().filter(|problem| problem.key.is_empty()) {
                 "scene".clone_into(&mut problem.key);
             }
             return Err(invalid(problems));
         }
         let scene: Self = value.try_into().map_err(|error: toml::de::Error| {
-            // The schema let it pass, so only the message of serde is left to tell what is wrong.
+            // The schema accepted it, so that only the message of serde tells what is wrong.
             let defect = Defect::Rule(error.message().to_owned());
             invalid(vec![Problem { key: "scene".to_owned(), value: None, defect, place: None }])
         })?;

@@ -24,14 +24,14 @@ pub struct Scene {
     pub description: String,
     /// Acceleration of gravity. Range -100 to 100 m/s^2; default (0, -9.81, 0).
     ///
-    /// Stronger gravity needs a higher speed of sound, hence shorter steps.
+    /// Stronger gravity needs a higher speed of sound, hence shorter steps with `wcsph`.
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub gravity: Vec3,
     /// Frames and steps.
     pub time: Time,
     /// The container; default open.
     pub domain: Domain,
-    /// The water; absent in a dry scene, which then pays nothing for water.
+    /// The water; absent in a dry scene, which skips all its phases.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub fluid: Option<Fluid>,
     /// Sponges; default none.
@@ -76,7 +76,7 @@ impl Scene {
         Self { domain: Domain::Box { minimum, maximum, periodic: [false; 3] }, ..self }
     }
 
-    /// Lets the box repeat along the axes x, y and z that are marked, see [`Domain::Box`]; an open scene stays open.
+    /// Makes the axes x, y and z that are marked periodic, see [`Domain::Box`]. An open scene stays open.
     #[must_use]
     pub fn repeating(mut self, axes: [bool; 3]) -> Self {
         if let Domain::Box { periodic, .. } = &mut self.domain {
@@ -85,7 +85,7 @@ impl Scene {
         self
     }
 
-    /// Axes along which the container repeats; none in an open scene.
+    /// Axes along which the container is periodic; none in an open scene.
     #[must_use]
     pub fn periodic(&self) -> [bool; 3] {
         match self.domain {
@@ -128,28 +128,28 @@ impl Scene {
 pub struct Time {
     /// Frames per second. Range 1 to 10000 1/s; default 60.
     ///
-    /// A frame is filled with as many steps as stability asks for, so this changes what is shown, not how well.
+    /// A frame is filled with as many steps as stability requires. This therefore changes the output, hardly the results.
     pub frame_rate: f32,
     /// Length of a run when the caller names none. Range 0 to 100000 s; default 10.
     pub duration: f32,
     /// Longest step. Range 1e-6 to 0.1 s; default 0.004.
     ///
-    /// Above about 0.005 the sponge's contacts become soft.
+    /// Above about 0.005 contacts of the sponge become soft.
     pub maximum_step: f32,
-    /// Shortest step; when stability asks for less, the run stops with an error. Range 1e-9 to 0.1 s; default
-    /// 1e-6. Not above `maximum_step`.
+    /// Shortest step. If stability requires a shorter one, the run stops with an error. Range 1e-9 to 0.1 s; default 1e-6.
+    /// Not above `maximum_step`.
     pub minimum_step: f32,
-    /// Factor on support radius / (speed of sound + speed) that bounds the step. Range 0.01 to 1; default 0.25.
+    /// Courant number: step over the time in which sound and flow cross the support radius. Range 0.01 to 1; default 0.25.
     ///
-    /// Above 0.4 violent scenes may blow up.
+    /// Above 0.4 violent scenes may become unstable.
     pub courant: f32,
-    /// Time in which the water, a sponge or a body, and all that it can touch, may not move before they sleep, and cost next to nothing
-    /// until something comes near or a script moves a body beside them. Range 0 to 1000 s; default 0: never.
+    /// Time at rest after which the water, a sponge or a body sleeps, with all that it can touch. A sleeping part costs
+    /// almost nothing until something comes near, or a script moves a body beside it. Range 0 to 1000 s; default 0: never.
     ///
-    /// For what is played, 1 s. For what is measured, never: water that rises by less than `sleep_speed` stops.
+    /// 1 s for interactive scenes. Never for measurements: water that rises more slowly than `sleep_speed` stops.
     pub sleep_after: f32,
-    /// Mean speed of particles, of nodes and of every body, from where they were to where they are, up to which nothing moves. Range 0 to
-    /// 1 m/s; default 0.001.
+    /// Mean speed of particles, nodes and every body, from the displacement since the last check, below which they are at
+    /// rest. Range 0 to 1 m/s; default 0.001.
     pub sleep_speed: f32,
 }
 
@@ -188,10 +188,11 @@ pub enum Domain {
         /// Highest corner, above `minimum` on every axis. Range -1000 to 1000 m.
         #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
         maximum: Vec3,
-        /// Along which of the axes x, y and z the box repeats; default [false, false, false].
+        /// Which of the axes x, y and z are periodic; default [false, false, false].
         ///
-        /// Such an axis has no walls: water that leaves on one side enters on the other, and feels what is there. Sponges
-        /// and bodies do not repeat: a scene with sponges must have walls on all sides, and a body is where it is.
+        /// A periodic axis has no walls: water that leaves on one side enters on the other, and interacts across the sides.
+        /// Sponges and bodies have no periodic images: a scene with sponges needs walls on all sides, and a body interacts
+        /// at its own place only.
         #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_closed"))]
         periodic: [bool; 3],
     },

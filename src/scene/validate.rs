@@ -11,15 +11,15 @@ use super::{
     SpongeShape, VERSION,
 };
 
-/// Range of `edge / spacing`: outside it either water slips between the nodes or nodes find no water.
+/// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
 const EDGE_OVER_SPACING: (f32, f32) = (1.0, 8.0);
 
 impl Scene {
     /// Checks every range and rule.
     ///
     /// # Errors
-    /// [`SceneError::Invalid`] with all problems. Rules between values are checked only once all values are in their
-    /// ranges, so that no problem is the echo of another.
+    /// [`SceneError::Invalid`] with all problems. Rules between values are checked only once all values are in their ranges,
+    /// so that no problem causes another.
     pub fn validate(&self) -> Result<(), SceneError> {
         let problems = self.problems();
         if problems.is_empty() {
@@ -28,7 +28,7 @@ impl Scene {
         Err(SceneError::Invalid { file: format!("scene {}", self.name), problems })
     }
 
-    /// Everything that is wrong with the scene; empty for a valid one.
+    /// All problems of the scene; empty for a valid one.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
@@ -123,7 +123,7 @@ fn names(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-/// Names must be usable as parts of keys and of file names.
+/// Names must be usable in keys and in file names.
 fn named(key: &str, name: &str, problems: &mut Vec<Problem>) {
     let mut letters = name.chars();
     let starts = letters.next().is_some_and(|first| first.is_ascii_alphabetic());
@@ -141,15 +141,15 @@ fn ordered(table: &str, minimum: Vec3, maximum: Vec3, problems: &mut Vec<Problem
     }
 }
 
-/// Periods over twice the distance at which particles feel each other: no particle may see another one twice. A thousandth is
+/// Shortest period over twice the radius of the neighbour search: no particle may see another one twice. A thousandth is
 /// more than rounding.
 const SHORTEST_PERIOD: f32 = 1.001;
 
-/// The axes along which the container repeats.
+/// Rules of periodic axes.
 fn repeating(scene: &Scene, problems: &mut Vec<Problem>) {
     let Domain::Box { minimum, maximum, periodic } = scene.domain else { return };
     if periodic.contains(&true) && !scene.sponges.is_empty() {
-        let rule = "sponges do not repeat: a scene with sponges must have walls on all sides";
+        let rule = "sponges have no periodic images: a scene with sponges must have walls on all sides";
         problems.push(Problem::rule("domain.periodic", format!("{periodic:?}"), rule));
     }
     let Some(fluid) = &scene.fluid else { return };
@@ -158,7 +158,7 @@ fn repeating(scene: &Scene, problems: &mut Vec<Problem>) {
         let period = (maximum - minimum)[axis];
         if period < SHORTEST_PERIOD * shortest && period > 0.0 {
             let rule = format!(
-                "needs a box that is longer than {} m there, twice as far as particles feel each other; this one is {} m",
+                "needs a box longer than {} m along this axis, twice the radius of the neighbour search; it is {} m",
                 number_text(shortest),
                 number_text(period)
             );
@@ -167,7 +167,7 @@ fn repeating(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-/// Something from corner to corner must be inside the container.
+/// A box that must be inside the container.
 pub(super) fn inside(
     key: &str,
     low: Vec3,
@@ -192,7 +192,7 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         let rule = "needs `fluid.solver` = \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
         problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));
     }
-    // Corners are written in decimals, which f32 rounds: a thousandth of the spacing forgives that.
+    // Corners are decimals, which f32 rounds: a thousandth of the spacing covers that.
     let slack = 1e-3 * fluid.spacing;
     for (index, block) in fluid.blocks.iter().enumerate() {
         let key = format!("fluid.blocks[{index}]");
@@ -249,7 +249,7 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-/// What depends on how wet a sponge is.
+/// Rules of properties that depend on wetness.
 fn wetting(sponge: &Sponge, table: &str, scene: &Scene, problems: &mut Vec<Problem>) {
     let (receding, entry) = (sponge.receding_pressure, sponge.entry_pressure);
     if receding > 0.0 && receding < entry {
@@ -258,7 +258,7 @@ fn wetting(sponge: &Sponge, table: &str, scene: &Scene, problems: &mut Vec<Probl
     }
     let is_modelled = match scene.fluid {
         Some(_) => scene.coupling() == Coupling::Porous,
-        // Nothing becomes wet, but what could not if there were water is a mistake.
+        // Without water nothing becomes wet, but keys that would be invalid with water are a mistake.
         None => sponge.solver == Solver::Vbd,
     };
     if sponge.depends_on_wetness() && !is_modelled {
@@ -272,7 +272,7 @@ fn wetting(sponge: &Sponge, table: &str, scene: &Scene, problems: &mut Vec<Probl
         for (key, value, off) in asked.into_iter().filter(|(_, value, off)| value > off) {
             let rule = "needs `fluid.coupling` = \"porous\" and `solver` = \"vbd\"";
             let off = number_text(off);
-            let rule = format!("{rule}; {off} is without it");
+            let rule = format!("{rule}; {off} turns it off");
             problems.push(Problem::rule(format!("{table}.{key}"), number_text(value), rule));
         }
     }
@@ -281,7 +281,7 @@ fn wetting(sponge: &Sponge, table: &str, scene: &Scene, problems: &mut Vec<Probl
 fn lattice_fits(sponge: &Sponge, fluid: &Fluid, table: &str, problems: &mut Vec<Problem>) {
     let (least, most) = EDGE_OVER_SPACING;
     let ratio = sponge.edge / fluid.spacing;
-    // A thousandth forgives the rounding of decimals.
+    // A thousandth covers the rounding of decimals.
     if !(0.999 * least..=1.001 * most).contains(&ratio) {
         let spacing = number_text(fluid.spacing);
         let rule = format!("must be {least} to {most} times `fluid.spacing` = {spacing}");

@@ -126,7 +126,7 @@ impl fmt::Display for Place {
 /// Where a whole step runs, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
-    /// What was asked for.
+    /// The requested number.
     pub offload: Offload,
     /// The kernels that run on the GPU; none if all run on the CPU.
     pub on_gpu: Vec<&'static str>,

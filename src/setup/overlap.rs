@@ -1,4 +1,4 @@
-//! Whether sponges lie inside each other, which contact could not take apart.
+//! Refuses sponges inside each other, which contact could not separate.
 
 use std::collections::BTreeSet;
 
@@ -10,8 +10,8 @@ use crate::{
     world::WorldError,
 };
 
-/// How near a node of another sponge may be to a node inside, in edges: no point of the lattice is further from a node, and
-/// nodes of a face that only touches are at least a whole edge away.
+/// Distance from a node inside to a node of another sponge, in edges, below which they overlap. No point of the lattice is
+/// further from a node. Nodes of a face that only touches are at least a whole edge away.
 const NEAR: f64 = 0.6;
 
 /// Refuses sponges that touch each other and overlap by more than about half an edge.

@@ -42,11 +42,11 @@ pub(super) fn params(scene: &Scene) -> Params {
     }
 }
 
-/// Support radius of the volume of the material, over the edge of a cell: the least at which the nodes blend into one
-/// body (between them its share is 0.96 to 1.17 of the mean). A smaller one makes wells, a larger one blurs the faces.
+/// Support radius of the material volume, over the edge of a cell. It is the smallest at which the solid volume fraction is
+/// nearly uniform: 0.96 to 1.17 of its mean between nodes. A smaller one makes gaps, a larger one blurs the faces.
 const SOLID_RADIUS: f32 = 1.2;
 
-/// Largest edge that cells of a sponge have at rest: what blends nodes into one body must reach as far.
+/// Largest edge of a sponge at rest, when swollen: the smoothing of the material must reach as far.
 fn swollen_edge(sponge: &scene::Sponge) -> f32 {
     sponge.edge * (1.0 + sponge.swelling)
 }
@@ -57,8 +57,8 @@ fn solid(scene: &Scene) -> Option<Wendland> {
     is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }
 
-/// Compression that is allowed for the roughness of the pressure, over the square of the time that sound takes for a
-/// spacing: enough that particles in rows do not have pressures that are higher and lower by turns.
+/// Stabilisation coefficient e over the square of the time in which sound crosses a spacing. It suffices against pressures
+/// that alternate from particle to particle.
 const ROUGHNESS: f32 = 2.0;
 
 fn fluid_params(scene: &Scene) -> FluidParams {
@@ -97,7 +97,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         }
         (true, scene::ViscosityForm::Morris) => (fluid.viscosity / lattice_viscosity(fluid), numerical),
         (false, scene::ViscosityForm::Monaghan) => (0.0, fluid.viscosity + numerical),
-        // As the paper has it.
+        // As in the paper.
         (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
     };
     let is_implicit = fluid.viscosity_integration == scene::ViscosityIntegration::Implicit;
@@ -108,11 +108,10 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             tolerance: fluid.viscosity_tolerance,
             rounds: fluid.viscosity_rounds,
         });
-    // What the solve has, the forces must not have a second time.
+    // Viscosity that is part of the solve must not act a second time in the forces.
     let (viscosity, central_viscosity) =
         if is_implicit { (0.0, 0.0) } else { (viscosity, central_viscosity) };
-    // Half a spacing, where the first layer of a lattice lies. A particle at half the speed of sound is stopped
-    // at the surface.
+    // Half a spacing, the place of the first layer of a lattice. A particle at half the speed of sound stops at the surface.
     let range = 0.5 * fluid.spacing;
     let frequency = 0.5 * sound_speed / range;
     FluidParams {
@@ -129,7 +128,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         viscosity,
         central_viscosity,
         implicit_viscosity,
-        // No pressure is remembered, rough or not, where positions are moved.
+        // Without a stored pressure there is no stabilisation.
         roughness: if fluid.solver == scene::FluidSolver::Dfsph {
             ROUGHNESS * (fluid.spacing / sound_speed).powi(2)
         } else {
@@ -144,7 +143,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     }
 }
 
-/// What particles a spacing apart make of a viscosity of 1, in either form: it is made up for.
+/// Viscosity that sums over particles a spacing apart yield for a viscosity of 1, in either form. The viscosity of the scene
+/// is divided by it.
 fn lattice_viscosity(fluid: &scene::Fluid) -> f32 {
     Wendland::lattice_viscosity(f64::from(fluid.support_radius()), f64::from(fluid.spacing)) as f32
 }
@@ -153,7 +153,7 @@ fn lattice_central_viscosity(fluid: &scene::Fluid) -> f32 {
     Wendland::lattice_central_viscosity(f64::from(fluid.support_radius()), f64::from(fluid.spacing)) as f32
 }
 
-/// Surface tension from an energy of the surface, if there is any.
+/// Surface tension from a surface energy, if there is any.
 fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
     let (spacing, smoothing) = (fluid.spacing, Wendland::new(fluid.neighbor_radius()));
     let sum = Wendland::lattice_sum(f64::from(smoothing.support_radius), f64::from(spacing));
@@ -177,7 +177,7 @@ fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) 
         rounds: fluid.rounds,
         projections: (fluid.solver == scene::FluidSolver::Pbf).then_some(fluid.projections),
         lattice_diagonal: lattice_diagonal(smoothing, fluid.spacing),
-        // The speed of sound is ten times what the fastest water is expected to reach.
+        // The speed of sound is ten times the fastest expected speed of the water.
         correction_speed: 0.1 * sound_speed,
         boundary_range,
         boundary_share,

@@ -1,4 +1,4 @@
-//! Particles of blocks of water and of sponges that are wet at first.
+//! Particles of blocks of water and of sponges that are wet at time zero.
 
 use glam::Vec3;
 use sorb_kernels::{
@@ -10,9 +10,9 @@ use sorb_kernels::{
 use super::mask;
 use crate::scene::{self, Scene};
 
-/// Displacement of seeded particles over the spacing: a perfect lattice hides errors of order.
+/// Displacement of initial particles over the spacing: a perfect lattice hides errors that depend on the order of particles.
 const JITTER: f32 = 0.01;
-/// Distance from a body, over the spacing, at which no particle is seeded.
+/// Distance from a body, over the spacing, within which there are no initial particles.
 const CLEARANCE: f32 = 0.4;
 
 pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
@@ -21,19 +21,19 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
     let mut seeds = Seeds { columns, clearance: CLEARANCE * spacing, jitter: JITTER * spacing };
     for block in &fluid.blocks {
         let (counts, pitch) = block.lattice(scene, spacing);
-        // What a sponge holds at time zero is its saturation, whatever block of water it stands in.
+        // The saturation of a sponge is its initial water, whatever block of water it stands in.
         let dry = |point: Vec3| !scene.sponges.iter().any(|sponge| holds(sponge, point));
         seeds.fill(block.minimum, pitch, counts, block.velocity, dry);
     }
     let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
     for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| sponge.saturation > 0.0) {
-        // As many particles as fill the pores, evenly.
+        // As many particles as fill the pores, evenly spaced.
         let size = sponge.size();
         let fraction = f64::from(sponge.porosity * sponge.saturation);
         let pitch = (volume / fraction).cbrt() as f32;
         let wanted = size.to_array().map(|size| size / pitch);
         let counts = match fluid.solver {
-            // A few too many yield slowly to an equation of state.
+            // An equation of state tolerates a few too many.
             scene::FluidSolver::Wcsph => wanted.map(|count| count.round().max(1.0) as u32),
             scene::FluidSolver::Dfsph | scene::FluidSolver::Pbf => filling(wanted),
         };
@@ -53,8 +53,8 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
     }
 }
 
-/// Whole numbers of particles along the axes, next to the given ones: as many particles as possible, but no more than
-/// fit. A solve for the pressure presses out one too many in a row at the first step.
+/// Whole numbers of particles along the axes, close to the given ones: as many particles as possible, but no more than fit.
+/// A pressure solve presses out a surplus particle in the first step.
 fn filling(wanted: [f32; 3]) -> [u32; 3] {
     let most = wanted.iter().product::<f32>() * 1.001;
     let corner = |bits: u32| {
@@ -83,7 +83,7 @@ struct Seeds<'a> {
 }
 
 impl Seeds<'_> {
-    /// A lattice of particles, those that `keep` refuses or that lie in bodies left out.
+    /// A lattice of particles, without those that `keep` refuses or that lie in bodies.
     fn fill(
         &mut self,
         corner: Vec3,

@@ -1,4 +1,4 @@
-//! Cuts the tets of a colour into pieces of work that share no nodes.
+//! Divides the tets of a colour into chunks that share no nodes.
 
 use std::ops::Range;
 
@@ -10,18 +10,18 @@ use super::lattice::{Lattice, first_after};
 pub struct TetChunk {
     /// The tets, never empty.
     pub tets: Range<u32>,
-    /// Nodes between the first and the last that the chunk touches, for each vertex colour.
+    /// Nodes from the first to the last that the chunk touches, for each vertex colour.
     pub nodes: [Range<u32>; VERTEX_COLOR_COUNT],
     /// The sponge.
     pub sponge: u32,
 }
 
-/// Cuts each colour into chunks: `chunks(..)[color]` are in the order of the tets and cover them.
+/// Divides each colour into chunks: `chunks(..)[color]` are in the order of the tets and cover them.
 ///
-/// A chunk ends with a slab (all cells of one lattice index k), as soon as it has `target_tets` tets or more; only the
-/// last one of a sponge may have fewer. Within a colour the node ranges of the chunks rise and are disjoint in each
-/// vertex colour, so rows of nodes can be handed out with `split_at_mut`. The cut depends on the lattice and
-/// `target_tets` (0 counts as 1) only.
+/// A chunk ends with a slab (all cells of one lattice index k), as soon as it has `target_tets` tets or more. Only the last
+/// one of a sponge may have fewer. Within a colour the node ranges of the chunks rise and are disjoint in each vertex
+/// colour, so that `split_at_mut` can distribute rows of nodes. The division depends only on the lattice and `target_tets`
+/// (0 counts as 1).
 #[must_use]
 pub fn chunks(lattice: &Lattice, target_tets: usize) -> [Vec<TetChunk>; COLOR_COUNT] {
     std::array::from_fn(|color| {

@@ -1,4 +1,4 @@
-//! The twelve classes of tets and what follows from them: offsets, frames, colours of slots.
+//! The twelve classes of tets, with their offsets, frames and colours of slots.
 
 /// Number of classes: three directions of the A edge, two of the gap to the B edge, two signs.
 pub const TET_CLASS_COUNT: usize = 12;
@@ -24,8 +24,8 @@ pub const CLASS_OFFSET: [[[i32; 3]; 4]; TET_CLASS_COUNT] = class_offsets();
 
 /// Vertex colour held by each slot of the tets of a colour: `SLOT_VERTEX_COLOR[color][slot]`.
 ///
-/// For a cell of parity `q`, slot 0 is A of parity `q`, slot 1 is A of the other parity; of slots 2 and 3 the one
-/// with an even sum of offsets is B of parity `q`, the other one B of the other parity.
+/// For a cell of parity `q`, slot 0 is A of parity `q` and slot 1 is A of the other parity. Of slots 2 and 3 the one with an
+/// even sum of offsets is B of parity `q`, the other one B of the other parity.
 pub const SLOT_VERTEX_COLOR: [[u8; 4]; COLOR_COUNT] = slot_vertex_colors();
 
 /// Slot that holds a vertex colour: `VERTEX_COLOR_SLOT[color][vertex_color]`, the inverse of

@@ -1,4 +1,4 @@
-//! What can be wrong with a list of sponges.
+//! Errors in a list of sponges.
 
 use glam::Vec3;
 
@@ -43,7 +43,7 @@ pub enum LatticeError {
         /// The origin as given \[m\].
         value: Vec3,
     },
-    /// The block lies so far out that single precision would distort its tets.
+    /// The block lies so far out that rounding in single precision would distort its tets.
     #[error(
         "sponges[{sponge}]: origin: the block reaches {reach} m from the world's origin, where single precision \
          cannot resolve edge = {edge} m; the reach must be at most {limit} m"

@@ -1,4 +1,4 @@
-//! The dense lattice of one sponge while it is set up: which tets exist and the row of every site.
+//! The dense lattice of one sponge during set-up: which tets exist, and the row of every site.
 
 use glam::DVec3;
 
@@ -29,7 +29,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Asks the mask of a checked sponge about every tet once and counts tets at the sites.
+    /// Evaluates the mask of a checked sponge once for every tet, and counts tets at the sites.
     pub(super) fn new(index: usize, sponge: &LatticeSponge<'_>) -> Result<Self, LatticeError> {
         let cells = sponge.cells;
         let [corners, centres] = [1, 0].map(|more| cells.iter().map(|&n| n as usize + more).product());
@@ -115,7 +115,7 @@ impl Grid {
         })
     }
 
-    /// Places of a cell in the sublattices A and B; the latter may lie outside until an offset is added.
+    /// Indices of a cell in the sublattices A and B; the latter may lie outside until an offset is added.
     pub(super) fn bases(&self, cell: [u32; 3]) -> [usize; 2] {
         let [i, j, k] = cell.map(|index| index as usize);
         let [nx, ny, _] = self.cells.map(|n| n as usize);
@@ -143,7 +143,7 @@ impl Grid {
         usize::try_from((k * ny + j) * nx + i).is_ok_and(|corner| self.present[corner] >> class & 1 == 1)
     }
 
-    /// Place of a cell of the lattice.
+    /// Index of a cell of the lattice.
     pub(super) fn corner(&self, cell: [i64; 3]) -> usize {
         self.bases(cell.map(|index| index as u32))[0]
     }
@@ -171,8 +171,8 @@ impl Grid {
         })
     }
 
-    /// Numbers the sites of one vertex colour from `next` on, in the order k, j, i; calls `node` with the indices of
-    /// each site in use, its number of tets, and the volume of pits that it stands for, over that of a tet.
+    /// Numbers the sites of one vertex colour from `next` on, in the order k, j, i. Calls `node` for each site in use with
+    /// its indices, its number of tets, and its volume of pits over that of a tet.
     pub(super) fn number(&mut self, color: u32, next: &mut u32, mut node: impl FnMut([u32; 3], u32, f64)) {
         let [sublattice, parity] = [color / 2, color % 2];
         let [nx, ny, nz] = self.cells.map(|n| n + 1 - sublattice);

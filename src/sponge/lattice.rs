@@ -21,10 +21,10 @@ pub struct LatticeSponge<'a> {
     pub cells: [u32; 3],
     /// Minimum corner of the block in the world \[m\]; finite, within `2^17` edges of the world's origin.
     pub origin: Vec3,
-    /// Whether a tet belongs to the shape, given its centroid in the unit cube of the block; asked once for each tet, and once for each
-    /// half of a tet that the end of the block cuts through.
+    /// Whether a tet belongs to the shape, given its centroid in the unit cube of the block. Called once for each tet, and
+    /// once for each half of a tet that the end of the block cuts through.
     pub keep: &'a dyn Fn(Vec3) -> bool,
-    /// Whether there is room for a node at a place in the unit cube of the block: tets with a node where there is none are left out.
+    /// Whether there is room for a node at a place in the unit cube of the block. Tets with a node elsewhere are left out.
     pub has_room: &'a dyn Fn(Vec3) -> bool,
 }
 
@@ -38,7 +38,7 @@ impl fmt::Debug for LatticeSponge<'_> {
     }
 }
 
-/// What one sponge holds.
+/// Summary of one sponge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpongeSummary {
     /// Edge of its cells \[m\].
@@ -49,12 +49,12 @@ pub struct SpongeSummary {
     pub tet_count: u32,
     /// Its triangles, which are contiguous.
     pub triangles: Range<u32>,
-    /// Volume that it takes up at rest \[m^3\], pores included: its tets with their [weights](Lattice::tet_weight). That of a whole block is
-    /// the volume of its box.
+    /// Volume at rest \[m^3\], pores included: its tets with their [weights](Lattice::tet_weight). A whole block has the
+    /// volume of its box.
     pub rest_volume: f64,
 }
 
-/// The packed lattice of all sponges; the order of the rows is the one of the [module](super).
+/// The packed lattice of all sponges, in the order of rows of the [module](super).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Position of each node at rest \[m\]; the fourth entry is left at 0 for the inverse mass.
@@ -63,8 +63,8 @@ pub struct Lattice {
     pub node_sponge: Vec<u32>,
     /// Number of tets at each node: 1 to 24, and 24 inside.
     pub node_tet_count: Vec<u32>,
-    /// Volume that each node stands for \[m^3\]: a quarter of each of its tets, and what it has of pits in the faces of the sponge. Together
-    /// the volume of the sponge.
+    /// Volume that each node stands for \[m^3\]: a quarter of each of its tets, and its share of pits in the faces. The sum
+    /// is the volume of the sponge.
     pub node_volume: Vec<f32>,
     /// Whether the node lies on the outer surface.
     pub node_surface: Vec<bool>,
@@ -72,8 +72,8 @@ pub struct Lattice {
     pub vertex_color_start: [u32; VERTEX_COLOR_COUNT + 1],
     /// Nodes of each tet, positively oriented, in the slots of [`CLASS_OFFSET`](super::CLASS_OFFSET).
     pub tets: Vec<[u32; 4]>,
-    /// Volume that each tet stands for over its own \[1\]: 1 inside, 2 in the face of a block, more at its edges. The material has as
-    /// much energy of strain, and as many pores, as the sum says, with the strain of the tet.
+    /// Volume that each tet stands for over its own \[1\]: 1 inside, 2 in the face of a block, more at its edges. Its
+    /// elastic energy and its pores count with that volume, at the strain of the tet.
     pub tet_weight: Vec<f32>,
     /// First tet of each colour (`class * 2 + parity`), then the number of tets.
     pub color_start: [u32; COLOR_COUNT + 1],
@@ -90,7 +90,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Sets up sponges; the same list always gives the same lattice, and no sponges give an empty one.
+    /// Sets up sponges. The same list always gives the same lattice, and no sponges give an empty one.
     ///
     /// A mask may leave a sponge in several pieces, see [`pieces`](super::pieces).
     ///
@@ -154,7 +154,7 @@ impl Lattice {
                 let origin = sponge.origin.as_dvec3();
                 let shift = if color < 2 { 0.0 } else { 1.0 };
                 grid.number(color, &mut next, |site, tet_count, of_pits| {
-                    // Rounded once, from an exact site, so that rest lengths are as equal as they can be.
+                    // Rounded once, from an exact site, so that rest lengths are as equal as possible.
                     let doubled = DVec3::from_array(site.map(|index| 2.0 * f64::from(index) + shift));
                     let place = (origin + half_edge * doubled).as_vec3();
                     self.position.push([place.x, place.y, place.z, 0.0]);
@@ -246,7 +246,7 @@ fn sponge_range(owner: &[u32], starts: &[u32], color: usize, sponge: u32) -> Ran
     first..first_after(first..end, |row| owner[row as usize] == sponge)
 }
 
-/// First row of a range that no longer belongs; those that do come first.
+/// First row of a range that does not belong; those that do come first.
 pub(super) fn first_after(rows: Range<u32>, belongs: impl Fn(u32) -> bool) -> u32 {
     let Range { start: mut low, end: mut high } = rows;
     while low < high {

@@ -14,8 +14,8 @@ pub const MAX_EDGE: f32 = 1.0e3;
 /// Largest number of cells of the blocks of all sponges together (512^3); the set-up takes about ten bytes a cell.
 pub const MAX_CELLS: u64 = 1 << 27;
 
-// A block of N cells has at most 9 N sites, 12 N tets and 24 N faces, so this lets 32 bits count all rows and keeps
-// one value free to mark unused sites.
+// A block of N cells has at most 9 N sites, 12 N tets and 24 N faces. All rows then fit into 32 bits, with one value left
+// for unused sites.
 const _: () = assert!(24 * MAX_CELLS < u32::MAX as u64);
 
 /// Checks all sponges before anything is allocated for them.
@@ -39,7 +39,7 @@ pub(super) fn check(sponges: &[LatticeSponge<'_>]) -> Result<(), LatticeError> {
         let size = DVec3::from_array(cells.map(f64::from)) * f64::from(edge);
         let low = origin.as_dvec3();
         let reach = low.abs().max((low + size).abs()).max_element();
-        // A coordinate may be off by half a unit in the last place; this keeps strains at rest near one per cent.
+        // A coordinate may be off by half a unit in the last place. This keeps the strain at rest near one per cent.
         let limit = f64::from(edge) / (64.0 * f64::from(f32::EPSILON));
         if reach > limit {
             return Err(LatticeError::Reach { sponge, reach, edge, limit });

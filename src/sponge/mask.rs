@@ -13,8 +13,9 @@ pub fn block(_centroid: Vec3) -> bool {
 /// Keeps the tets of the ellipsoid that touches all six faces of the block.
 #[must_use]
 pub fn ellipsoid(centroid: Vec3) -> bool {
-    // No centroid lies on the very rim: one of its three terms is an odd number over the cells, and three squares that
-    // sum to a multiple of four are all even. So rounding does not decide, and the shape is as symmetric as the block.
+    // No centroid lies exactly on the rim. One of its three terms is an odd number over the cells, and three squares that
+    // sum to a multiple of four are all even. Rounding therefore does not decide, and the shape is as symmetric as the
+    // block.
     (2.0 * centroid - Vec3::ONE).length_squared() <= 1.0
 }
 

@@ -1,9 +1,9 @@
-//! Connectivity: into how many pieces a mask has cut a sponge.
+//! Connectivity: the pieces into which a mask has cut a sponge.
 
 use super::class::VERTEX_COLOR_COUNT;
 use super::lattice::Lattice;
 
-/// Which nodes hang together.
+/// Connected components of the nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pieces {
     /// Piece of each node; pieces are numbered over all sponges by their first node.
@@ -12,10 +12,10 @@ pub struct Pieces {
     pub piece_count: Vec<u32>,
 }
 
-/// Finds the pieces of all sponges: two tets hang together when they share a node.
+/// Finds the pieces of all sponges: two tets are connected if they share a node.
 ///
-/// Pieces of one sponge move independently of each other. A piece may still hold parts that are joined by a node or
-/// an edge only and turn about it like a hinge.
+/// Pieces of one sponge move independently of each other. A piece may still have parts that share only a node or an edge,
+/// and rotate about it like a hinge.
 #[must_use]
 pub fn pieces(lattice: &Lattice) -> Pieces {
     let count = lattice.vertex_color_start[VERTEX_COLOR_COUNT];

@@ -1,17 +1,17 @@
-//! Pits: the halves that are missing of tets which the end of a sponge cuts through.
+//! Pits: volume between the faces of a sponge and its lattice that no tet fills.
 //!
-//! A tet with one node outside of the block is left out, and half of it lies inside: that between its other nodes and the
-//! middle of the long edge to the missing one, which lies in the face of the block. Four such halves around one edge are
-//! the pyramid between a square of the face and the node below it, of volume `a^3/6`, and all of them are what a block
-//! lacks of its box. Where a node is missing because something else takes up its place, the same halves count if there is
-//! room for the middle of the edge.
+//! A tet with one node outside of the block is left out, and half of it lies inside. This half lies between its other nodes
+//! and the middle of the long edge to the missing node, which is in the face of the block. Four such halves around one edge
+//! are a pit: the pyramid between a square of the face and the node below it, of volume `a^3/6`. All pits are what a block
+//! lacks of its box. Where a node is missing because a body occupies its place, the same halves count if there is room for
+//! the middle of the edge.
 //!
-//! A half belongs to the tet behind its inner face, which then stands for more than its own volume; where there is none, as at the
-//! edges of a box, to all tets with a face on the same pit, and else to all at the node below it. Its mass belongs to its own
-//! corners: a quarter each, and that of the middle of the edge to the corners of the square.
+//! A half belongs to the tet behind its inner face, which then stands for more than its own volume. Where there is none, as
+//! at the edges of a box, it belongs to all tets with a face on the same pit, and otherwise to all tets at the node below
+//! it. Its mass belongs to its own corners: a quarter each, and that of the middle of the edge to the corners of the square.
 //!
-//! Where a mask ends a sponge nothing counts but the halves that the mask keeps: a tet belongs to a shape by its centroid, so that about as
-//! much of it sticks out as is missing.
+//! Where a mask ends a sponge only the halves that the mask keeps count. There a tet belongs to the shape by its centroid,
+//! so that on average as much sticks out as is missing.
 
 use std::collections::BTreeMap;
 
@@ -28,14 +28,14 @@ const PARTNER: [usize; 4] = [1, 0, 3, 2];
 /// Coordinates of a site in units of half an edge: even ones are of sublattice A.
 type Site = [i32; 3];
 
-/// What tets and nodes stand for beyond the tets themselves, over the volume of a tet.
+/// Additional volume of tets and nodes beyond the tets themselves, over the volume of a tet.
 #[derive(Default)]
 pub(super) struct Pits {
-    /// By the place of the cell and the class.
+    /// By the index of the cell and the class.
     tets: BTreeMap<(usize, usize), f64>,
     /// By the site.
     nodes: BTreeMap<Site, f64>,
-    /// All of it.
+    /// The sum.
     pub(super) volume: f64,
 }
 
@@ -59,12 +59,12 @@ impl Pits {
         pits
     }
 
-    /// What a tet stands for beyond its own volume, over that.
+    /// Additional volume of a tet, over its own.
     pub(super) fn of_tet(&self, corner: usize, class: usize) -> f64 {
         self.tets.get(&(corner, class)).copied().unwrap_or(0.0)
     }
 
-    /// What a node stands for beyond a quarter of its tets, over the volume of a tet.
+    /// Additional volume of a node beyond a quarter of its tets, over the volume of a tet.
     pub(super) fn of_node(&self, sublattice: u32, site: [u32; 3]) -> f64 {
         let site = site.map(|index| 2 * index.cast_signed() + sublattice.cast_signed());
         self.nodes.get(&site).copied().unwrap_or(0.0)
@@ -90,7 +90,7 @@ impl Pits {
         ring.sort_unstable();
         ring.dedup();
         ring.retain(|site| grid.count(*site) > 0);
-        // What belongs to the middle of the square, or to a site that no tet has, is shared by its corners.
+        // The part of the middle of the square, or of a site without tets, is shared by its corners.
         let quarter = 0.125;
         let mut shared = 0.0;
         for half in halves {

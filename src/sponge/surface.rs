@@ -1,4 +1,4 @@
-//! The outer surface: faces of tets that have no tet behind them.
+//! The outer surface: faces of tets without a tet behind them.
 
 use super::class::{TET_CLASS_COUNT, doubled};
 use super::grid::{Grid, classes};

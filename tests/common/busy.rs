@@ -1,5 +1,5 @@
-//! The presets, changed so that everything in them touches from the first steps: what tests of single steps and
-//! benches need, where the paper's scenes would take a while to get there.
+//! The presets, changed so that everything in them interacts from the first steps: for tests of single steps and benches,
+//! where the scenes themselves take a while.
 
 #![allow(dead_code, reason = "benches and tests use a part of it each")]
 
@@ -25,13 +25,13 @@ pub(crate) fn as_in_the_paper(scene: &mut Scene) {
         sponge.solver = Solver::Sbd;
         (sponge.stretch_modulus, sponge.volume_modulus) = (modulus, modulus);
         sponge.shear_modulus = 0.5 * modulus;
-        // Without water one sweep a step gains energy under a heavy ball.
+        // Without water one sweep per step gains energy under a heavy ball.
         sponge.iterations = if scene.fluid.is_some() { 1 } else { 8 };
     }
 }
 
-/// A preset at a resolution, in the middle of things; with `_paper` behind its name, with the models of the paper, with `_pbf`, with
-/// position based fluids.
+/// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based
+/// fluids.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
     let (name, projected) = name.strip_suffix("_pbf").map_or((name, false), |name| (name, true));

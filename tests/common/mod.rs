@@ -1,4 +1,4 @@
-//! What the integration tests share: scenes in motion, goldens, and claims.
+//! Common parts of the integration tests: scenes in motion, goldens, and claims.
 #![allow(dead_code, reason = "every test binary uses a part of it")]
 
 pub(crate) mod busy;
@@ -31,14 +31,14 @@ pub(crate) fn world(scene: &Scene) -> World {
     World::with_options(scene, &options).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
 }
 
-/// One frame further.
+/// Advances by one frame.
 pub(crate) fn frame(world: &mut World) {
     if let Err(error) = world.advance_frame() {
         panic!("{}: {error}", world.scene().name);
     }
 }
 
-/// Some steps further.
+/// Advances by some steps.
 pub(crate) fn steps(world: &mut World, count: u32) {
     for _ in 0..count {
         if let Err(error) = world.step() {
@@ -99,12 +99,12 @@ pub(crate) fn line(world: &World) -> String {
     text
 }
 
-/// What always holds of a healthy state. Gives the first thing that does not.
+/// Conditions of every healthy state. Returns the first one that fails.
 pub(crate) fn unhealthy(world: &World, particles: usize) -> Option<String> {
     unhealthy_in(world, world.scene().domain, particles)
 }
 
-/// The same, in a container that need not be that of the scene.
+/// The same, in a given container.
 pub(crate) fn unhealthy_in(world: &World, domain: Domain, particles: usize) -> Option<String> {
     let mut ids = world.particle_ids().to_vec();
     ids.sort_unstable();
@@ -120,7 +120,7 @@ pub(crate) fn unhealthy_in(world: &World, domain: Domain, particles: usize) -> O
         return Some(format!("not finite: {bad:?}"));
     }
     if let Domain::Box { minimum, maximum, .. } = domain {
-        // Walls hold particles to the bit, nodes to the softness of one contact pass.
+        // Walls hold particles exactly, and nodes within the softness of one contact pass.
         let slack = Vec3::splat(1e-3);
         let inside = |row: &[f32; 4], slack: Vec3| {
             let point = Vec3::new(row[0], row[1], row[2]);

@@ -6,10 +6,10 @@ use sorb::{
     scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge},
 };
 
-/// Time at which a plate slides away under what stands on it \[s\].
+/// Time at which a plate slides away below what stands on it \[s\].
 pub(crate) const START: f64 = 2.0;
 
-/// A pool behind a dam, with a speed; the other half of the box is dry. No step is longer than what anything allows.
+/// A pool behind a dam, with a speed; the other half of the box is dry. The step is short enough for all of it.
 pub(crate) fn basin(speed: f32) -> Scene {
     let (low, high) = (Vec3::new(-0.12, 0.0, -0.02), Vec3::new(-0.04, 0.03, 0.02));
     let pool = FluidBlock { velocity: Vec3::X * speed, ..FluidBlock::new(low, high) };
@@ -59,7 +59,7 @@ pub(crate) fn fastest(world: &World) -> f32 {
     world.node_velocities().iter().map(|row| vector(row).length()).fold(0.0, f32::max)
 }
 
-/// Least distance of a node from a body, negative inside.
+/// Smallest distance of a node from a body, negative inside.
 pub(crate) fn distance(world: &World, body: usize) -> f32 {
     let body = &world.bodies()[body];
     world.node_positions().iter().map(|row| body.distance(vector(row))).fold(f32::INFINITY, f32::min)

@@ -8,8 +8,8 @@ use sorb::{
 
 use super::{DFSPH, HONEY, busy, common, difference, world, worst};
 
-/// Largest difference of what is left when single particles have gone ways of their own: where water and sponges are,
-/// how much the sponges hold, and the energies, over those that the scene had to lose.
+/// Largest difference of quantities that do not depend on single particles: place of water and sponges, absorbed water, and
+/// energies, over the energy that the scene had to lose.
 fn bulk_difference(a: &World, b: &World, energy: f64) -> (f64, &'static str) {
     let centre = |world: &World| {
         let count = world.particle_positions().len().max(1) as f64;
@@ -38,16 +38,16 @@ fn bulk_difference(a: &World, b: &World, energy: f64) -> (f64, &'static str) {
     ])
 }
 
-/// A scene, how long it runs, and how far apart CPU and GPU may be then.
+/// A scene, its duration, and the allowed difference between CPU and GPU.
 #[derive(Clone, Copy)]
 struct Case {
     scene: &'static str,
     resolution: f32,
-    /// Changes of the scene: softer and slower, where steps of the preset are too many for a software adapter.
+    /// Changes of the scene: softer and slower, where the preset takes too many steps for a software adapter.
     keys: &'static [&'static str],
     frames: u32,
-    /// For [`difference`], after 1 frame, or [`bulk_difference`], after more. Beside it what was found, and how far apart
-    /// two runs on the CPU end of which one starts a micrometre a second faster.
+    /// For [`difference`], after 1 frame, or [`bulk_difference`], after more. Beside it the measured value, and the
+    /// difference of two runs on the CPU of which one starts a micrometre per second faster.
     tolerance: f64,
 }
 
@@ -56,13 +56,13 @@ impl Case {
         common::with(&busy::scene(self.scene, self.resolution), self.keys)
     }
 
-    /// How far apart two worlds of the case are.
+    /// Difference between two worlds of the case.
     fn difference(&self, a: &World, b: &World) -> (f64, &'static str) {
         if self.frames == 1 {
             return difference(&a.measures(), &b.measures());
         }
         let start = world(&self.scene(), Offload::Cpu).measures();
-        // What is there to lose: motion, and height of a tenth of a metre.
+        // Energy that can be lost: motion, and a tenth of a metre of height.
         let energy = start.kinetic_energy + start.water_mass * 9.81 * 0.1 + 1e-4;
         bulk_difference(a, b, energy)
     }
@@ -84,11 +84,11 @@ fn assert_alike(case: &Case) {
     assert!(cpu.clock().steps.abs_diff(gpu.clock().steps) <= 2 + cpu.clock().steps / 20, "{name}");
     assert_eq!(common::unhealthy(&gpu, cpu.particle_ids().len()), None, "{name}");
     let (found, what) = case.difference(&cpu, &gpu);
-    // The control: gravity that leans by three degrees is noticed.
+    // Negative control: gravity that leans by three degrees is noticed.
     let mut other = scene.clone();
     other.gravity.x += 0.5;
     let (control, _) = case.difference(&cpu, &case.run(&other, Offload::Cpu));
-    // Splashing water is chaotic: rounding becomes as large as what it does to the same program.
+    // Splashing water is chaotic: rounding grows as large as it does within one program.
     let mut shifted = scene.clone();
     if let Some(fluid) = &mut shifted.fluid {
         fluid.blocks.iter_mut().for_each(|block| block.velocity += Vec3::new(1e-6, 1e-6, -1e-6));
@@ -130,13 +130,13 @@ const SOFT: &[&str] = &[
     "sponges.0.entry_pressure=100",
 ];
 
-/// A tank that the water fills: a puddle of a few particles in a wide one drifts to and fro for ever.
+/// A tank that the water fills: a puddle of a few particles in a wide one drifts for ever.
 const NARROW: &[&str] = &["fluid.sound_speed=4", "fluid.viscosity=2.0", "domain.maximum=[-0.1, 0.2, 0.06]"];
 
-/// Water that runs out of one end of its tank and into the other.
+/// Water that flows out of one end of its tank and into the other.
 const STREAM: &[&str] = &["domain.periodic=[true, false, true]", "gravity=[5.0, -9.81, 1.0]"];
 
-/// The ball touches the sponge and stays there: bodies that never move do not stop a batch of steps.
+/// The ball touches the sponge and stays there: fixed bodies do not interrupt a batch of steps.
 const FIXED: &[&str] = &[
     "bodies.0.kind=\"fixed\"",
     "bodies.0.linear_velocity=[0.0, 0.0, 0.0]",

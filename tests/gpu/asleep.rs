@@ -51,7 +51,7 @@ fn a_sponge_sleeps_beside_water_that_moves() {
     assert!(before.is_some(), "it must fall asleep");
     let plan = sleeps.step_plan().to_string();
     assert!(plan.contains("skip  pbd::velocity") && plan.contains("gpu   sph::sweep"), "{plan}");
-    // A copy uploads what sleeps, and goes on with the same bits; elsewhere the world goes on awake.
+    // A copy uploads the sleeping parts, and continues with the same bits; elsewhere the world continues awake.
     let mut copy = sleeps.clone();
     let mut moved = sleeps.clone();
     moved.move_to(None).unwrap_or_else(|error| panic!("{error}"));

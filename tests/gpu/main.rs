@@ -17,7 +17,7 @@ use sorb::{Bound, Measures, Offload, Options, World, WorldError, gpu::Gpu, scene
 /// Pressure by a solve.
 const DFSPH: &[&str] = &["fluid.solver=\"dfsph\""];
 
-/// Thick fluid that sticks to everything, solved for so well that one round more or less is not seen.
+/// Viscous fluid with no-slip everywhere, solved so precisely that one iteration more or less does not show.
 const HONEY: &[&str] = &[
     "fluid.viscosity=5",
     "fluid.viscosity_integration=\"implicit\"",
@@ -40,7 +40,7 @@ fn world(scene: &Scene, offload: Offload) -> World {
     World::with_options(scene, &options).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
 }
 
-/// Largest difference of two states: of each measure, over what it can be expected to be.
+/// Largest difference of two states: of each measure, over its expected scale.
 fn difference(a: &Measures, b: &Measures) -> (f64, &'static str) {
     let mass = a.water_mass + 1e-3;
     let energy = a.kinetic_energy + a.elastic_energy + 1e-4;
@@ -60,7 +60,7 @@ fn difference(a: &Measures, b: &Measures) -> (f64, &'static str) {
     ])
 }
 
-/// The largest, also if one is not a number.
+/// The largest, also if one is NaN.
 fn worst(differences: &[(f64, &'static str)]) -> (f64, &'static str) {
     differences.iter().fold((0.0, "nothing"), |worst, new| if new.0 <= worst.0 { worst } else { *new })
 }
@@ -88,7 +88,7 @@ fn a_world_and_its_clone_end_with_the_same_bits() {
 
 #[test]
 fn single_steps_are_as_long_as_on_the_cpu() {
-    // Steps that the default would end before the pressure does.
+    // Steps that the default would limit before the pressure does.
     let long = &["fluid.solver=\"dfsph\"", "time.maximum_step=0.01"][..];
     for (name, keys, bound) in [("ball_drop", &[][..], None), ("water", long, Some(Bound::Pressure))] {
         let scene = common::with(&busy::scene(name, 0.5), keys);

@@ -32,7 +32,7 @@ fn they_are_those_of_the_cpu() {
         });
         let found = difference(&cpu.1, &gpu.1);
         assert!(found < 1e-3, "{name}: {found:.1e} of the pixels differ");
-        // The control: the picture of the beginning is another one.
+        // Negative control: the picture of the beginning is another one.
         assert!(difference(&cpu.1, &cpu.0) > 1e-2, "{name}");
     }
 }

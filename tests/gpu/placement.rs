@@ -1,4 +1,4 @@
-//! Which kernels run where, and what the plan says of it.
+//! Placement of kernels, and the lines of the plan about it.
 
 use sorb::{
     Offload, Options, World,
@@ -33,8 +33,8 @@ fn assert_each_can_be_the_first(name: &str) {
     }
 }
 
-/// The scene with the ball on the sponge and surface tension; with the models of the paper also a sponge beside it for
-/// each of the other solvers, so that every kernel has work but those of the other solve for the pressure.
+/// The scene with the ball on the sponge and surface tension. With the models of the paper also a sponge for each of the
+/// other solvers, so that every kernel has work but those of the pressure solve.
 fn everything(name: &str, keys: &[&str]) -> Scene {
     let mut scene = busy::scene(name, 0.5);
     if let Some(fluid) = &mut scene.fluid {
@@ -49,14 +49,14 @@ fn everything(name: &str, keys: &[&str]) -> Scene {
     common::with(&scene, keys)
 }
 
-/// Kernels that run at one place: those that go through the cells, and those that are repeated until they have converged.
+/// Kernels that run at one place: those that use the cells, and those that are repeated until they have converged.
 const TOGETHER: [&[&str]; 3] = [
     &["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"],
     &["sph::pressure_update", "sph::pressure_acceleration", "couple::solid_yield", "sph::pressure_residual"],
     &["sph::viscosity_product", "sph::viscosity_update"],
 ];
 
-/// Kernels of a scene that can be placed on their own.
+/// Kernels of a scene that can be placed separately.
 fn placed_alone(world: &World) -> Vec<Vec<&'static str>> {
     let runs = |name: &str| {
         world.plan().lines().iter().any(|line| line.name == name && line.verdict == Verdict::Runs)
@@ -123,7 +123,7 @@ fn kernels_can_take_turns() {
     }
     let (found, what) = difference(&cpu.measures(), &mixed.measures());
     assert!(found < 1e-3, "{what} differs by {found:.1e}");
-    // The control: a frame more is another state.
+    // Negative control: a frame more is another state.
     common::frame(&mut mixed);
     assert!(difference(&cpu.measures(), &mixed.measures()).0 > 1e-3);
 }

@@ -1,4 +1,4 @@
-//! A state on a device: lost, moved elsewhere, measured there, and asked for.
+//! State on a device: lost, moved elsewhere, measured there, and requested.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use sorb::{
 
 use super::{busy, common, difference, gpu, world};
 
-/// A device of its own, that can be lost without the others.
+/// A separate device, which can be lost without the others.
 fn another_gpu() -> Arc<Gpu> {
     Arc::new(Gpu::new().unwrap_or_else(|error| panic!("{error}")))
 }
@@ -110,12 +110,12 @@ fn measures_are_the_same_without_reading_the_state_back() {
         common::frame(&mut world);
         let on_device = world.measures();
         assert_eq!(world.measures(), on_device, "{name}: sums are taken in a fixed order");
-        // Reads the state back, and measures that from now on.
+        // Reads the state back, so that it is measured on the host from now on.
         let _ = world.particle_positions();
         let on_host = world.measures();
         assert_ne!(on_device, on_host, "{name}: the device was not asked");
         let (found, what) = difference(&on_host, &on_device);
-        // The elastic energy of small strain is what is left of sums that are a hundred times as large.
+        // The elastic energy of small strain is the difference of sums that are a hundred times as large.
         assert!(found < 2e-6, "{name}: {what} differs by {found:.1e}");
         let apart = |a: f64, b: f64| (a - b).abs() / (a.abs() + 1e-9);
         for (what, a, b) in [
@@ -126,7 +126,7 @@ fn measures_are_the_same_without_reading_the_state_back() {
         ] {
             assert!(apart(a, b) < 1e-4, "{name}: {what} is {a:e} and {b:e}");
         }
-        // The control: a step more is another state.
+        // Negative control: a step more is another state.
         let mut later = world.clone();
         common::steps(&mut later, 1);
         assert!(difference(&on_host, &later.measures()).0 > 1e-6, "{name}");
@@ -142,7 +142,7 @@ fn a_state_that_was_asked_for_is_the_one_at_that_time() {
         let mut then = world.clone();
         let mut request = world.request_state().unwrap_or_else(|error| panic!("{error}"));
         common::frame(&mut world);
-        // The device has answered: it worked on the frame after that.
+        // The device has answered: it worked on the next frame meanwhile.
         assert!(request.is_ready(), "{offload}");
         assert_eq!(request.clock(), then.clock());
         let found = request.take().unwrap_or_else(|error| panic!("{error}"));
@@ -166,7 +166,7 @@ fn a_state_that_was_asked_for_is_the_one_at_that_time() {
             );
         }
         common::frame(&mut then);
-        // One that is taken at once waits, one that is dropped harms nobody.
+        // Taking a request at once waits, and dropping one does no harm.
         drop(world.request_state());
         let waited = world.request_state().and_then(|request| request.take());
         assert!(waited.is_ok_and(|state| state.particle_positions() == world.particle_positions()));

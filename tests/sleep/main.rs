@@ -1,4 +1,4 @@
-//! What comes to rest costs nothing until something comes near: whole scenes, and parts of them.
+//! Sleep: parts at rest cost nothing until something comes near, in whole scenes and in parts of them.
 
 #[path = "../common/mod.rs"]
 mod common;

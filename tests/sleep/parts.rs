@@ -28,7 +28,7 @@ fn a_sponge_sleeps_beside_water_that_moves() {
     while sleeps.clock().time < 0.9 {
         assert_eq!(frame(&mut sleeps).steps, frame(&mut awake).steps);
         assert!(!sleeps.is_fluid_asleep() && !sleeps.is_asleep());
-        // The water goes on with the same bits.
+        // The water continues with the same bits.
         assert!(positions(&sleeps) == positions(&awake), "after {} s", sleeps.clock().time);
         if !sleeps.is_sponge_asleep(0) {
             assert!(before.is_none(), "it must sleep on");
@@ -39,11 +39,11 @@ fn a_sponge_sleeps_beside_water_that_moves() {
     }
     assert!(before.is_some(), "it must fall asleep");
     assert_ne!(sleeps.digest(), awake.digest(), "what sleeps is part of the digest");
-    // The plan says what is left of a step.
+    // The plan shows the rest of the step.
     let skips = |world: &World| world.step_plan().to_string().contains("skip  pbd::velocity");
     assert!(skips(&sleeps) && !skips(&awake));
     assert!(sleeps.plan().to_string() == awake.plan().to_string());
-    // The control: in the pool it stays awake as long as that moves.
+    // Negative control: in the pool it stays awake as long as that moves.
     let scene = basin(0.3).with_sponge(cube("cube", Vec3::new(-0.09, 0.0, -0.015)));
     let mut wet = world(&scene, 0.2);
     while wet.clock().time < 0.9 {
@@ -75,7 +75,7 @@ fn a_pool_sleeps_while_a_sponge_falls() {
     assert!(fell && highest > 1.0, "it must fall: {highest} m/s");
     assert_eq!(calls(&world, "sph::density"), fluid_steps, "no phase of the fluid may run");
     assert!(nodes(&world, 0).iter().all(|(row, _)| row[1] < 0.05), "it lies on the floor");
-    // The control: a sponge that falls into the pool wakes it.
+    // Negative control: a sponge that falls into the pool wakes it.
     let mut scene = scene;
     scene.sponges[0].position.x = -0.09;
     scene.bodies[1].position.x = -0.075;
@@ -112,7 +112,7 @@ fn a_ball_wakes_a_sponge_before_it_touches() {
     assert!(!world.is_body_asleep(0) && !world.is_body_asleep(7) && !world.is_sponge_asleep(1));
     assert!(!awake.is_body_asleep(1), "the control may not sleep");
     let (ball, before) = (world.bodies()[1].state, nodes(&world, 0));
-    // The plate moves: the ball wakes, and the sponge sleeps on until the ball is near.
+    // The plate moves: the ball wakes, and the sponge sleeps until the ball is near.
     world.step().unwrap_or_else(|error| panic!("{error}"));
     assert!(!world.is_asleep() && !world.is_body_asleep(1) && world.is_sponge_asleep(0));
     assert!(world.bodies()[1].state.position.distance(ball.position) < 1e-4, "no jump");
@@ -123,12 +123,12 @@ fn a_ball_wakes_a_sponge_before_it_touches() {
     }
     let gap = distance(&world, 1);
     assert!(gap > 0.003 && gap < 0.04, "woken at {gap} m");
-    // It goes on with what it had: the first step after it moves it by no more than before it slept.
+    // It continues with its former state: the first step after moves it by no more than before it slept.
     assert!(nodes(&world, 0) == before);
     let slow = fastest(&world);
     world.step().unwrap_or_else(|error| panic!("{error}"));
     assert!(distance(&world, 1) > 0.0 && fastest(&world) <= slow + 1e-4, "{} m/s", fastest(&world));
-    // Contact is what it is for a sponge that never slept.
+    // Contact is as for a sponge that never slept.
     let deepest = |world: &mut World| {
         let (mut deepest, mut lowest) = (f32::INFINITY, f32::INFINITY);
         while world.clock().time < START + 0.5 {
@@ -168,7 +168,7 @@ fn two_islands_that_a_body_falls_on_wake_both() {
     }
     assert!(!world.is_sponge_asleep(0) && !world.is_sponge_asleep(1), "both at once");
     assert!(distance(&world, 1) > 0.0, "before it touches");
-    // The control: the third is out of its reach.
+    // Negative control: the third is out of its reach.
     while world.clock().time < START + 0.5 {
         frame(&mut world);
         assert!(world.is_sponge_asleep(2) && nodes(&world, 2) == far);
@@ -219,7 +219,7 @@ fn scenes_that_are_awake_do_not_care_whether_they_may_sleep() {
     assert_eq!(moves(&scene, 0.0), never);
 }
 
-/// How often parts fall asleep or wake.
+/// Number of times that parts fall asleep or wake.
 fn changes(scene: &Scene, seconds: f64) -> u32 {
     let mut world = world(scene, 0.2);
     let (mut before, mut count) = ([false; 3], 0);
@@ -241,7 +241,7 @@ fn what_trembles_near_the_limit_does_not_fall_asleep_by_turns() {
         let count = changes(&scene, 4.0);
         assert!(count <= 1, "{count} changes at {speed} m/s");
     }
-    // A sponge beside a plate that goes to and fro: within its reach it stays awake, out of it it sleeps.
+    // A sponge beside a plate that moves back and forth: within its reach it stays awake, out of it it sleeps.
     let beside = |gap: f32| {
         let motion = |k: i32| {
             let velocity = Vec3::X * if k % 2 == 0 { 0.02 } else { -0.02 };
@@ -263,7 +263,7 @@ fn what_trembles_near_the_limit_does_not_fall_asleep_by_turns() {
 
 #[test]
 fn what_swings_as_often_as_it_is_looked_at_does_not_fall_asleep() {
-    // A soft post on a foot that holds it, with next to no damping.
+    // A soft post on a foot that holds it, with almost no damping.
     let foot = ShapeKind::Cuboid { half_extents: Vec3::new(0.05, 0.006, 0.05) };
     let post = Sponge {
         cells: [2, 6, 2].into(),

@@ -1,4 +1,4 @@
-//! Scenes that come to rest cost nothing until something moves.
+//! Whole scenes at rest cost nothing until something moves.
 
 use sorb::{
     Bound, World,
@@ -55,7 +55,7 @@ fn a_pool_at_rest_sleeps_until_a_plate_moves() {
     assert_eq!((report.steps, report.bound, world.clock().steps), (0, Bound::Asleep, before));
     assert_eq!(positions(&world), places);
     assert_eq!(report.shortest_step, f32::INFINITY);
-    // It wakes when the plate moves, not a step later, and goes on as it was.
+    // It wakes when the plate moves, not a step later, and continues as it was.
     while world.clock().time < f64::from(START) - 1e-6 {
         frame(&mut world);
         assert_eq!(world.clock().steps, before);
@@ -63,7 +63,7 @@ fn a_pool_at_rest_sleeps_until_a_plate_moves() {
     let report = frame(&mut world);
     assert!(!world.is_asleep() && report.steps > 0 && report.bound != Bound::Asleep);
     assert!((world.bodies()[0].state.position.x - (-0.07 + 0.1 / 60.0)).abs() < 1e-5);
-    // No jump: what the plate does is no more than in a scene that was awake all the time.
+    // No jump: the plate has no more effect than in a scene that was awake all the time.
     let moved = largest_way(&places, &world);
     let mut awake = pool(0.0);
     while awake.clock().time < f64::from(START) - 1e-6 {

@@ -1,4 +1,4 @@
-//! Bodies that are heavy, fast, thin, shaken or somewhere else at once.
+//! Bodies that are heavy, fast, thin, shaken, or that jump.
 
 use sorb::{
     World,
@@ -33,8 +33,8 @@ fn bodies_a_thousand_times_as_heavy_as_each_other() {
     table(cases);
 }
 
-/// Balls at the floor of a pool that are let go. Single particles below them are pushed out; without the inertia of what they displace, those below 50 kg/m^3 were thrown at 4 to
-/// 16 m/s, or ended in steps that were too short.
+/// Balls released at the floor of a pool. Single particles below them are pushed out. Without the inertia of what they
+/// displace, balls below 50 kg/m^3 were thrown at 4 to 16 m/s, or ended in steps that were too short.
 #[test]
 fn balls_of_next_to_nothing_rise() {
     let mut scene = pool();
@@ -98,7 +98,7 @@ fn swept(mut scene: Scene, thickness: f32, speed: f32) -> Scene {
     scene.with_body(Body::kinematic("wall", shape, Vec3::new(from, BOX, 0.0), vec![motion]))
 }
 
-/// Share of the particles and nodes that the wall has left behind it \[%\].
+/// Share of the particles and nodes that the wall has passed \[%\].
 fn behind(world: &World) -> f64 {
     let wall = world.bodies()[0].state.position.x;
     let rows = || world.particle_positions().iter().chain(world.node_positions());
@@ -130,7 +130,7 @@ fn a_thin_wall_sweeps_through() {
 /// Inner half width of the closed cup, and half of the thickness of its walls \[m\].
 const CUP: (f32, f32) = (0.03, 0.002);
 
-/// A closed cup, half full, that is shaken along a diagonal.
+/// A closed cup, half full, shaken along a diagonal.
 fn cup(speed: f32) -> Scene {
     let centre = Vec3::new(0.0, 0.1, 0.0);
     let (inner, thick) = CUP;
@@ -165,14 +165,14 @@ fn spilled(world: &World) -> f64 {
     100.0 * rows.iter().filter(outside).count() as f64 / rows.len() as f64
 }
 
-/// Why a cup that is shaken flings water about faster than it moves.
+/// Why a shaken cup throws water faster than it moves.
 const TURNS: &str =
     "walls that turn round at once shut water in between them and what follows: pressed out, it gains speed";
 
-/// What is broken, and why.
+/// Checks that fail, and why.
 type Faults = &'static [(Check, &'static str)];
 
-/// Faults of the cup: speed \[m/s\], longest step \[ms\], and what is broken.
+/// Faults of the cup: speed \[m/s\], longest step \[ms\], and the checks that fail.
 const CUPS: &[(f32, f32, Faults)] = &[
     (0.5, 4.0, &[(Check::Speed, TURNS), (Check::Energy, TURNS)]),
     (0.5, 0.1, &[(Check::Speed, TURNS)]),
@@ -197,14 +197,14 @@ fn a_cup_is_shaken() {
     table(cases);
 }
 
-/// Fastest that things may be that are hit at 100 m/s \[m/s\]: a node in a corner is pushed on by its neighbours.
+/// Largest allowed speed after an impact at 100 m/s \[m/s\]: neighbours push a node in a corner on.
 const HIT: f64 = 500.0;
 
 #[test]
 fn bodies_that_are_somewhere_else_at_once() {
     let mut cases = Vec::new();
     for scene in [wet(), dry(), pool()] {
-        // 6 cm in 0.6 ms: from above into the middle of things.
+        // 6 cm in 0.6 ms: from above into the middle of the scene.
         let jump = |start: f32, sign: f32| Motion::Linear {
             velocity: Vec3::Y * 100.0 * sign,
             start,
@@ -215,7 +215,7 @@ fn bodies_that_are_somewhere_else_at_once() {
         let ball = Body::kinematic("ball", ball, Vec3::new(0.002, 0.085, 0.001), motions);
         let name = format!("{}: a ball appears inside, goes and comes", scene.name);
         let case = Case::new(name, scene.clone().with_body(ball), pick(0.3, 2.0));
-        // It hits what is in its way at 100 m/s: that energy is in no budget.
+        // It hits its surroundings at 100 m/s: that energy is in no budget.
         cases.push(Case { fastest: HIT, excess: None, ..case });
         let mut passed = swept(scene.clone(), THIN, 82.0);
         passed.time.minimum_step = 1e-8;

@@ -1,4 +1,4 @@
-//! A case: a scene, how long it runs, and what it is held to.
+//! A case: a scene, its duration, and its checks.
 
 use std::{
     collections::BTreeMap,
@@ -9,13 +9,13 @@ use sorb::{World, scene::Scene};
 
 use crate::{common, energy::Budget};
 
-/// Time between two looks at a state \[s\].
+/// Time between two checks of a state \[s\].
 const LOOK: f64 = 1.0 / 60.0;
 
-/// Steps that a case may take: one that asks for more has got stuck.
+/// Largest number of steps of a case: one that needs more is stuck.
 const MOST_STEPS: u64 = 400_000;
 
-/// What a case is held to.
+/// A check of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Check {
     /// Nothing panics.
@@ -32,15 +32,15 @@ pub(crate) enum Check {
     Mass,
     /// Nothing is faster than the case allows.
     Speed,
-    /// Energy comes from somewhere.
+    /// The energy is within the budget.
     Energy,
     /// The sponge is back to 95 % of its volume in time.
     Recovery,
-    /// The figure of the case.
+    /// The figure of the case is within its bound.
     Figure,
 }
 
-/// A measure of the state at the end, and the most that it may be.
+/// A measure of the final state, and its largest value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Figure {
     pub(crate) name: &'static str,
@@ -48,7 +48,7 @@ pub(crate) struct Figure {
     pub(crate) most: f64,
 }
 
-/// A case at its bounds.
+/// A case with its bounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
     pub(crate) name: String,
@@ -57,17 +57,17 @@ pub(crate) struct Case {
     pub(crate) seconds: f64,
     /// Largest speed of particles and nodes \[m/s\].
     pub(crate) fastest: f64,
-    /// Energy above what was put in, over what was put in; `None` where work is done that is not counted.
+    /// Energy gained, over the energy put in; `None` where work is done that is not counted.
     pub(crate) excess: Option<f64>,
-    /// Time at which a sponge is let go, and time that it has to recover \[s\].
+    /// Time at which a sponge is released, and time that it has to recover \[s\].
     pub(crate) recovery: Option<(f64, f64)>,
     pub(crate) figure: Option<Figure>,
-    /// Faults of the simulator that are known, with the cause. A case fails if one of them is no longer there.
+    /// Known faults of the simulator, with the cause. A case fails if one of them is gone.
     pub(crate) known: &'static [(Check, &'static str)],
 }
 
 impl Case {
-    /// A case that may do 3 m/s, twice what a fall through the box gives, and gain a twentieth of its energy.
+    /// A case with 3 m/s, twice the speed of a fall through the box, and a gain of a twentieth of its energy.
     pub(crate) fn new(name: impl Into<String>, scene: Scene, seconds: f64) -> Self {
         Self {
             name: name.into(),
@@ -82,10 +82,10 @@ impl Case {
     }
 }
 
-/// What became of a case.
+/// Result of a case.
 #[derive(Debug, Default)]
 pub(crate) struct Outcome {
-    /// What it was held to and did not keep, with the figures.
+    /// Checks that failed, with the figures.
     pub(crate) broken: BTreeMap<Check, String>,
     steps: u64,
     time: f64,
@@ -182,19 +182,19 @@ fn fastest(velocities: &[[f32; 4]]) -> f32 {
     velocities.iter().map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).fold(0.0, f32::max)
 }
 
-/// Takes down since when the volume is back to 95 %.
+/// Records since when the volume is back to 95 %.
 fn recover(world: &World, time: f64, recovered: &mut Option<f64>) {
     let rest = world.lattice().rest_volume(0).unwrap_or(f64::NAN);
     let is_back = world.measures().sponge_volume / rest >= 0.95;
     *recovered = if is_back { recovered.or(Some(time)) } else { None };
 }
 
-/// Not a number is out of every bound.
+/// NaN is out of every bound.
 fn within(value: f64, bound: f64) -> bool {
     value <= bound
 }
 
-/// Compares the figures of a run that came to its end with their bounds.
+/// Compares the figures of a completed run with their bounds.
 fn judge(case: &Case, world: &World, outcome: &mut Outcome) {
     if !within(outcome.fastest, case.fastest) {
         outcome.breaks(Check::Speed, format!("{:.2} m/s, bound {}", outcome.fastest, case.fastest));
@@ -220,7 +220,7 @@ fn judge(case: &Case, world: &World, outcome: &mut Outcome) {
     }
 }
 
-/// What is not as a case says: broken and not known, or known and not broken.
+/// Differences from the expectation: failed and not known, or known and not failed.
 fn surprises(case: &Case, outcome: &Outcome) -> Vec<String> {
     let known = |check: &Check| case.known.iter().any(|(known, _)| known == check);
     let broken = outcome.broken.iter().filter(|(check, _)| !known(check));
@@ -232,7 +232,7 @@ fn surprises(case: &Case, outcome: &Outcome) -> Vec<String> {
     broken.chain(mended).collect()
 }
 
-/// Runs a table of cases, prints its rows, and fails if one is not as it says.
+/// Runs a table of cases, prints its rows, and fails if one differs from its expectation.
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
 pub(crate) fn table(cases: impl IntoIterator<Item = Case>) {
     let mut all = Vec::new();
@@ -245,7 +245,7 @@ pub(crate) fn table(cases: impl IntoIterator<Item = Case>) {
     assert!(all.is_empty(), "not as expected:\n  {}", all.join("\n  "));
 }
 
-/// Controls: every check can fail, and a fault that is listed but not there is told.
+/// Negative controls: every check can fail, and a listed fault that is gone is reported.
 mod controls {
     use sorb::{glam::Vec3, scene::Domain};
 

@@ -1,4 +1,4 @@
-//! Worlds that have survived have one digest, whatever ran them.
+//! One digest of worlds after violent motion, for every backend configuration.
 
 use sorb::{Options, SimdLevel, World, scene::Scene};
 
@@ -7,7 +7,7 @@ use crate::{
     scenes::{crushed, dry, wet, with_ball},
 };
 
-/// After so many seconds; from half of them on in a copy of the world.
+/// Digest after so many seconds; the second half in a copy of the world.
 fn digest(scene: &Scene, seconds: f64, threads: usize, simd: SimdLevel) -> u64 {
     let options = Options { threads: Some(threads), simd: Some(simd), ..Options::default() };
     let mut world = World::with_options(scene, &options).unwrap_or_else(|error| panic!("{error}"));
@@ -16,7 +16,7 @@ fn digest(scene: &Scene, seconds: f64, threads: usize, simd: SimdLevel) -> u64 {
     while world.clock().time < 0.5 * seconds {
         common::steps(&mut world, 1);
     }
-    // One thread goes on, more continue from what was saved.
+    // One thread continues the world, more threads a copy.
     let mut world = if threads == 1 { world } else { world.clone() };
     while world.clock().time < seconds {
         common::steps(&mut world, 1);
@@ -33,7 +33,7 @@ fn has_one_digest(scene: &Scene, resolution: f32, seconds: f64) {
     for (threads, simd) in [(2, SimdLevel::Fallback), (1, SimdLevel::best()), (2, SimdLevel::best())] {
         assert_eq!(digest(&scene, seconds, threads, simd), expected, "{threads} threads, {simd}");
     }
-    // The control: one bit of gravity.
+    // Negative control: one bit of gravity.
     let mut other = scene;
     other.gravity.y = other.gravity.y.next_up();
     assert_ne!(digest(&other, seconds, 2, SimdLevel::best()), expected, "gravity by one bit");

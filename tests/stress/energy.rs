@@ -1,21 +1,21 @@
-//! What energy a scene has, and how much was put into it.
+//! Energy of a scene, and the energy put into it.
 
 use sorb::{
     World, internal,
     rigid::{BodyKind, BodyState},
 };
 
-/// Energy that was there or came in from outside \[J\].
+/// Initial and external energy \[J\].
 ///
-/// Bodies on a script may give energy and take it: the work of every step is added with its sign. Nodes that a grip holds give no
+/// Scripted bodies may add energy and remove it: the work of every step counts with its sign. Nodes in a grip give it no
 /// wrench, so that its work is not counted.
 #[derive(Debug)]
 pub(crate) struct Budget {
-    /// Kinetic, potential and elastic energy at time zero, and all that suction and surface tension can still do.
+    /// Kinetic, potential and elastic energy at time zero, and the largest possible work of suction and surface tension.
     start: f64,
-    /// Work of the bodies on a script.
+    /// Work of the scripted bodies.
     work: f64,
-    /// Sum of the sizes of the works: what the error is measured against.
+    /// Sum of the absolute works: the scale of the error.
     exchanged: f64,
     states: Vec<BodyState>,
 }
@@ -26,7 +26,7 @@ impl Budget {
         Self { start, work: 0.0, exchanged: 0.0, states: states(world) }
     }
 
-    /// Adds the work of the step that was just taken: impulses on a body act at its velocity before.
+    /// Adds the work of the last step: impulses on a body act at its velocity before.
     pub(crate) fn add_step(&mut self, world: &World) {
         let (bodies, count) = (&internal::columns(world).bodies, world.bodies().len());
         for (body, state) in self.states.iter().enumerate() {
@@ -44,7 +44,7 @@ impl Budget {
         self.states = states(world);
     }
 
-    /// Energy above what was put in, over what was put in; negative where some was lost.
+    /// Energy gained, over the energy put in; negative for a loss.
     pub(crate) fn excess(&self, world: &World) -> f64 {
         (energy(world) - self.start - self.work) / (self.start.abs() + self.exchanged).max(1e-9)
     }
@@ -56,11 +56,11 @@ fn states(world: &World) -> Vec<BodyState> {
 
 fn energy(world: &World) -> f64 {
     let measures = world.measures();
-    // Heights count from the floor, so that all of it is above zero.
+    // Heights are above the floor, so that all of it is positive.
     measures.kinetic_energy + measures.potential_energy + measures.elastic_energy
 }
 
-/// What suction can do at most: its pressure in a dry sponge times the volume of the pores.
+/// Largest possible work of suction: its pressure in a dry sponge times the volume of the pores.
 fn capillary(world: &World) -> f64 {
     let scene = world.scene();
     if scene.fluid.is_none() {
@@ -76,14 +76,14 @@ fn capillary(world: &World) -> f64 {
     work.sum()
 }
 
-/// What surface tension can do at most: every particle on its own has six faces.
+/// Largest possible work of surface tension: every single particle has six faces.
 fn surface(world: &World) -> f64 {
     let Some(fluid) = &world.scene().fluid else { return 0.0 };
     let face = f64::from(fluid.spacing).powi(2);
     6.0 * face * f64::from(fluid.surface_tension) * world.particle_ids().len() as f64
 }
 
-/// The largest of a sequence; not a number if one of them is not.
+/// The largest of a sequence; NaN if one of them is NaN.
 pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(
         f64::NEG_INFINITY,

@@ -8,7 +8,7 @@ use crate::{
     scenes::{wet, with_ball},
 };
 
-/// A scene with one key at an end of its range; `None` where that does not fit to the rest of the scene.
+/// A scene with one key at an end of its range; `None` where that does not fit the rest of the scene.
 fn at_the_end(key: &str, value: f32) -> Option<Scene> {
     let scene = with_ball(wet(), 2000.0, 0.0);
     let text = if value.fract() == 0.0
@@ -21,7 +21,7 @@ fn at_the_end(key: &str, value: f32) -> Option<Scene> {
     match scene.with_overrides([text.as_str()]) {
         Ok(scene) => Some(scene),
         Err(SceneError::Invalid { problems, .. }) => {
-            // Refused with the name of a key: that of the value itself or of the other side of a rule.
+            // Refused with the name of a key: that of the value or of the other side of a rule.
             assert!(problems.iter().all(|problem| !problem.key.is_empty()), "{text}");
             None
         }
@@ -33,7 +33,7 @@ fn at_the_end(key: &str, value: f32) -> Option<Scene> {
 const DAMPED: &[(Check, &str)] =
     &[(Check::Energy, "not known yet: 8 times the energy at a damping time of 10 s, at 3 m/s at most")];
 
-/// What a sponge of almost no pores does.
+/// A sponge of almost no pores.
 const SOLID: &[(Check, &str)] = &[(
     Check::Energy,
     "the share of the material is 0.96 to 1.17 of its mean: above 1 without any water, which is driven out",
@@ -53,7 +53,7 @@ fn every_key_at_both_ends() {
         }
         for value in [limit.minimum, limit.maximum] {
             let Some(scene) = at_the_end(limit.key, value) else { continue };
-            // A million steps a second are what this one asks for.
+            // This one requires a million steps per second.
             let seconds = if scene.time.maximum_step < 1e-5 { pick(1e-3, 0.02) } else { pick(0.02, 0.3) };
             let case = Case::new(format!("wet: {} = {value:e}", limit.key), scene, seconds);
             let is_solid = limit.key == "sponges[].porosity" && value < 0.5;

@@ -1,7 +1,7 @@
 //! Scenes that try to break the defaults: `dfsph`, `vbd`, sponges as porous media.
 //!
-//! Whatever is asked of them, steps are taken or refused with a reason, the state stays finite and inside, water is not
-//! lost, and energy does not come from nowhere. `docs/stress.md` says what was thrown at them and what happened.
+//! Steps are taken or refused with a reason, the state stays finite and inside, no water is lost, and energy is within its
+//! budget. `docs/stress.md` has the results.
 //!
 //! `SORB_STRESS=1 cargo test --workspace --test stress -- --nocapture` runs the long form and prints the table.
 
@@ -20,7 +20,7 @@ mod scenes;
 mod soak;
 mod squeezed;
 
-/// Whether the long form is asked for.
+/// Whether the long form is requested.
 fn long() -> bool {
     std::env::var_os("SORB_STRESS").is_some()
 }

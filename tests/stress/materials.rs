@@ -1,4 +1,4 @@
-//! Time steps, and what sponge and water are made of, over all decades.
+//! Time steps, and material constants of sponge and water, over all decades.
 
 use sorb::{glam::Vec3, scene::Scene};
 
@@ -18,7 +18,7 @@ fn with(scene: &Scene, keys: &[String]) -> Scene {
     common::with(scene, &keys)
 }
 
-/// Steps of 7 ms and more, which the pressure allows before there is any.
+/// Steps of 7 ms and more, which the bound of the pressure allows before there is any.
 const HEAVES: &[(Check, &str)] = &[(
     Check::Energy,
     "a pool without pressure heaves by 6 % of its energy when its first step is ten times too long",
@@ -57,7 +57,7 @@ fn stiffness_over_seven_decades() {
                 with_ball(with(&scene, &[format!("sponges[0].young_modulus=1e{exponent}")]), 500.0, 0.0);
             // Stiff sponges take short steps.
             let seconds = if exponent > 5 { pick(0.05, 0.5) } else { pick(0.3, 2.0) };
-            // The softest ones are beaten flat, and water leaves them fast.
+            // The softest ones are crushed flat, and water leaves them fast.
             cases.push(Case { fastest: 4.0, ..Case::new(name, scene, seconds) });
         }
     }
@@ -110,7 +110,7 @@ fn permeability_over_nine_decades() {
         let scene = with(&wet(), &[format!("sponges[0].permeability=1e{exponent}")]);
         let name = format!("wet: permeability 1e{exponent} m^2");
         let case = Case::new(name, with_ball(scene, 2000.0, 0.0), pick(0.3, 2.0));
-        // Where drag does not bear the ball, nodes that it lets go spring back.
+        // Where drag does not carry the ball, nodes spring back after it.
         let fastest = if exponent > -8 { 0.5 * WAVE } else { case.fastest };
         cases.push(Case { fastest, ..case });
     }
@@ -123,7 +123,7 @@ fn gravity_from_everywhere() {
     for gravity in [Vec3::Y * 100.0, Vec3::NEG_Y * 100.0, Vec3::new(-100.0, 0.0, 100.0), Vec3::ZERO] {
         let mut scene = wet();
         scene.gravity = gravity;
-        // Heights count against gravity and may start below zero: what is exchanged is the fall through the box.
+        // Heights count against gravity and may start below zero: the exchanged energy is that of the fall through the box.
         let case = Case::new(format!("wet: gravity {gravity} m/s^2"), scene, pick(0.2, 2.0));
         cases.push(Case { fastest: WAVE, excess: (gravity.length() < 1.0).then_some(0.05), ..case });
     }

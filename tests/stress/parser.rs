@@ -1,4 +1,4 @@
-//! Anything as a scene file: an error with a key or a line, or a scene that can be built; never a panic.
+//! Any text as a scene file: an error with a key or a line, or a scene that can be built; never a panic.
 
 use proptest::{
     collection::vec,
@@ -12,7 +12,7 @@ use sorb::{
 
 use crate::{common::busy, pick, random::runner};
 
-/// What is put where it does not belong.
+/// Tokens that are inserted in wrong places.
 const TOKENS: [&str; 30] = [
     "nan",
     "-inf",
@@ -46,10 +46,10 @@ const TOKENS: [&str; 30] = [
     "[[bodies]]\n",
 ];
 
-/// A change of a text: where, how, and with which token.
+/// A change of a text: place, kind and token.
 type Change = (f64, u8, usize);
 
-/// Some scene of the library, changed at some places.
+/// A scene of the library with some changes.
 fn changed(text: &str, changes: &[Change]) -> String {
     let mut text = text.to_owned();
     for (place, how, token) in changes {
@@ -75,11 +75,11 @@ fn changed(text: &str, changes: &[Change]) -> String {
     text
 }
 
-/// What is wrong with an error of the parser; one that says where it is has nothing wrong.
+/// The defect of an error of the parser; none if it has a place.
 fn vague(error: &SceneError) -> Option<String> {
     match error {
         SceneError::Syntax { line, message, .. } if *line >= 1 && !message.is_empty() => None,
-        // `scene` is the key of what only serde has noticed, which names none; but of a file that holds no table it is the place.
+        // `scene` is the key of errors that only serde detects, and is no place; except for a file without a table.
         SceneError::Invalid { problems, .. } if !problems.is_empty() => {
             let is_whole = |problem: &scene::Problem| problem.to_string().ends_with("expected a table");
             let nameless = |problem: &&scene::Problem| {
@@ -91,7 +91,7 @@ fn vague(error: &SceneError) -> Option<String> {
     }
 }
 
-/// Reads a text, and goes on with what comes out as a host would.
+/// Reads a text, and uses the result as a host would.
 fn read(text: &str, parse: fn(&str, &str) -> Result<Scene, SceneError>) -> Result<(), TestCaseError> {
     let fail = |what: String| Err(TestCaseError::fail(format!("{what}\n{text}")));
     let scene = match parse(text, "changed") {
@@ -114,7 +114,7 @@ fn read(text: &str, parse: fn(&str, &str) -> Result<Scene, SceneError>) -> Resul
     if estimate.particles + estimate.nodes < 3000
         && let Ok(mut world) = World::new(&scene)
     {
-        // A refused step has a reason; what counts is that none panics.
+        // A refused step has a reason; the test is that none panics.
         let _ = world.step();
     }
     Ok(())
@@ -206,7 +206,7 @@ fn overrides_at_random_are_taken_or_refused() {
     assert!(result.is_ok(), "{}", result.err().map(|error| error.to_string()).unwrap_or_default());
 }
 
-/// The controls: errors without a place are told from those with one, and changes do change.
+/// Negative controls: errors without a place are detected, and changes do change.
 #[test]
 fn an_error_without_a_place_is_told() {
     let place = Scene::from_toml("version = ", "bad").expect_err("no value");

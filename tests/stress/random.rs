@@ -1,4 +1,4 @@
-//! Scenes drawn at random from all that is valid: no panic, finite, inside, no particle lost, and twice the same.
+//! Random valid scenes: no panic, finite, inside, no particle lost, and the same digest twice.
 
 use proptest::{
     collection::vec,
@@ -22,7 +22,7 @@ pub(crate) fn runner(cases: u32) -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]))
 }
 
-/// Numbers from 0 to 1 that are used up one after the other; those that are lacking are 0.
+/// Numbers from 0 to 1, used one after the other; missing ones are 0.
 struct Draw<'a>(std::slice::Iter<'a, f32>);
 
 impl Draw<'_> {
@@ -34,7 +34,7 @@ impl Draw<'_> {
         low + (high - low) * self.unit()
     }
 
-    /// Every decade is as likely as every other.
+    /// Every decade has the same probability.
     fn decade(&mut self, low: f32, high: f32) -> f32 {
         libm::powf(10.0, self.between(libm::log10f(low), libm::log10f(high))).clamp(low, high)
     }
@@ -95,7 +95,7 @@ fn sponge(draw: &mut Draw<'_>, name: &str, spacing: f32, wet: bool) -> Sponge {
         1 => SpongeShape::Cylinder { axis: scene::Axis::Y },
         _ => SpongeShape::Block,
     };
-    // Cut out of two cells, nothing but corners would be left of a shape.
+    // A shape cut out of two cells has only corners left.
     let shape = if cells.min_element() > 2 { shape } else { SpongeShape::Block };
     let modulus = draw.value("sponges[].young_modulus");
     Sponge {
@@ -200,7 +200,7 @@ fn drawn(numbers: &[f32]) -> Scene {
     scene
 }
 
-/// Lets a scene repeat along some axes, where it is long enough: its water then fills a whole number of spacings.
+/// Makes some axes periodic where the scene is long enough: its water then fills a whole number of spacings.
 fn repeat(scene: &mut Scene, draw: &mut Draw<'_>) {
     let mut axes = [0; 3].map(|_| draw.choice(3) == 0);
     if let Some(fluid) = &mut scene.fluid {
@@ -211,12 +211,12 @@ fn repeat(scene: &mut Scene, draw: &mut Draw<'_>) {
     *scene = std::mem::take(scene).repeating(axes);
 }
 
-/// Runs a scene and gives its digest; refusing a step that would be too small is no fault.
+/// Runs a scene and returns its digest; refusing a step that would be too small is no fault.
 fn digest(scene: &Scene, threads: usize) -> Result<u64, TestCaseError> {
     let fail = |what: String| TestCaseError::fail(what);
     let options = Options { threads: Some(threads), ..Options::default() };
     let mut world = World::with_options(scene, &options).map_err(|error| match error {
-        // A body may take up all of a sponge that is drawn around it.
+        // A body may take up all of a sponge around it.
         WorldError::Lattice(LatticeError::Empty { .. }) => TestCaseError::reject("no sponge is left"),
         error => fail(error.to_string()),
     })?;
@@ -264,7 +264,7 @@ fn scenes_at_random_stay_whole_and_come_out_twice_the_same() {
     }
 }
 
-/// The control: the draws reach water, sponges and bodies of every kind, alone and together.
+/// Negative control: the draws reach water, sponges and bodies of every kind, alone and together.
 #[test]
 fn the_draws_are_of_all_kinds() {
     let mut seen = std::collections::BTreeSet::new();

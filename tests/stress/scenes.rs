@@ -1,14 +1,14 @@
-//! The scenes that cases start from: small, at the default settings.
+//! Scenes of the cases: small, at the default settings.
 
 use sorb::{
     glam::{UVec3, Vec3},
     scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge},
 };
 
-/// Half of the width of the box, which is as high as wide \[m\].
+/// Half of the width of the cubic box \[m\].
 pub(crate) const BOX: f32 = 0.06;
 
-/// Speed of elastic waves in the dry sponge \[m/s\]: what is let go springs back as fast.
+/// Speed of elastic waves in the dry sponge \[m/s\]: released nodes spring back as fast.
 pub(crate) const WAVE: f64 = 20.0;
 
 /// Distance of the particles \[m\].
@@ -73,7 +73,7 @@ pub(crate) fn crushed(mut scene: Scene, axes: &[usize], gap: f32) -> Scene {
     scene
 }
 
-/// Straight motions to and fro along an axis: `count` times there and back, each way for `time` seconds.
+/// Straight motions back and forth along an axis: `count` times, each way for `time` seconds.
 pub(crate) fn shaken(velocity: Vec3, time: f32, count: u16) -> Vec<Motion> {
     let way = |index: u16| {
         let start = time * f32::from(index);

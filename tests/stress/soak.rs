@@ -7,7 +7,7 @@ use crate::{
     pick,
 };
 
-/// Coarse: the scenes at half of the resolution of the library are looked at by `tests/scenes.rs`.
+/// Coarse: `tests/scenes.rs` runs the scenes at half the resolution of the library.
 const RESOLUTION: f32 = 0.4;
 
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]

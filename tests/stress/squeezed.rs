@@ -1,4 +1,4 @@
-//! Sponges that are crushed, turned inside out, or in each other.
+//! Sponges that are crushed, turned inside out, or inside each other.
 
 use sorb::{
     glam::{UVec3, Vec3},
@@ -62,13 +62,13 @@ fn turned_inside_out_and_back() {
     let case = |scene: Scene| {
         let name = format!("{}: turned inside out and back", scene.name);
         let case = Case::new(name, inside_out(scene), 1.2);
-        // The work of grips is not counted. Tets go through no volume, where they are stiff, and spring back as fast.
+        // The work of grips is not counted. Tets pass through zero volume, where they are stiff, and spring back as fast.
         Case { fastest: 4.0 * WAVE, excess: None, recovery: Some((0.5, 0.5)), ..case }
     };
     table([case(dry()), case(wet())]);
 }
 
-/// Two full balls of sponge at the same place: nodes and particles lie on top of each other, to the bit or nearly.
+/// Two full sponges at the same place: nodes and particles coincide, to the bit or nearly.
 fn doubled(offset: f32) -> Scene {
     let mut scene = pool();
     for (name, shift) in [("one", 0.0), ("other", offset)] {
@@ -86,10 +86,10 @@ fn doubled(offset: f32) -> Scene {
 #[test]
 fn particles_and_nodes_on_top_of_each_other() {
     let case = |name: &str, offset: f32| {
-        // Water that is twice as dense as it can be is driven apart: that energy is in no budget.
+        // Water of twice its density is driven apart: that energy is in no budget.
         Case { excess: None, ..Case::new(format!("doubled: {name}"), doubled(offset), pick(0.3, 2.0)) }
     };
-    // Sponges that touch each other cannot lie in each other: these do not touch.
+    // Sponges in contact must not overlap: these have no contact.
     let mut cases = [case("two full sponges in each other", 0.0), case("the same, 1 um apart", 1e-6)];
     for case in &mut cases {
         let refused = sorb::World::new(&case.scene).expect_err("sponges that touch").to_string();

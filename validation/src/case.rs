@@ -1,4 +1,4 @@
-//! What a case is, what it is told, and what it gives.
+//! A case, its settings and its results.
 
 use std::{
     collections::BTreeMap,
@@ -25,7 +25,7 @@ pub struct Case {
     pub title: &'static str,
     /// Where the reference comes from.
     pub source: &'static str,
-    /// Which solvers matter to it.
+    /// The solvers that matter to it.
     pub subject: Subject,
     /// The fault that [`Setting::fault`] plants.
     pub control: &'static str,
@@ -33,7 +33,7 @@ pub struct Case {
     pub run: fn(&Setting) -> Result<Vec<Figure>, Failure>,
 }
 
-/// Which solvers a case depends on.
+/// The solvers that a case depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// The solver of the water.
@@ -44,30 +44,30 @@ pub enum Subject {
     Coupling,
 }
 
-/// What a case is told.
+/// Settings of a run of a case.
 #[derive(Clone, Debug, Default)]
 pub struct Setting {
-    /// Which solvers to run.
+    /// The solvers to run.
     pub solvers: Solvers,
-    /// Factor on the number of particles or cells along a length; 1 is what the bounds are meant for. Range 0.25 to 8.
+    /// Factor on the number of particles or cells along a length. The bounds are meant for 1. Range 0.25 to 8.
     pub resolution: f64,
     /// Fewer, shorter and coarser runs.
     pub quick: bool,
-    /// Plants the case's fault, which must push it out of its bounds.
+    /// Plants the fault of the case, which must push it out of its bounds.
     pub fault: bool,
-    /// Quality of every scene; what it says itself where there is none.
+    /// Quality of every scene; none keeps the keys of the scene.
     pub quality: Option<Quality>,
     /// Changes of keys of every scene, after the quality, as `KEY=VALUE`; see [`Scene::set`].
     pub changes: Vec<String>,
-    /// What to run on.
+    /// Threads, SIMD level and backend.
     pub options: Options,
-    /// Real time in the simulator, of all worlds of the case together; clones share it.
+    /// Real time in the simulator, summed over all worlds of the case; clones share it.
     pub stopwatch: Stopwatch,
-    /// Where the worlds of the case ran; clones share it.
+    /// Backends of the worlds of the case; clones share it.
     pub backends: Backends,
 }
 
-/// Adds up real time.
+/// Sums real time.
 #[derive(Clone, Debug, Default)]
 pub struct Stopwatch(Arc<AtomicU64>);
 
@@ -83,7 +83,7 @@ impl Stopwatch {
     }
 }
 
-/// Which backends worlds ran on, and why.
+/// Backends of worlds, and the reason for each.
 #[derive(Clone, Debug, Default)]
 pub struct Backends(Arc<Mutex<BTreeMap<&'static str, String>>>);
 
@@ -94,7 +94,7 @@ impl Backends {
         self.found().keys().copied().collect::<Vec<_>>().join("+")
     }
 
-    /// The adapter, or why there is none, of the last world on each; empty if no GPU was asked for.
+    /// For each backend the adapter of the last world, or why there is none; empty if no GPU was requested.
     #[must_use]
     pub fn reasons(&self) -> String {
         let found = self.found();
@@ -109,7 +109,7 @@ impl Backends {
         self.found().insert(if on_gpu { "gpu" } else { "cpu" }, reason);
     }
 
-    /// A panic elsewhere leaves the table whole.
+    /// A panic elsewhere leaves the table intact.
     fn found(&self) -> std::sync::MutexGuard<'_, BTreeMap<&'static str, String>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -148,7 +148,7 @@ impl Setting {
     /// The world of a scene, with the solvers, the quality and the changes of the setting.
     ///
     /// # Errors
-    /// The scene is bad, or the machine lacks what the options ask for.
+    /// The scene is invalid, or the machine lacks a requested feature.
     pub fn world(&self, scene: &Scene) -> Result<World, Failure> {
         let mut scene = self.solvers.applied(scene)?;
         if let Some(quality) = self.quality {
@@ -162,7 +162,7 @@ impl Setting {
         Ok(world)
     }
 
-    /// A frame of a world, on the stopwatch.
+    /// Advances a world by a frame, on the stopwatch.
     ///
     /// # Errors
     /// As [`World::advance_frame`].
@@ -202,11 +202,11 @@ pub struct Figure {
     pub name: String,
     /// SI unit of reference and measured; "1" for pure numbers.
     pub unit: &'static str,
-    /// The value that it should have.
+    /// The expected value.
     pub reference: f64,
-    /// The value that it has.
+    /// The measured value.
     pub measured: f64,
-    /// How far it is off, in the norm that the name says.
+    /// The error, in the norm that the name states.
     pub error: f64,
     /// Largest error that is in bounds.
     pub bound: f64,
@@ -226,7 +226,7 @@ impl Figure {
         Self { name: name.into(), unit, reference, measured, error, bound }
     }
 
-    /// A value whose error is relative to a scale of its own.
+    /// A value whose error is relative to a given scale.
     #[must_use]
     pub fn over(
         name: impl Into<String>,
@@ -239,20 +239,20 @@ impl Figure {
         Self { name: name.into(), unit, reference, measured, error, bound }
     }
 
-    /// An error that a norm gives, whose reference is zero.
+    /// An error in a norm, whose reference is zero.
     #[must_use]
     pub fn error(name: impl Into<String>, unit: &'static str, error: f64, bound: f64) -> Self {
         Self { name: name.into(), unit, reference: 0.0, measured: error, error, bound }
     }
 
-    /// Whether the error is in bounds; one that is not a number is not.
+    /// Whether the error is in bounds. An error that is not a number is out of bounds.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if self.error <= self.bound { Verdict::Ok } else { Verdict::Miss }
     }
 }
 
-/// Whether a figure keeps its bound.
+/// Whether a figure is in bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {

@@ -1,22 +1,22 @@
-//! Where the surface of the water is.
+//! Height of the water surface.
 
 use sorb::World;
 
-/// Wendland's C2 kernel at a distance over the support radius, times the cube of that radius.
+/// Wendland's C2 smoothing function at a distance over the support radius, times the cube of that radius.
 fn kernel(q: f64) -> f64 {
     if q < 1.0 { 21.0 / (2.0 * std::f64::consts::PI) * (1.0 - q).powi(4) * (4.0 * q + 1.0) } else { 0.0 }
 }
 
-/// Height of the surface at points of the plane, where the share of the volume that is water falls to a half \[m\].
+/// Height of the surface at points of the plane, where the volume fraction of water falls to a half \[m\].
 ///
-/// The share is the kernel sum of particle volumes with a support of two spacings, so that a lattice that fills space
-/// up to a plane has its surface in that plane, half a spacing above its last layer. Points with no water below give
-/// nothing. Points nearer than two spacings to a wall or body see the lack of particles there.
+/// The fraction is the sum of W times particle volumes with a support of two spacings. A lattice that fills space up to a
+/// plane then has its surface in that plane, half a spacing above its last layer. Points without water below give nothing.
+/// Points nearer than two spacings to a wall or body lack the particles there.
 pub(crate) fn heights(world: &World, points: &[(f64, f64)]) -> Vec<f64> {
     let spacing = world.scene().fluid.as_ref().map_or(1.0, |fluid| f64::from(fluid.spacing));
     let radius = 2.0 * spacing;
     let volume = spacing.powi(3) / radius.powi(3);
-    // The sum over a lattice, which the kernel does not bring to 1 exactly.
+    // The sum over a lattice, which is not exactly 1.
     let full: f64 = (-2..=2)
         .flat_map(|x| (-2..=2).flat_map(move |y| (-2..=2).map(move |z| (x, y, z))))
         .map(|(x, y, z): (i32, i32, i32)| volume * kernel(f64::from(x * x + y * y + z * z).sqrt() / 2.0))

@@ -1,11 +1,11 @@
-//! How far `sorb` is from what is known: analytic solutions, experiments, and converged solves of the same equations.
+//! Comparison of `sorb` with analytic solutions, experiments, and converged solutions of the same equations.
 //!
-//! A [`Case`] builds a scene through the public API of `sorb`, runs it, and gives [`Figure`]s: a measured value, its
-//! reference, the error in a stated norm, and the bound that the error must keep. A case can plant a fault
-//! ([`Setting::fault`]), which must push it out of its bounds: a case that passes with the fault proves nothing.
+//! A [`Case`] builds a scene through the public API of `sorb`, runs it, and returns [`Figure`]s. A figure has a measured
+//! value, its reference, the error in a stated norm, and its bound. A case can plant a fault ([`Setting::fault`]), which
+//! must push it out of its bounds: a case that passes with the fault proves nothing.
 //!
-//! References are computed here, in f64, apart from the simulator: [`fem`] solves the elastic problems on the
-//! simulator's own tets, [`references`] holds tables and formulas with their sources.
+//! References are computed here, in f64, independently of the simulator. [`fem`] solves the elastic problems on the
+//! simulator's own tets, and [`references`] has tables and formulas with their sources.
 
 mod case;
 mod cases;

@@ -34,7 +34,7 @@ pub fn line(points: &[(f64, f64)]) -> (f64, f64) {
     (slope, y - slope * x)
 }
 
-/// Value at `x` on the polygon through points whose first coordinates ascend; the ends are extended level.
+/// Value at `x` on the polygon through points whose first coordinates ascend; constant beyond the ends.
 #[must_use]
 pub fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
     let after = points.partition_point(|point| point.0 < x);

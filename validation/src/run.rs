@@ -7,14 +7,14 @@ use crate::{
     known::{KnownMiss, known},
 };
 
-/// What became of a case.
+/// Result of a case.
 #[derive(Debug)]
 pub struct Outcome {
     /// The case.
     pub case: &'static Case,
     /// Names of its solvers.
     pub solver: String,
-    /// Where its worlds ran.
+    /// Backends of its worlds.
     pub backends: Backends,
     /// The figures, or why there are none.
     pub figures: Result<Vec<Figure>, Failure>,
@@ -48,7 +48,7 @@ impl Outcome {
         known(self.case.name, &self.solver, figure)
     }
 
-    /// Why a case is known to give no figures; a world that was not even built is no fault of its models.
+    /// Why a case is known to give no figures. A world that could not be built is no fault of its models.
     #[must_use]
     pub fn known_failure(&self, failure: &Failure) -> Option<&'static KnownMiss> {
         matches!(failure, Failure::Step(_) | Failure::Nothing(_)).then(|| self.known("")).flatten()
@@ -59,7 +59,7 @@ impl Outcome {
 #[must_use]
 pub fn run(case: &'static Case, setting: &Setting) -> Outcome {
     let start = Instant::now();
-    // Those of the case alone: the setting may have run others.
+    // Only those of the case: the setting may have run others.
     let setting = &Setting { backends: Backends::default(), ..setting.clone() };
     let figures = (case.run)(setting);
     Outcome {
@@ -83,7 +83,7 @@ mod tests {
         let mut outcome = run(case, &setting);
         assert!(matches!(outcome.figures, Err(Failure::Scene(_))), "{outcome:?}");
         assert!(!outcome.holds_but_for_known());
-        // The control: a run of it that gives nothing is one.
+        // Negative control: a run without figures is a known miss of this case.
         outcome.figures = Err(Failure::Nothing("no vortex".to_owned()));
         assert!(outcome.holds_but_for_known());
     }

@@ -1,4 +1,4 @@
-//! Which solvers there are, and scenes that use them.
+//! The available solvers, and scenes that use them.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,7 @@ use sorb::scene::{Scene, SceneError, schema};
 
 use crate::case::Subject;
 
-/// What a solver moves.
+/// What a solver computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolverKind {
     /// `fluid.solver`.
@@ -16,7 +16,7 @@ pub enum SolverKind {
     Sponge,
 }
 
-/// The solvers of a run; the scene's own default where there is none.
+/// The solvers of a run; none stands for the default of the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Solvers {
     /// Value of `fluid.solver`.
@@ -25,7 +25,7 @@ pub struct Solvers {
     pub sponge: Option<String>,
 }
 
-/// Values of `fluid.solver` and `sponges[].solver` in the schema of scenes; empty for a key that it lacks.
+/// Values of `fluid.solver` and `sponges[].solver` in the schema of scenes; empty for a key that the schema lacks.
 static CHOICES: LazyLock<[Vec<String>; 2]> = LazyLock::new(|| {
     let schema: Value = serde_json::from_str(&schema()).unwrap_or_default();
     ["Fluid", "Sponge"].map(|table| choices(&schema, &schema["$defs"][table]["properties"]["solver"]))
@@ -63,9 +63,9 @@ fn choices(schema: &Value, node: &Value) -> Vec<String> {
 }
 
 impl SolverKind {
-    /// Names of the solvers, as scenes write them.
+    /// Names of the solvers, as in scene files.
     ///
-    /// A simulator without such a key has one solver, which the paper's name stands for.
+    /// A simulator without such a key has one solver, under the name of the paper's.
     #[must_use]
     pub fn names(self) -> Vec<String> {
         let (index, only) = match self {
@@ -75,7 +75,7 @@ impl SolverKind {
         if CHOICES[index].is_empty() { vec![only.to_owned()] } else { CHOICES[index].clone() }
     }
 
-    /// The solver of scenes that name none.
+    /// The solver of scenes without the key.
     #[must_use]
     pub fn default_name(self) -> String {
         let (index, only) = match self {
@@ -127,7 +127,7 @@ impl Solvers {
         self.sponge_name() == "sbd"
     }
 
-    /// Names of those that matter to a case, for tables.
+    /// Names of the solvers that matter to a case, for tables.
     #[must_use]
     pub fn label(&self, subject: Subject) -> String {
         let name =
@@ -162,7 +162,7 @@ impl Material {
         (shear, first)
     }
 
-    /// Modulus of compression between walls that give no way, `lambda + 2 mu` \[Pa\].
+    /// Modulus of compression between rigid walls, `lambda + 2 mu` \[Pa\].
     #[must_use]
     pub fn confined(&self) -> f64 {
         let (shear, first) = self.lame();
@@ -171,8 +171,8 @@ impl Material {
 
     /// Gives all sponges of a scene this material.
     ///
-    /// The strain constraints of the paper have no Poisson's ratio, but in the limit of small strain their energy is
-    /// `M_s / 2 sum e_kk^2 + 2 M_t sum e_kl^2 + M_v / 2 (tr e)^2` with the moduli of stretch, shear and volume, which is
+    /// The strain constraints of the paper have no Poisson's ratio. In the limit of small strain their energy is
+    /// `M_s / 2 sum e_kk^2 + 2 M_t sum e_kl^2 + M_v / 2 (tr e)^2` with the moduli of stretch, shear and volume. It is
     /// isotropic for `M_s = 2 mu`, `M_t = mu`, `M_v = lambda`.
     ///
     /// # Errors

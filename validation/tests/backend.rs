@@ -1,4 +1,4 @@
-//! Cases on a GPU: they say that they ran there, and their figures are those of the CPU.
+//! Cases on a GPU report that they ran there, and their figures are those of the CPU.
 //!
 //! `cargo test -p sorb-validation --features gpu --test backend` compares; without the feature, a GPU is refused.
 
@@ -28,7 +28,7 @@ fn a_gpu_without_the_feature_is_a_failure_that_names_it() {
     assert!(error.contains("feature `gpu`"), "{error}");
 }
 
-/// Errors of a case on the CPU and on a GPU, and what the second said of itself.
+/// Errors of a case on the CPU and on a GPU, with backends and reasons of the second.
 #[cfg(feature = "gpu")]
 fn both(name: &str, fault: bool) -> (Vec<[f64; 2]>, String, String) {
     let cpu = outcome(name, Offload::Cpu, false);
@@ -49,7 +49,7 @@ fn figures_on_a_gpu_are_those_of_the_cpu() {
         let (errors, backend, adapter) = both(name, false);
         assert_eq!(backend, "gpu", "{name}");
         assert!(!adapter.is_empty() && !differ(&errors), "{name} on {adapter}: {errors:?}");
-        // The control: the planted fault of the case, on the GPU alone.
+        // Negative control: the planted fault of the case, on the GPU alone.
         let (errors, ..) = both(name, true);
         assert!(differ(&errors), "{name}: {errors:?}");
     }

@@ -4,7 +4,7 @@ use sorb_validation::{CASES, Case, Figure, KNOWN_MISSES, Setting, run};
 
 /// Coarser than quick: this runs with every test.
 fn setting(case: &Case, fault: bool) -> Setting {
-    // The scenes of `rest` are whole scenes, ten times as long as anything else.
+    // The scenes of `rest` are whole scenes, and take ten times as long as other cases.
     let resolution = if case.name == "rest" { 0.5 } else { 1.0 };
     Setting { resolution, quick: true, fault, ..Setting::new() }
 }
@@ -14,7 +14,7 @@ fn figures(case: &'static Case, fault: bool) -> Vec<Figure> {
     outcome.figures.unwrap_or_else(|error| panic!("{}, fault {fault}: {error}", case.name))
 }
 
-/// The fault pushes a figure out of its bounds, and much further than it is without.
+/// The fault pushes a figure out of its bounds, and well beyond its error without the fault.
 fn is_caught(name: &str) {
     let case = CASES.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
     let (sound, faulty) = (figures(case, false), figures(case, true));

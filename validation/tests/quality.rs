@@ -1,9 +1,9 @@
-//! Qualities of scenes: more work gives less error, and less work more.
+//! Qualities of scenes: more work reduces the error, and less work increases it.
 
 use sorb::scene::Quality;
 use sorb_validation::{CASES, Setting, run};
 
-/// Error of the first figure of a quick case whose name begins so.
+/// Error of the first figure of a quick case whose name has a prefix.
 fn error(case: &str, figure: &str, resolution: f64, quality: Quality) -> f64 {
     let case = CASES.iter().find(|known| known.name == case).copied().expect("a case of that name");
     let setting = Setting { resolution, quick: true, quality: Some(quality), ..Setting::new() };
@@ -16,8 +16,8 @@ fn error(case: &str, figure: &str, resolution: f64, quality: Quality) -> f64 {
 fn water_keeps_its_volume_better_at_every_quality() {
     let [fast, balanced, accurate] =
         Quality::ALL.map(|quality| error("dam_break", "change of volume", 1.0, quality));
-    // The tolerance is a tenth, but what is allowed for rough pressures is the same (docs/pressure-solve.md). The comparison
-    // the other way round, of balanced with itself, fails.
+    // The tolerance is a tenth, but the permitted compression is the same (docs/pressure-solve.md). Negative control: the
+    // comparison of balanced with itself fails.
     assert!(accurate < 0.9 * balanced, "{accurate}, {balanced}");
     assert!(accurate < 0.9 * fast, "{accurate}, {fast}");
     let again = error("dam_break", "change of volume", 1.0, Quality::Balanced);

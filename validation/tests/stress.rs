@@ -1,5 +1,5 @@
-//! A scene that tries to break every solver of the water: the state stays finite and inside, and no water is lost. What is
-//! thrown at the defaults is in `tests/stress` of the library.
+//! A scene that tries to break every solver of the water: the state stays finite and inside, and no water is lost.
+//! `tests/stress` of the library tests the defaults.
 //!
 //! `SORB_STRESS=1 cargo test -p sorb-validation --test stress` runs the long form.
 
@@ -43,7 +43,7 @@ fn dry() -> Scene {
     })
 }
 
-/// Runs for some time and looks after every frame; what went wrong, if anything did.
+/// Runs for some time and checks every frame; the first fault, if any.
 fn ran(scene: &Scene, seconds: f64) -> Result<World, String> {
     let scene = &Scene { sponges: without_water(scene), ..scene.clone() };
     let mut world = World::new(scene).map_err(|error| error.to_string())?;
@@ -68,7 +68,7 @@ fn without_water(scene: &Scene) -> Vec<Sponge> {
     scene.sponges.iter().map(dry).collect()
 }
 
-/// The first thing that is wrong with a state.
+/// The first fault of a state.
 fn unhealthy(world: &World, particles: usize) -> Option<String> {
     let mut ids = world.particle_ids().to_vec();
     ids.sort_unstable();
@@ -124,7 +124,7 @@ fn crushed_wet() {
 
 #[test]
 fn the_look_after_every_frame_sees_what_is_outside() {
-    // The control: a sponge whose box is moved away from under it.
+    // Negative control: a sponge whose box is moved away from below it.
     let mut world = World::new(&Scene { sponges: without_water(&dry()), ..dry() }).unwrap();
     assert_eq!(unhealthy(&world, 0), None);
     let away = Scene { domain: Domain::Open, ..world.scene().clone() };

@@ -17,11 +17,11 @@ impl Folder {
     /// Creates the folder, or empties it of the results of an earlier run.
     ///
     /// # Errors
-    /// The system refuses to create the folder or to remove what is in it.
+    /// The system refuses to create the folder or to remove its contents.
     pub(super) fn create(path: &Path) -> Result<Self, CliError> {
         fs::create_dir_all(path).map_err(CliError::write(path))?;
         let folder = Self { path: path.to_owned() };
-        // Without a table these files are not ours.
+        // Without a table these files do not belong to a run.
         if folder.table().exists() {
             for old in folder.earlier() {
                 fs::remove_file(&old).map_err(CliError::write(old))?;
@@ -30,7 +30,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Results of an earlier run that this one may not overwrite by itself.
+    /// Results of an earlier run that this one would not overwrite.
     fn earlier(&self) -> Vec<PathBuf> {
         let is_number = |path: &Path| {
             let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
@@ -69,7 +69,7 @@ impl Folder {
         self.path.join("animation.png")
     }
 
-    /// Names of what is in the folder.
+    /// Names of the files in the folder.
     pub(super) fn contents(&self, pictures: bool) -> &'static str {
         if pictures {
             "measures.csv, summary.json, animation.png, frames/"

@@ -19,14 +19,14 @@ use progress::Progress;
 use summary::Summary;
 use table::Table;
 
-/// What the frames so far took and gave.
+/// Times and measures of the frames so far.
 #[derive(Debug, Default)]
 struct Record {
-    /// Time in the simulation alone.
+    /// Real time of the simulation alone.
     wall: Duration,
-    /// Time in drawing and writing pictures.
+    /// Real time of drawing and writing pictures.
     picture: Duration,
-    /// Time of every frame in the simulation \[ms\].
+    /// Real time of every frame in the simulation \[ms\].
     frames_ms: Vec<f64>,
     /// The last row of the table.
     measures: Measures,
@@ -35,7 +35,7 @@ struct Record {
 /// Simulates.
 ///
 /// # Errors
-/// The scene or the options are bad, results cannot be written, or the simulation diverged.
+/// The scene or the options are invalid, results cannot be written, or the simulation diverged.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let scene = arguments.choice.load()?;
     let frames = arguments.frames(&scene);
@@ -81,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 impl Record {
-    /// Takes over what a frame took.
+    /// Records the time of a frame.
     fn advanced(&mut self, time: Duration) {
         self.wall += time;
         self.frames_ms.push(time.as_secs_f64() * 1e3);
@@ -106,7 +106,7 @@ impl Record {
     }
 }
 
-/// Writes the summary, and says how it went.
+/// Writes the summary, and prints the final report.
 fn finish(
     arguments: &Arguments,
     world: &World,

@@ -27,11 +27,11 @@ pub(crate) struct Arguments {
     /// SIMD level: auto, fallback, sse2, sse4.2, avx2, avx512 or neon; results do not depend on it
     #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = simd, hide_possible_values = true)]
     pub(super) simd: Simd,
-    /// Where to run: cpu, gpu, auto (a GPU if it is worth it), from:KERNEL (that kernel and all after it on the GPU), or
-    /// each:NAME=PLACE,.. with kernels, families or all for names, and cpu or gpu
+    /// Where to run: cpu, gpu, auto (a GPU for large scenes), from:KERNEL (that kernel and all after it on the GPU), or
+    /// each:NAME=PLACE,.. where a name is a kernel, a family or all, and a place is cpu or gpu
     #[arg(long, value_name = "BACKEND", default_value = "cpu")]
     pub(super) backend: Offload,
-    /// Takes the time of every kernel on the GPU, which makes its steps a little longer
+    /// Measures the time of every kernel on the GPU, which makes its steps a little longer
     #[cfg(feature = "gpu")]
     #[arg(long)]
     pub(super) gpu_times: bool,
@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     /// Size of the pictures in pixels, each side 16 to 8192
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size)]
     pub(super) size: Size,
-    /// How the water is drawn
+    /// Style of the water
     #[arg(long, value_name = "STYLE", default_value = "spheres")]
     pub(super) style: StyleName,
     /// Prints the summary as a JSON object to standard output, and nothing else
@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     pub(super) quiet: bool,
 }
 
-/// A level, or none for the best of the machine.
+/// A level, or none for the best one of the machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Simd(pub(super) Option<SimdLevel>);
 
@@ -66,7 +66,7 @@ pub(super) struct Simd(pub(super) Option<SimdLevel>);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size(pub(super) u32, pub(super) u32);
 
-/// Name of a style of drawing.
+/// Name of a style of the water.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(super) enum StyleName {
     /// Every particle is a droplet
@@ -127,7 +127,7 @@ fn picture_rate(text: &str) -> Result<f32, String> {
     rate.map(|rate| rate as f32).ok_or_else(|| "expected a number from 0.1 to 1000 1/s".to_owned())
 }
 
-/// A number in a range; `nan` is in none.
+/// A number in a range; `nan` is in no range.
 fn ranged(text: &str, minimum: f64, maximum: f64) -> Option<f64> {
     let number: f64 = text.parse().ok()?;
     (minimum..=maximum).contains(&number).then_some(number)

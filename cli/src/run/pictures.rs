@@ -36,7 +36,7 @@ impl Pictures {
     ) -> Result<Self, CliError> {
         fs::create_dir_all(folder.frames()).map_err(CliError::write(folder.frames()))?;
         let rate = scene.time.frame_rate;
-        // Whole frames, so that pictures are evenly spaced; rounding up keeps the rate below what was asked for.
+        // Whole frames, so that pictures are evenly spaced. Rounding up keeps the rate below the requested one.
         let every = (rate / arguments.picture_rate - 1e-3).ceil().max(1.0) as u32;
         let (width, height) = (arguments.size.0, arguments.size.1);
         let animation = Animation::create(

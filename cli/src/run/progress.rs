@@ -10,8 +10,8 @@ use sorb::{FrameReport, scene::Scene};
 
 const TEMPLATE: &str = "{prefix} {bar:30} {percent:>3} %  {msg}  {eta} left";
 
-/// A bar on standard error that shows the simulated time, the speed and what limits the step; nothing where standard
-/// error is no terminal.
+/// A bar on standard error with the simulated time, the speed and the bound of the step; none where standard error is no
+/// terminal.
 #[derive(Debug)]
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -31,7 +31,7 @@ impl Progress {
         Self { bar, duration: f64::from(frames) / f64::from(scene.time.frame_rate) }
     }
 
-    /// Takes note of a frame.
+    /// Shows the state after a frame.
     pub(super) fn frame(&self, report: &FrameReport, wall: Duration) {
         let speed = f64::from(report.steps) / wall.as_secs_f64().max(1e-9);
         self.bar.set_message(format!(

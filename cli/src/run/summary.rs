@@ -12,11 +12,11 @@ use super::{Record, table::Named};
 pub(super) struct Summary {
     scene: String,
     backend: &'static str,
-    /// What was asked for, and the adapter or why there is none; nothing for a plain run on the CPU.
+    /// The requested backend, and the adapter or why there is none; none for a plain run on the CPU.
     backend_reason: Option<String>,
     threads: usize,
     simd: &'static str,
-    /// What the scene was refined by.
+    /// Factor of `--resolution`.
     resolution: f32,
     frames: usize,
     steps: u64,
@@ -111,7 +111,7 @@ impl fmt::Display for Summary {
     }
 }
 
-/// Every phase of the plan once: one that the step has in several places is skipped if it is in all of them.
+/// Every phase of the plan once. A phase in several places of the step is skipped if it is skipped in all of them.
 fn phases(world: &World) -> Vec<Phase> {
     let mut phases: Vec<Phase> = Vec::new();
     for line in world.plan().lines() {

@@ -12,7 +12,7 @@ use sorb::{FrameReport, Measures};
 
 use crate::error::CliError;
 
-/// A column of measures: its name, and how to read it.
+/// A column of measures: its name, and its value.
 type Column = (&'static str, fn(&Measures) -> f64);
 
 /// The measures, in the order of the table and of the summary.
@@ -41,7 +41,7 @@ const COLUMNS: [Column; 22] = [
     ("maximum_density_error", |m| m.maximum_density_error),
 ];
 
-/// The table while it is written. Every row reaches the file at once, so that an end by force leaves all of them.
+/// The table while it is written. Every row is written to the file at once, so that a killed run leaves all of them.
 #[derive(Debug)]
 pub(super) struct Table {
     path: PathBuf,
@@ -73,11 +73,11 @@ impl Table {
     ) -> Result<(), CliError> {
         let mut line = frame.to_string();
         for (_, value) in COLUMNS {
-            // Shortest digits that give the same number back, with an exponent where that is shorter to read.
+            // Shortest digits that read back as the same number, with an exponent where that is shorter.
             let _ = write!(line, ",{:?}", value(measures));
         }
         line += &match report {
-            // A frame that is slept through has no step.
+            // A frame in which everything sleeps has no step.
             Some(report) if report.steps == 0 => format!(",0,,{}\n", report.bound.name()),
             Some(report) => format!(",{},{:?},{}\n", report.steps, report.shortest_step, report.bound.name()),
             None => ",0,,\n".to_owned(),

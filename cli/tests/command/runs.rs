@@ -1,4 +1,4 @@
-//! `sorb run`: what it computes and what it leaves.
+//! `sorb run`: results and files.
 
 use std::{collections::BTreeSet, fs::File, io::BufReader};
 
@@ -94,7 +94,7 @@ fn pictures_exist_and_the_animation_decodes() {
     for picture in ["00000", "00003"] {
         assert_eq!(decoded(&scratch.path(&format!("out/frames/{picture}.png"))), ((64, 48), 1));
     }
-    // A shorter run does not leave pictures of the longer one.
+    // A shorter run does not keep pictures of the longer one.
     let answer = run(&scratch, "ball_drop", &[&small[..], &["2", "--style", "surface"]].concat());
     assert_eq!(answer.code, Some(0), "{answer:?}");
     let pictures = std::fs::read_dir(scratch.path("out/frames")).expect("the folder is there");
@@ -118,7 +118,7 @@ fn decoded(path: &str) -> ((u32, u32), u32) {
 #[test]
 fn a_run_that_diverges_exits_with_3_and_leaves_what_it_has() {
     let scratch = Scratch::new("diverges");
-    // Water that falls freely gets faster, until the speed bound asks for a step that is not allowed.
+    // Water in free fall accelerates, until the speed bound requires a step that is not allowed.
     let sets = [
         ["--set", "domain={kind=\"open\"}"],
         ["--set", "fluid.solver=wcsph"],
@@ -164,7 +164,7 @@ fn a_quality_is_another_state_but_for_the_defaults() {
     assert_eq!(defaults, digest(&["--quality", "balanced"]));
     let fast = digest(&["--quality", "fast"]);
     assert_ne!(defaults, fast);
-    // What is set by hand comes after the quality.
+    // `--set` comes after the quality.
     let back = ["time.courant=0.25", "fluid.support=2", "sponges[0].iterations=4"];
     let by_hand: Vec<&str> = back.iter().flat_map(|change| ["--set", *change]).collect();
     assert_eq!(defaults, digest(&[&["--quality", "fast"], &by_hand[..]].concat()));

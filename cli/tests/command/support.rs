@@ -1,4 +1,4 @@
-//! Runs the command and looks at what it leaves.
+//! Runs the command and reads its results.
 
 use std::{
     fs,
@@ -8,7 +8,7 @@ use std::{
 
 use serde_json::Value;
 
-/// What the command answered.
+/// Exit code and output of the command.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) code: Option<i32>,
@@ -72,7 +72,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // A folder that stays behind is replaced by the next run.
+        // A folder that remains is replaced by the next run.
         let _ = fs::remove_dir_all(&self.0);
     }
 }

@@ -1,8 +1,8 @@
-//! Wrong usage: exit code 2, and a message that says what would be right.
+//! Wrong usage: exit code 2, and a message with the correct usage.
 
 use crate::support::{Scratch, sorb};
 
-/// Fails unless `run` with these arguments is refused in these words.
+/// Fails unless `run` with these arguments is refused with these words.
 fn refused(arguments: &[&str], words: &[&str]) {
     let scratch = Scratch::new(&format!("refused_{}", words.join("_").replace(['/', '`', ' '], "-")));
     let out = scratch.path("out");

@@ -1,4 +1,4 @@
-//! `sorb validate`: what it lists, refuses, prints and exits with.
+//! `sorb validate`: lists, refusals, output and exit codes.
 
 use crate::support::{Scratch, sorb};
 
@@ -32,7 +32,7 @@ fn a_row_for_every_figure_and_1_if_one_is_out_of_bounds() {
     let out = figures.iter().filter(|figure| figure["verdict"] == "miss").count();
     assert!(!figures.is_empty() && rows[0]["case"] == "torsion" && rows[0]["backend"] == "cpu");
     assert_eq!(answer.code, Some(i32::from(out > 0)), "{answer:?}");
-    // The planted fault must be out of bounds, and then all is well.
+    // The planted fault must be out of bounds; then the check passes.
     let control = sorb(&["validate", "torsion", "--quick", "--control"]);
     assert_eq!((control.code, control.err.as_str()), (Some(0), ""), "{control:?}");
     assert!(control.out.contains("MISS"), "{control:?}");

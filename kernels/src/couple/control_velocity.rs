@@ -1,11 +1,11 @@
-//! Brings the velocities of the nodes, after their constraints, into the order of the controls, and begins the
-//! drag with no impulse.
+//! Copies the velocities of the nodes, after their constraints, into the order of the controls, and starts the drag at zero
+//! impulse.
 //!
 //! ```text
 //! s_a = sum_i w_ia / m_a,   w_ia = V_a W_ia / chi_i
 //! ```
 //!
-//! `s_a` says how many particles share a node, over its mass: `couple::drag` needs it to be stable.
+//! `s_a` is the number of particles that share a node, over its mass: `couple::drag` needs it for stability.
 
 use crate::{
     column::padded,

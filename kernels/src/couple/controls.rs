@@ -1,4 +1,5 @@
-//! Nodes as control particles: sorted by cell, and who is near whom. A node of a swollen sponge stands for more volume.
+//! Nodes as control particles: sorted by cell, with the neighbour lists in both directions. A node of a swollen sponge
+//! counts with its swollen volume.
 
 use crate::{
     column::{FAR_ROW, padded},
@@ -54,7 +55,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     controls.fluid.build(cpu, controls_rows, particles, &fluid.cells, (radius, None));
 }
 
-/// The nodes by cell; without those that are asleep, which no fluid is near.
+/// The awake nodes by cell; no fluid is near the others.
 fn sort(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (count, radius) = (columns.rows.nodes, params.coupling.support_radius);
     let (nodes, controls) = (&columns.nodes, &mut columns.controls);

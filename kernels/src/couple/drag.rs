@@ -1,4 +1,4 @@
-//! Drag of the sponge on the particles: one sweep for the impulse that each loses to it (the paper, section 3.3).
+//! Drag of the sponge on the particles: one sweep for the impulse of each on the sponge (the paper, section 3.3).
 //!
 //! ```text
 //! u_i = sum_a w_ia u_a,   w_ia = V_a W_ia / chi_i             velocity of the sponge at the particle
@@ -6,13 +6,13 @@
 //! J_i += (k_i (v_i - u_i) - J_i) / (1 + k_i sum_a w_ia s_a)
 //! ```
 //!
-//! with `s_a` from `couple::control_velocity`, beginning at J = 0. This is a Jacobi sweep for J = k (v - u(J)),
-//! implicit in particles and nodes. What stands below the line bounds the sum of the row of the matrix, so that
-//! every sweep lessens the kinetic energy, however strong the drag and however light the nodes, and momentum is
-//! kept at any number of sweeps. Where velocities and weights are uniform the first sweep is exact.
+//! with `s_a` from `couple::control_velocity`, starting at J = 0. This is a Jacobi sweep for J = k (v - u(J)), implicit in
+//! particles and nodes. The denominator is an upper bound of the row sum of the matrix. Every sweep therefore reduces the
+//! kinetic energy, however strong the drag and however light the nodes. Momentum is conserved at any number of sweeps. Where
+//! velocities and weights are uniform the first sweep is exact.
 //!
-//! Differs from the paper, where the viscosity term is explicit: at the permeability of a real sponge the rate
-//! beta is thousands per second, and an explicit term would need steps of microseconds.
+//! Differs from the paper, where the drag is explicit. At the permeability of a real sponge the rate beta is thousands per
+//! second: an explicit drag would need steps of microseconds.
 
 use crate::{
     columns::{Columns, Fluid},

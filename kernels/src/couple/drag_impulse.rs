@@ -1,4 +1,4 @@
-//! Impulse that every particle loses to the sponge, at the velocities that its nodes have so far.
+//! Drag impulse that every particle loses to the sponge, at the present velocities of the nodes.
 //!
 //! ```text
 //! u_i = sum_a w_ia u_a,   w_ia = V_a W_ia / chi_i             velocity of the sponge at the particle
@@ -7,9 +7,10 @@
 //! s_i = 2 |v_i - u_i| / (1 + h beta_i + sqrt((1 + h beta_i)^2 + 4 h gamma_i |v_i - u_i|))
 //! ```
 //!
-//! with the speed s that the drag leaves, `s (1 + h beta + h gamma s) = |v - u|`: with the speed before, drag would grow with the step.
+//! with the speed s that the drag leaves, `s (1 + h beta + h gamma s) = |v - u|`: with the speed before the drag, drag would
+//! grow with the step.
 //!
-//! `couple::drag_target` makes of it where the nodes are taken, `couple::drag_kick` what the particles lose.
+//! `couple::drag_target` computes the targets of the nodes from it, and `couple::drag_kick` applies it to the particles.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -64,7 +65,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let root = (slowed * slowed + inertial * speed * (4.0 * step)).sqrt();
                 let left = (speed + speed) / (slowed + root);
                 let rate = (linear + inertial * left) * step;
-                // The column holds impulses and masses over chi.
+                // The column has impulses and masses over chi.
                 let strength = rate / (one + rate) * mass * inverse;
                 let [jx, jy, jz] = times(beside, strength);
                 lanes::store_rows(drag, row, [jx, jy, jz, strength]);

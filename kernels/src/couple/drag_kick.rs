@@ -1,4 +1,4 @@
-//! Takes from the particles what the drag gave to the nodes.
+//! Subtracts from the particles the drag impulses that the nodes received.
 //!
 //! ```text
 //! v_i -= J_i / m

@@ -1,11 +1,11 @@
-//! What the nodes receive of the impulses that the particles lose, and its moments.
+//! Drag impulses on the nodes, and their moments.
 //!
 //! ```text
 //! D_a = sum_i w_ia J_i,   k_a = sum_i w_ia k_i,   M_a = sum_i w_ia (x_i - x_a) x J_i
 //! ```
 //!
-//! A few sweeps do not give a sponge these impulses yet, and never their moments: the drag acts at the particle, and its
-//! nodes lie around that somehow. `pbd::momentum` adds what is lacking.
+//! After few sweeps a sponge has not yet received these impulses, and never their moments, because drag acts at the
+//! particles. `pbd::momentum` adds the difference.
 
 use crate::{
     columns::{Columns, Controls},

@@ -1,11 +1,12 @@
-//! From here on the drag of the step is what it is: nodes no longer take fluid along.
+//! Fixes the drag of the step: nodes no longer move fluid with them.
 //!
 //! ```text
 //! k_a = 0
 //! ```
 //!
-//! While drag answers to the motion that a sponge is given, `pbd::momentum` moves the mass of the fluid as well. The last motion must leave
-//! the nodes with the impulses that the particles lose, to rounding: it moves the sponge alone, and nothing asks for the drag again.
+//! While the drag responds to the rigid motion of a sponge, `pbd::momentum` moves the mass of the fluid as well. The last
+//! motion must leave the nodes with the impulses that the particles lose, to rounding. It therefore moves the sponge alone,
+//! and the drag is not computed again.
 
 use crate::{
     columns::{Columns, lane},

@@ -1,20 +1,20 @@
-//! Where the drag of the fluid would take the nodes, for a sweep of vertex block descent.
+//! Targets of the nodes by the drag of the fluid, for a sweep of vertex block descent.
 //!
-//! Elasticity, inertia and drag are one minimum, in which the drag is the energy
+//! Elasticity, inertia and drag are one minimisation, in which the drag is the energy
 //!
 //! ```text
 //! E_d(x) = sum_i k_i / 2 |v_i - sum_a w_ia (x_a - x_a(before)) / h|^2
 //! ```
 //!
-//! Its matrix couples all nodes around a particle. Their weights add up to one, so that the diagonal matrix of the sums
-//! of its rows is above it: a sweep with that in its place,
+//! Its matrix couples all nodes around a particle. The weights add up to one, so that the diagonal matrix of its row sums is
+//! an upper bound of it. A sweep with that instead,
 //!
 //! ```text
 //! k_a = sum_i w_ia k_i,   t_a = x_a(before) + h (u_a + sum_i w_ia J_i / k_a),   E_a(x) = k_a / (2 h^2) |x - t_a|^2
 //! ```
 //!
-//! never raises the energy, ends at the same minimum, and is exact at once where all move alike. Together with the inertia
-//! it is one mass, the node's own and that of the fluid, which is drawn to the mean of both targets.
+//! never raises the energy, converges to the same minimum, and is exact at once for uniform motion. Together with the
+//! inertia it is one mass, that of the node and of the fluid, with the weighted mean of both targets.
 
 use crate::{
     columns::{Columns, Controls, lane},
@@ -42,7 +42,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let drag = &columns.fluid.drag;
     let Controls { node, position, velocity, fluid: lists, fluid_weights, .. } = &columns.controls;
     let (step, nodes) = (params.step, &mut columns.nodes);
-    // By how much a node is moved, and by what mass.
+    // Displacement of each node, and its mass.
     let mut moved = vec![[0.0_f32; 4]; velocity.len()];
     cpu.for_chunks(&mut moved[..], |first, moved| {
         let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
@@ -71,7 +71,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Mass below which nothing is pulled \[kg\]: far below that of any particle, and its inverse is a number.
+/// Mass below which there is no target \[kg\]: far below that of any particle, with a finite inverse.
 const LEAST: f32 = 1.0e-20;
 
 /// Sum over the particles of eight controls of `V_a W_ia` times the rows of the drag.

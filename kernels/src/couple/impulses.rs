@@ -9,10 +9,10 @@ use crate::{
     vector::{self, Vec3x8, plus, times},
 };
 
-/// Interior value below which a particle feels no drag.
+/// Interior value below which there is no drag.
 const OUTSIDE: f32 = 1.0e-3;
 
-/// 1 / chi, or 0 where a particle feels no drag.
+/// 1 / chi, or 0 where there is no drag.
 #[inline(always)]
 pub(super) fn weight_inside<S: Simd>(simd: S, chi: f32x8<S>) -> f32x8<S> {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
@@ -37,7 +37,7 @@ pub(super) fn received<S: Simd>(
     sum
 }
 
-/// Takes the impulses from the particles.
+/// Subtracts the impulses from the particles.
 pub(super) fn kick(cpu: &Cpu, params: &Params, fluid: &mut Fluid) {
     let Fluid { velocity, drag, interior, .. } = fluid;
     let inverse_mass = 1.0 / params.fluid.particle_mass;

@@ -1,13 +1,13 @@
-//! How far inside a sponge every particle is, and how drag acts there.
+//! Interior value of every particle in a sponge, and the drag rates there.
 //!
 //! ```text
 //! chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //! ```
 //!
-//! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. chi is 1 deep inside and 0 outside; beta and gamma are those of `couple::pores`. Where pores are partly filled, water moves as
-//! in a medium whose permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i` (`couple::wetting`): `beta_i / m_i` and
-//! `gamma_i / sqrt(m_i)`. The mean is that of what conducts side by side, so that dry pores ahead of a front do not hold the
-//! water behind it.
+//! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. chi is 1 deep inside and 0 outside; beta and gamma are those
+//! of `couple::pores`. In partly filled pores the permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i`
+//! (`couple::wetting`): the rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of parallel conductors, so
+//! that dry pores ahead of a front do not hold the water behind it.
 
 use super::compliance::following;
 use crate::{
@@ -33,7 +33,7 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, controls: lists, control_weights, interior, drag_rate, .. } = &mut columns.fluid;
     let controls = &columns.controls.position;
-    // In the order of the controls; padding rows weigh nothing.
+    // In the order of the controls; padding rows have zero weight.
     let mut pores = vec![[0.0; 4]; controls.len()];
     for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
         *pores = columns.nodes.pores[*node as usize];
@@ -87,7 +87,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// Kernel sum of node volumes at every node, as the nodes lie now; set-up calls it at rest.
+/// Sum of node volumes times W at every node, at the present positions; set-up calls it at rest.
 #[must_use]
 pub fn node_interior(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<f32> {
     let (nodes, count) = (&columns.nodes, columns.rows.nodes);

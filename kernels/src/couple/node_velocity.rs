@@ -1,4 +1,4 @@
-//! Velocities of the nodes as the elastic solve has them so far, in the order of the controls.
+//! Velocities of the nodes at the present state of the elastic solve, in the order of the controls.
 //!
 //! ```text
 //! u_a = (y_a - x_a) / h

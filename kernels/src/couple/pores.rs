@@ -1,4 +1,4 @@
-//! What compression does to the pores of a sponge, and drag with it.
+//! Porosity, permeability and drag rates of a deformed sponge.
 //!
 //! ```text
 //! J_a     = mean of V / V_0 over the tets of a node, by the volume that they stand for
@@ -7,10 +7,11 @@
 //! beta_a  = mu phi_a / (rho K_a),   gamma_a = c_F phi_a^2 / sqrt(K_a)
 //! ```
 //!
-//! Water that moves through the pores with the velocity w beside the material is slowed at the rate `beta + gamma |w|`, by
-//! Darcy's law and Forchheimer's addition to it. Both are kept times J, so that their sums over nodes near a particle, with
-//! the volumes of the nodes at rest, are sums over the volume as it is now. At rest a swollen node has a larger volume (`couple::controls`):
-//! what is kept is over that, while the porosity is that of the volume as it is, of which the dry material takes the same part.
+//! Water with the velocity w relative to the material is decelerated at the rate `beta + gamma |w|`, by Darcy's law and
+//! Forchheimer's term. Both rates are stored times J. Their sums over nodes near a particle, with the volumes of the nodes
+//! at rest, are then sums over the present volume. A swollen node has a larger volume at rest (`couple::controls`): the
+//! stored ratio is relative to that. The porosity is that of the present volume, in which the volume of the dry material is
+//! constant.
 
 use crate::{
     columns::{Columns, Nodes},
@@ -31,10 +32,10 @@ declare! {
     twin: [pass(NAME, Nodes)],
 }
 
-/// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.
+/// Smallest porosity: the lattice can be crushed flat, pores cannot.
 pub(crate) const LEAST_POROSITY: f32 = 0.15;
 
-/// Volume over that at rest beyond which pores do not get wider: the material would vanish, and drag with it.
+/// Largest volume over that at rest: beyond it the material would vanish, and drag with it.
 pub(crate) const LARGEST: f32 = 10.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -68,7 +69,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Sum of the volumes of the tets of eight nodes over those at rest, with the weights of the tets, and the sum of those.
+/// Sum of the volumes of the tets of eight nodes over those at rest, with the weights of the tets, and the sum of the
+/// weights.
 #[inline(always)]
 fn volumes<S: Simd>(
     simd: S,
@@ -92,7 +94,7 @@ fn volumes<S: Simd>(
     [sum.to_array(), weights.to_array()]
 }
 
-/// Where eight nodes are.
+/// Positions of eight nodes.
 #[inline(always)]
 fn places<S: Simd>(simd: S, position: &[[f32; 4]], rows: &[u32; LANES]) -> Vec3x8<S> {
     let [x, y, z, _] = lanes::gather_rows(simd, position, rows);
@@ -104,7 +106,7 @@ fn of_node(sponge: &SpongeParams, volume: f32, weight: f32) -> [f32; 4] {
     if !sponge.pores_close {
         return [1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity];
     }
-    // Where pores are as narrow as they get.
+    // Volume ratio at the smallest porosity.
     let least = (1.0 - sponge.porosity) / (1.0 - LEAST_POROSITY.min(sponge.porosity));
     let ratio = volume / weight;
     let ratio = if ratio > least { ratio } else { least };

@@ -4,8 +4,8 @@
 //! S_a = sum_i V_0 W_ia / (phi chi_a)        p_a = -p_e (1 + g max(1 - S_a, 0)),  0 at surface nodes
 //! ```
 //!
-//! with `chi_a` the kernel sum of node volumes at the node, at rest. A saturated sponge keeps the entry pressure
-//! `p_e` and so holds its water; a dry one sucks more strongly, by the gain g.
+//! with `chi_a` the sum of node volumes times W at the node, at rest. A saturated sponge keeps the entry pressure `p_e` and
+//! so holds its water. A dry one has more suction, by the gain g.
 
 use crate::{
     columns::{Columns, Controls, lane},

@@ -5,11 +5,11 @@
 //! a_i -= P_i grad lambda_i
 //! ```
 //!
-//! The material is displaced volume, as walls and bodies are: fluid and share add up to one, so that pores hold what the
-//! porosity leaves, and give it back as they are squeezed. Its volume does not change when the sponge is compressed.
+//! The material displaces volume, as walls and bodies do: fluid and solid volume fraction add up to one. Pores hold the
+//! volume that the porosity leaves, and release it under compression. The volume of the material is constant.
 //!
-//! The solve that follows takes nodes to be where they are expected at the end of the step: moved on by the share s of
-//! the external acceleration that they followed in the last step (`pbd::guess`),
+//! In the solve that follows, the motion of nodes is prescribed. They move to their expected positions at the end of the
+//! step, with the share s of the external acceleration that they followed in the last step (`pbd::guess`),
 //!
 //! ```text
 //! x*_a = x_a + h (u_a + h s a_a)
@@ -67,7 +67,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// Where the nodes are expected at the end of the step, and the volume of their material.
+/// Expected positions of the nodes at the end of the step, and the volume of their material.
 fn expect(params: &Params, columns: &mut Columns) {
     let (nodes, controls) = (&columns.nodes, &mut columns.controls);
     let step = params.step;
@@ -84,7 +84,7 @@ fn expect(params: &Params, columns: &mut Columns) {
         for axis in 0..3 {
             solid[axis] = x[axis] + step * (v[axis] + step * share * a[axis]);
         }
-        // Of the dry node: swelling makes wider pores, not more material.
+        // Of the dry node: swelling widens pores and adds no material.
         solid[lane::controls::solid::VOLUME] =
             (1.0 - params.sponges[nodes.sponge[node] as usize].porosity) * nodes.volume[node];
     }

@@ -1,11 +1,11 @@
-//! What the pressure of the particles gives to the nodes: the exact opposite of what it takes from the particles.
+//! Reaction of the nodes to the pressure of the particles: the exact opposite of the force on the particles.
 //!
 //! ```text
 //! a_a += sum_i m_i (P_i grad lambda_ia at the beginning + dP_i grad lambda_ia where both are expected) / m_a
 //! ```
 //!
-//! It is Archimedes' force on the material, the pressure of pores that are squeezed, and part of what the elastic solve
-//! that follows has to bear.
+//! It is Archimedes' force on the material and the pressure of pores under compression. It is part of the load of the
+//! elastic solve that follows.
 
 use crate::{
     columns::{Columns, lane},

@@ -1,10 +1,11 @@
-//! Share of the sponge's material in the volume around a particle, where both are expected at the end of the step.
+//! Solid volume fraction around a particle, at the expected positions at the end of the step.
 //!
 //! ```text
 //! lambda_i += sum_a V_s W(x*_i - x*_a),   V_s = (1 - phi) V_a
 //! ```
 //!
-//! added to the share of walls and bodies (`sph::boundary`), so that the solve for the pressure does not tell them apart.
+//! added to the boundary volume fraction of walls and bodies (`sph::boundary`), so that the pressure solve treats both
+//! alike.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -1,17 +1,17 @@
-//! How far the material of the sponge gives way to what a solve changes of the pressure.
+//! Compliance of the material of the sponge to the pressure change of a solve.
 //!
 //! ```text
 //! y_i = 2 f_i sum_j c_ij f_j (dP_j - dP_i),    f^2 = min(A (1 - phi) / phi, 1)
 //! ```
 //!
-//! The solve takes nodes to be where the pressure of the step before brings them. What it changes moves them as well: a volume of
-//! sponge has `(1 - phi)` of material for `phi` of water, which the same slope of the pressure drives. A solve that does not know raises
-//! the pressure too far, and takes it back in the next steps: light and soft sponges tremble for ever, at a sixth of the rate of the
-//! steps (docs/porous.md). Nodes that follow entirely, as if nothing else held them, are no answer, because elasticity and drag do: as far
-//! as the solve is wrong about that, it errs the other way. So the material follows as a part A of as much water would, in the form of
-//! the compact Laplacian, which cannot make up for a compression by pressures that alternate from particle to particle.
+//! The solve prescribes the motion of the nodes by the pressure of the previous step. The pressure change moves them as
+//! well: a volume of sponge has `1 - phi` of material per `phi` of water, under the same pressure gradient. A solve without
+//! that overshoots, and light and soft sponges tremble for ever with a period of six steps (added-mass instability,
+//! docs/porous.md). Nodes that follow freely are no remedy, because elasticity and drag hold them, and the solve then errs
+//! in the opposite direction. The material therefore follows as a part A of as much water would. The form is that of the
+//! compact Laplacian, in which alternating pressures cannot compensate a compression.
 //!
-//! At rest nothing changes, and nothing yields.
+//! At rest the pressure change is zero, and so is the compliance term.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -4,7 +4,7 @@
 //! F_i = -V_0 sum_a V_a p_a grad W_ia
 //! ```
 //!
-//! with the control pressure `p_a` below zero, and a smoothing radius of its own.
+//! with the control pressure `p_a` below zero, and a support radius of its own.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -1,10 +1,10 @@
-//! Velocity filter of the nodes: what the drag makes of their velocities (the paper, section 3.3).
+//! Velocity filter of the nodes: their velocities under the drag (the paper, section 3.3).
 //!
 //! ```text
 //! u_a = u0_a + sum_i w_ia J_i / m_a,   w_ia = V_a W_ia / chi_i
 //! ```
 //!
-//! with the impulses `J_i` that `couple::drag` has found so far.
+//! with the present impulses `J_i` of `couple::drag`.
 
 use crate::{
     columns::{Columns, Controls},

@@ -1,4 +1,4 @@
-//! Weights of the coupling on the host, where a device has made the lists: it keeps none that could be fetched.
+//! Weights of the coupling on the host, where a device has made the lists: the device stores no weights to fetch.
 
 use crate::{
     columns::{Column, Columns, lane},
@@ -8,8 +8,8 @@ use crate::{
     smoothing::Wendland,
 };
 
-/// Computes node volume times kernel for all entries of the lists that a column of weights belongs to, as
-/// `couple::interior` and `couple::saturation` do; other columns are left alone.
+/// Computes node volume times W for all entries of the lists that a column of weights belongs to, as `couple::interior` and
+/// `couple::saturation` do; other columns are left alone.
 pub fn weigh(params: &Params, columns: &mut Columns, column: Column) {
     if column == Column::FluidPairs {
         return pairs(params, columns);

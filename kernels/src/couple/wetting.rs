@@ -1,4 +1,4 @@
-//! How wet the material of every node is, and what depends on it beside elasticity.
+//! Wetness of the material at every node, and what depends on it beside elasticity.
 //!
 //! ```text
 //! s_a  = 1 + swelling w_a                            length at rest over that of dry material
@@ -9,16 +9,16 @@
 //! p_a  = -(p_e + r_a (p_r - p_e)) (1 + g max(1 - S_a, 0))
 //! ```
 //!
-//! with S not above 1 but in the last line. A swollen sponge has wider pores; and as a node is the middle of its own kernel, the
-//! kernel sum chi of nodes inside, against which `couple::saturation` measures, is 1.05 where that of water spread evenly is 1.
+//! with S at most 1 except in the last line. A swollen sponge has wider pores. The sum chi of W at inner nodes, by which
+//! `couple::saturation` divides, is 1.05, because a node is the centre of its own W. For evenly spread water it is 1.
 //!
-//! The flow of water that fills a part S of the pores is `K k_r / mu` times what drives it, and its velocity is the flow over `phi S`:
-//! as if all pores were full and the permeability were `K m`.
+//! The volume flux of water at saturation S is `K k_r / mu` times the pressure gradient. Its velocity is the flux over
+//! `phi S`: as in full pores of permeability `K m`.
 //!
-//! The suction of a node works through its saturation alone: `sum_i V_0 dW_ia` times the volume of the node is what its filled pores
-//! gain. Hence the work over a cycle is that of `-p_a` along S. It is lost wherever r is at one of its ends, because the pressure
-//! against which pores are emptied is the higher one, and given back in between, where r is a function of S: there is no jump, and
-//! water that sways within a part B of the pores stays as lively as it is.
+//! Suction depends on the saturation of the node alone: `sum_i V_0 dW_ia` times the volume of the node is the change of its
+//! filled pore volume. The work over a cycle is therefore that of `-p_a` along S. Energy is lost where r is at one of its
+//! ends, because pores empty against the higher pressure. In between r is a function of S without a jump, so that small
+//! changes of S within the band B lose nothing.
 
 use crate::{
     columns::{Columns, lane},
@@ -41,7 +41,7 @@ declare! {
 /// Change of the saturation over which the suction goes from that of advancing water to that of receding water.
 pub const SCANNING_BAND: f32 = 0.1;
 
-/// Least mobility: drag stays finite where a kernel reaches into dry pores.
+/// Smallest mobility: drag stays finite where the support reaches into dry pores.
 pub(crate) const LEAST_MOBILITY: f32 = 1.0e-3;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -75,7 +75,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
 }
 
-/// The saturation of a node of this wetness among water that is spread evenly, over what `couple::saturation` says.
+/// The saturation of a node of this wetness in evenly spread water, over the value of `couple::saturation`.
 fn of_even(sponge: &SpongeParams, wetness: f32, interior: f32) -> f32 {
     let interior = if interior > 1.0 { interior } else { 1.0 };
     if sponge.wetting.swelling <= 0.0 {
@@ -86,7 +86,7 @@ fn of_even(sponge: &SpongeParams, wetness: f32, interior: f32) -> f32 {
     interior * (sponge.porosity / porosity)
 }
 
-/// The row of a node at a saturation, and its control pressure \[Pa\].
+/// The wetting row of a node at a saturation, and its control pressure \[Pa\].
 fn of_node(sponge: &SpongeParams, before: [f32; 4], saturation: f32, step: f32) -> ([f32; 4], f32) {
     let own = &sponge.wetting;
     let [wetness, saturation_before, receding, _] = before;

@@ -1,13 +1,11 @@
-//! Zero-distance constraints between nodes and the particles around them, against the suction (the paper,
-//! section 3.3).
+//! Zero-distance constraints between nodes and the particles around them, which return the suction (the paper, section 3.3).
 //!
 //! ```text
 //! F_a = sum_i k_ia (x_i - x_a),   k_ia = -r V_0 V_a p_a (210 / (pi H^5)) (1 - q_ia)^3
 //! ```
 //!
-//! Differs from the paper, which tunes one stiffness by hand: with this stiffness of the springs and r = 1 the
-//! force on the node is exactly opposite to the suction of `couple::suction`, so that a sponge does not push
-//! itself off the water it drinks.
+//! Differs from the paper, which tunes one stiffness by hand. With this stiffness and r = 1 the force on the node is exactly
+//! opposite to the suction of `couple::suction`. A sponge then does not propel itself off the water.
 
 use crate::{
     columns::{Columns, lane},

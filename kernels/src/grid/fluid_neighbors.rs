@@ -1,4 +1,4 @@
-//! For every particle, the particles within the support radius, or whose images are.
+//! For every particle, the particles within the support radius, periodic images included.
 
 use crate::{
     columns::{Columns, Fluid},

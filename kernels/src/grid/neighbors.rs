@@ -1,8 +1,8 @@
 //! Neighbour lists: for every query point, the target points within a radius.
 //!
-//! Lists are interleaved by groups of eight queries, so that a pass over neighbours has one particle per lane
-//! and adds up each particle's list in order: the width of the machine's vectors cannot change the sum. Shorter
-//! lists of a group are filled up with a padding row, which adds exact zeros.
+//! Lists are interleaved by groups of eight queries, so that a pass over neighbours has one particle per lane and sums each
+//! particle's list in order. The vector width therefore cannot change the sum. A padding row, which adds exact zeros, fills
+//! up the shorter lists of a group.
 
 use std::ops::Range;
 
@@ -21,14 +21,14 @@ pub(super) const GROUPS: usize = CHUNK / LANES;
 #[derive(Clone, Debug, Default)]
 pub struct Neighbors {
     chunks: Vec<ChunkLists>,
-    /// Coordinates of the targets, one array per axis: candidates are read in order, and many times.
+    /// Coordinates of the targets, one array per axis: candidates are read in order, many times.
     planes: [Vec<f32>; 3],
 }
 
 /// Lists of the queries of one chunk.
 #[derive(Clone, Debug)]
 pub(crate) struct ChunkLists {
-    /// Where the entries of a group begin.
+    /// First entry of each group.
     start: [u32; GROUPS + 1],
     /// The k-th neighbours of eight queries.
     entries: Vec<[u32; LANES]>,
@@ -47,7 +47,7 @@ impl ChunkLists {
         &self.entries[self.range(row)]
     }
 
-    /// Where the entries of that group are, among those of the chunk.
+    /// Range of the entries of that group, within the chunk.
     #[inline(always)]
     pub(crate) fn range(&self, row: usize) -> Range<usize> {
         let group = row / LANES;
@@ -74,7 +74,7 @@ impl Neighbors {
         self.chunks.iter().map(|chunk| chunk.entries.len() * LANES).sum()
     }
 
-    /// Lists given one by one, with entries in order; `padding` fills up a group.
+    /// Lists from single lists with entries in order; `padding` fills up a group.
     #[cfg(any(test, feature = "oracles", feature = "gpu"))]
     pub(crate) fn from_lists(lists: &[Vec<u32>], padding: u32) -> Self {
         let mut chunks = Vec::new();
@@ -93,8 +93,8 @@ impl Neighbors {
         Self { chunks, ..Self::default() }
     }
 
-    /// Makes the list of every query with a function, which may keep working memory from one to the next; `padding` fills up
-    /// a group.
+    /// Makes the list of every query with a function that may keep working memory from one query to the next; `padding`
+    /// fills up a group.
     pub(crate) fn fill<M: Default>(
         &mut self,
         cpu: &Cpu,
@@ -125,8 +125,8 @@ impl Neighbors {
         );
     }
 
-    /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded
-    /// rows in the order of `cells`), over their images as well where space repeats.
+    /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded rows in the
+    /// order of `cells`), and over their periodic images.
     pub(crate) fn build(
         &mut self,
         cpu: &Cpu,
@@ -149,7 +149,7 @@ impl Neighbors {
     }
 }
 
-/// Coordinates of the targets, one array per axis, with eight rows to spare behind the last.
+/// Coordinates of the targets, one array per axis, with eight spare rows behind the last.
 fn fill_planes(cpu: &Cpu, targets: &[[f32; 4]], planes: &mut [Vec<f32>; 3]) {
     planes.iter_mut().for_each(|plane| plane.resize(targets.len() + LANES, FAR));
     let [x, y, z] = planes.each_mut().map(|plane| &mut plane[..targets.len()]);
@@ -160,7 +160,7 @@ fn fill_planes(cpu: &Cpu, targets: &[[f32; 4]], planes: &mut [Vec<f32>; 3]) {
     });
 }
 
-/// One value for every entry of neighbour lists, so that passes that repeat need not compute it again.
+/// One value for every entry of neighbour lists, so that repeated passes need not compute it again.
 #[derive(Clone, Debug, Default)]
 pub struct ListValues(pub(crate) Vec<Vec<[f32; LANES]>>);
 
@@ -260,7 +260,7 @@ mod tests {
             apart.length_squared() < radius * radius
         };
         let place = |image: i32| [image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1].map(|at| at as f32);
-        // The same shift is there more than once along axes without a period.
+        // Along axes without a period the same shift occurs more than once.
         let any = |row: &u32| (0..27).any(|image| near(row, Vec3::from_array(place(image)) * periods));
         (0..count as u32).filter(any).collect()
     }
@@ -284,7 +284,7 @@ mod tests {
             for query in 0..count {
                 let mut found: Vec<u32> = lists.of(query, count).collect();
                 found.sort_unstable();
-                // A particle that was in a list twice would be there twice.
+                // A particle that is in a list twice would occur twice.
                 assert_eq!(found, brute_force(&sorted, count, query, reach), "{level} {query} {reach:?}");
             }
         }
@@ -300,7 +300,7 @@ mod tests {
         for axes in [[true, false, false], [false, true, true], [true, false, true], [true; 3]] {
             let periodic = Periodic::new(low, high, axes);
             for domain in [bounded, Domain::Unbounded] {
-                // Far less than the box, and nearly half of it.
+                // A radius far below the box, and one of nearly half of it.
                 for radius in [0.21, 0.99] {
                     assert_brute_force(&points, (radius, periodic.as_ref()), domain);
                 }

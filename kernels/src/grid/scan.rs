@@ -5,7 +5,7 @@ use crate::cpu::Cpu;
 /// Values of a page.
 pub(crate) const PAGE: usize = 32 * 32;
 
-/// Replaces every value by the sum of all values before it and gives the sum of all.
+/// Replaces every value by the sum of all values before it, and returns the sum of all.
 ///
 /// Pages are summed in parallel, the sums of the pages are scanned, and the pages are scanned in parallel from
 /// there. Integer sums do not depend on the order.

@@ -1,4 +1,4 @@
-//! The search behind neighbour lists: candidates around eight queries, then who is within the radius of whom.
+//! The search for neighbour lists: candidates around eight queries, then distance tests.
 
 use std::ops::Range;
 
@@ -10,9 +10,9 @@ use crate::{
     vector::{self, dot, minus},
 };
 
-/// What all groups of a search share.
+/// Common data of all groups of a search.
 pub(super) struct Search<'a> {
-    /// Coordinates of the targets, with at least eight rows to spare behind the last.
+    /// Coordinates of the targets, with at least eight spare rows behind the last.
     pub(super) planes: [&'a [f32]; 3],
     /// The row that fills up lists.
     pub(super) padding: u32,
@@ -26,7 +26,7 @@ pub(super) struct Search<'a> {
 pub(super) struct Memory {
     candidates: Candidates,
     lists: GroupLists,
-    /// Lists of the group before, whose stores have reached the cache when they are read again.
+    /// Lists of the previous group, whose stores have reached the cache when they are read again.
     before: GroupLists,
 }
 
@@ -43,7 +43,7 @@ struct Candidates {
 }
 
 impl Candidates {
-    /// Makes room for all rows of the spans, and for eight more that a store may touch.
+    /// Reserves room for all rows of the spans, and for eight more that a store may touch.
     fn reserve(&mut self) {
         let mut room = self.count + LANES;
         for [begin, end] in &self.spans {
@@ -121,8 +121,8 @@ impl Search<'_> {
         start[groups..].fill(entries.len() as u32);
     }
 
-    /// Lists of up to eight queries. Consecutive queries may lie far apart, where a row of cells ends: they are
-    /// cut into runs that fit a small box.
+    /// Lists of up to eight queries. Consecutive queries may lie far apart at the end of a row of cells: they are divided
+    /// into runs within a small box.
     #[inline(always)]
     fn group<S: Simd>(
         &self,
@@ -156,8 +156,8 @@ impl Search<'_> {
         }
     }
 
-    /// Adds the images of targets whose distance from the box is less than the radius, at the places of those images: a
-    /// query is within the radius of one of them at most.
+    /// Adds the images of targets whose distance from the box is less than the radius, at the places of those images. A
+    /// query is within the radius of at most one of them.
     #[inline(always)]
     fn collect_images<S: Simd>(
         &self,
@@ -175,7 +175,7 @@ impl Search<'_> {
         candidates.shifts = shifts;
     }
 
-    /// Adds the targets whose distance from the box is less than the radius, shifted if they are.
+    /// Adds the targets whose distance from the box is less than the radius, shifted for images.
     #[inline(always)]
     fn collect<S: Simd, const SHIFTED: bool>(
         &self,
@@ -213,7 +213,7 @@ impl Search<'_> {
                 let dy = (lows[1] - ys).max(ys - highs[1]).max(zero);
                 let dz = (lows[2] - zs).max(zs - highs[2]).max(zero);
                 let near = (dx * dx + dy * dy + dz * dz).simd_lt(square) & rows.simd_lt(ends);
-                // No branch: whether there are any is as good as random.
+                // No branch: whether there are any is unpredictable.
                 let to = count..count + LANES;
                 simd.compress_f32x8(xs, near).store_slice(&mut x[to.clone()]);
                 simd.compress_f32x8(ys, near).store_slice(&mut y[to.clone()]);

@@ -17,15 +17,15 @@ pub(crate) struct Sort {
 }
 
 impl Clone for Sort {
-    /// Working memory holds nothing worth a copy.
+    /// Working memory has nothing to copy.
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
 impl Sort {
-    /// Rows in the order of their keys, rows of equal key in the order they had: least significant digit first,
-    /// eight bits a pass; digits in which all keys agree are skipped.
+    /// Rows in the order of their keys, rows of equal key in their previous order. Least significant digit first, eight bits
+    /// per pass; digits in which all keys agree are skipped.
     pub(crate) fn stable_by_key(&mut self, cpu: &Cpu, keys: &[u64], order: &mut Vec<u32>) {
         let rows = keys.len();
         let first = keys.first().copied().unwrap_or(0);
@@ -65,7 +65,7 @@ impl Sort {
             for row in chunk_rows(chunk) {
                 let row = row.load(Relaxed);
                 let offset = &mut offsets[0][digit(row)];
-                // Every slot is written once; atomics only tell the compiler that threads do not collide.
+                // Every slot is written once; the atomics only tell the compiler that threads do not collide.
                 to[*offset as usize].store(row, Relaxed);
                 *offset += 1;
             }

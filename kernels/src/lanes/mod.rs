@@ -1,8 +1,8 @@
-//! Eight lanes of f32 on every machine: the only door to the SIMD library.
+//! Eight lanes of f32 on every machine: the only use of the SIMD library.
 //!
-//! A vector is always eight lanes wide, whatever the machine has, and only operations that IEEE 754 rounds
-//! exactly are used: the bits of a result do not depend on the level. Not used, because they differ from
-//! machine to machine: fused multiply-add, approximate reciprocals, horizontal reductions.
+//! A vector always has eight lanes, whatever the machine, and only operations that IEEE 754 rounds exactly are used. The
+//! bits of a result therefore do not depend on the level. Fused multiply-add, approximate reciprocals and horizontal
+//! reductions are not used, because they differ between machines.
 
 mod transpose;
 

@@ -1,7 +1,7 @@
 //! Transposes between rows in memory and vectors of one coordinate.
 //!
-//! The passes over neighbours are bound by these shuffles. Where the machine has 256-bit shuffles inside 128-bit
-//! blocks, half as many are needed as with the portable operations; they only move bits, so that results agree.
+//! Passes over neighbours are bound by these shuffles. Where the machine has 256-bit shuffles inside 128-bit blocks, half as
+//! many suffice as with the portable operations. They only move bits, so that results agree.
 
 use fearless_simd::{Simd, f32x4, f32x8, prelude::*};
 

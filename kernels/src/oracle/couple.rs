@@ -12,7 +12,7 @@ use crate::{
     params::{Params, SpongeParams},
 };
 
-/// Particles, controls and the kernel between them.
+/// Particles, controls and the weights between them.
 pub(super) struct Pairs {
     pub(super) particles: Vec<DVec3>,
     pub(super) controls: Vec<DVec3>,
@@ -48,7 +48,7 @@ impl Pairs {
     }
 }
 
-/// Values for the entries of lists, one for every pair; the lists are those that are there.
+/// Values for the entries of lists, one for every pair; the lists themselves are kept.
 fn list_values(
     lists: &Neighbors,
     (queries, targets): (usize, usize),
@@ -79,7 +79,7 @@ fn rest_volume(params: &Params) -> f64 {
     f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density)
 }
 
-/// Any order of the controls is valid: this one is that of the nodes.
+/// Any order of the controls is valid: here that of the nodes.
 pub(crate) fn controls(params: &Params, columns: &mut Columns) {
     let rows = columns.rows;
     let (nodes, controls) = (&columns.nodes, &mut columns.controls);
@@ -176,7 +176,7 @@ pub(crate) fn zero_distance(params: &Params, columns: &mut Columns) {
         let suction = f64::from(columns.controls.suction[control]);
         let mut force = DVec3::ZERO;
         for particle in 0..columns.rows.fluid {
-            // k_ia (x_i - x_a) with the stiffness of the kernel's slope.
+            // k_ia (x_i - x_a) with the stiffness of the gradient of W.
             force += suction * rest_volume(params) * pairs.gradient(particle, control);
         }
         let reaction = f64::from(sponge(params, columns, control).reaction);
@@ -186,7 +186,7 @@ pub(crate) fn zero_distance(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// 1 / chi, or 0 where a particle feels no drag.
+/// 1 / chi, or 0 where there is no drag.
 pub(super) fn weight_inside(columns: &Columns, particle: usize) -> f64 {
     let chi = f64::from(columns.fluid.interior[particle]);
     if chi > 1.0e-3 { 1.0 / chi } else { 0.0 }
@@ -260,7 +260,7 @@ pub(crate) fn exchange(params: &Params, columns: &mut Columns) {
     kick(params, columns);
 }
 
-/// Takes the impulses of the drag from the particles.
+/// Subtracts the impulses of the drag from the particles.
 pub(crate) fn kick(params: &Params, columns: &mut Columns) {
     for particle in 0..columns.rows.fluid {
         let chi = f64::from(columns.fluid.interior[particle]);

@@ -35,7 +35,7 @@ fn descends(params: &Params, nodes: &Nodes, node: usize) -> bool {
     params.sponges[nodes.sponge[node] as usize].solver == Solver::Vbd
 }
 
-/// A tet of a node: its nodes, the slot of that node, and the volume that it stands for over its own.
+/// A tet of a node: its nodes, the slot of that node, and its weight.
 type Incident = ([usize; 4], usize, f64);
 
 /// Tets of every node.
@@ -59,7 +59,7 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
-/// Elastic and damping force on a node, that by what it touches of sponges, and minus their derivative.
+/// Elastic, damping and contact force on a node, and minus their derivative.
 fn local(
     params: &Params,
     (nodes, node): (&Nodes, usize),
@@ -104,7 +104,7 @@ fn local(
     (force, stiffness)
 }
 
-/// Place of least energy without obstacles, and the stiffness with inertia.
+/// Minimum of the energy without obstacles, and the stiffness with inertia.
 fn least(
     params: &Params,
     nodes: &Nodes,
@@ -120,7 +120,7 @@ fn least(
     (places[node] + stiffness.inverse() * pull, stiffness)
 }
 
-/// Moves a node out of everything, out of walls twice; gives the forces on it by bodies, and by the walls last.
+/// Moves a node out of all obstacles, out of walls twice; returns the forces on it by bodies, and by the walls last.
 fn push(
     params: &Params,
     columns: &Columns,
@@ -193,8 +193,8 @@ fn react(
     size * direction
 }
 
-/// How far a node goes, over the way to its least energy: a quarter further, in steps of more than one sweep, down to none
-/// where a tet is half of its volume too small or too large, or the way a tenth of an edge.
+/// Over-relaxation of a node: three tenths beyond its minimum, in steps of more than one sweep. It falls to none where the
+/// volume of a tet is off by half, or the way is a tenth of an edge.
 fn relaxation(
     params: &Params,
     (nodes, node): (&Nodes, usize),
@@ -222,7 +222,7 @@ pub(crate) fn vbd(params: &Params, columns: &mut Columns) {
     let incidence = incidence(&columns.nodes);
     let before: Vec<DVec3> = columns.nodes.position.iter().map(|row| vector(*row)).collect();
     let mut places: Vec<DVec3> = columns.nodes.predicted.iter().map(|row| vector(*row)).collect();
-    // Rows are in the order of the colours, and nodes of a colour do not know each other.
+    // Rows are in the order of the colours, and nodes of a colour are independent.
     for node in 0..columns.rows.nodes {
         if columns.nodes.predicted[node][lane::nodes::predicted::INVERSE_MASS] > 0.0
             && descends(params, &columns.nodes, node)
@@ -247,7 +247,7 @@ pub(crate) fn vbd(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Whether a node may have come within a hundredth of an edge of an obstacle on its way.
+/// Whether a node may have come within a hundredth of an edge of an obstacle on its path.
 fn is_near(params: &Params, columns: &Columns, node: usize, point: DVec3) -> bool {
     let margin = 0.01 * f64::from(params.sponges[columns.nodes.sponge[node] as usize].edge);
     let walls = params.walls.is_some_and(|(low, high)| {
@@ -262,7 +262,7 @@ fn is_near(params: &Params, columns: &Columns, node: usize, point: DVec3) -> boo
         })
 }
 
-/// What every body has received so far.
+/// Wrenches on every body so far.
 fn joined_wrenches(bodies: &BodyStore) -> Vec<Wrench> {
     let count = bodies.states.0.len();
     let mut wrenches = vec![Wrench::default(); count];
@@ -275,7 +275,7 @@ fn joined_wrenches(bodies: &BodyStore) -> Vec<Wrench> {
     wrenches
 }
 
-/// The body nearest to a place at the end of the step, if it is nearer than that.
+/// The body nearest to a position at the end of the step, if it is within a distance.
 fn touched(bodies: &[Body], place: DVec3, h: f64, near: f64) -> Option<usize> {
     let away = |body: &Body| shapes::distance(body, place - h * shapes::velocity(body, place)).0;
     let found = bodies.iter().enumerate().filter(|(_, body)| body.touches_nodes);
@@ -329,7 +329,7 @@ pub(crate) fn momentum(params: &Params, columns: &mut Columns) {
         if sponge.solver != Solver::Vbd || joined[index][0] != index {
             continue;
         }
-        // What several lack that touch each other, they lack together.
+        // Sponges in contact are corrected together.
         let is_own = |node: &usize| joined[index].contains(&(nodes.sponge[*node] as usize));
         let own: Vec<usize> = (0..columns.rows.nodes).filter(is_own).collect();
         let weight = |node: usize| match f64::from(nodes.reaction[node][lane::nodes::reaction::MASS]) {

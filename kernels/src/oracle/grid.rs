@@ -1,11 +1,11 @@
-//! Search: who is near whom, by looking at everybody.
+//! Neighbour search by all pairs.
 
 use glam::DVec3;
 
 use super::{apart, vectors};
 use crate::{column::FAR_ROW, columns::Columns, grid::neighbors::Neighbors, params::Params};
 
-/// Any order of the rows is valid: this one keeps them where they are.
+/// Any order of the rows is valid: here the present one.
 pub(crate) fn sort_fluid(_params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let fluid = &mut columns.fluid;

@@ -1,4 +1,4 @@
-//! The solve for the pressure, pair by pair.
+//! The pressure solve, pair by pair.
 
 use glam::{DQuat, DVec3};
 
@@ -28,7 +28,7 @@ fn box_inside(params: &Params) -> Option<(DVec3, DVec3)> {
     params.walls.map(|(low, high)| (low.as_dvec3() + margin, high.as_dvec3() - margin))
 }
 
-/// What of the roughness a single step follows: with a delay of eight times its root, or a fifth of the square of the step.
+/// Stabilisation coefficient of a single step: with a delay of eight times its root, or a fifth of the square of the step.
 fn prompt_roughness(params: &Params) -> f64 {
     let roughness = f64::from(params.fluid.roughness);
     let step = f64::from(params.step);
@@ -57,7 +57,7 @@ pub(crate) fn predict(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Share of a surface at a distance, and its slope into the surface.
+/// Volume fraction of a surface at a distance, and its slope into the surface.
 fn profile(params: &Params, distance: f64) -> (f64, f64) {
     let Some(solve) = &params.fluid.incompressible else { return (0.0, 0.0) };
     let (range, share) = (f64::from(solve.boundary_range), f64::from(solve.boundary_share));
@@ -83,7 +83,7 @@ fn solid(params: &Params, body: &Body, x: DVec3) -> (DVec3, f64) {
     (normal * -slope, share)
 }
 
-/// Share of walls and bodies where they are at the beginning of the step, by a profile of its own.
+/// Boundary volume fraction of walls and bodies at the beginning of the step, by a profile of its own.
 pub(super) fn share(params: &Params, bodies: &[Body], [range, share]: [f64; 2], x: DVec3) -> f64 {
     let at = |distance: f64| share * (1.0 - distance / range).clamp(0.0, 1.25).powi(6);
     let walls = params.walls.map_or(0.0, |(low, high)| {
@@ -198,7 +198,7 @@ pub(crate) fn factors(params: &Params, columns: &mut Columns) {
     fluid.pressure_solve.begin_with(displacement as f32, solve);
 }
 
-/// Keeps the lists, and gives every entry its value.
+/// Keeps the lists, and sets the value of every entry.
 fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
     let Fluid { neighbors, pairs, .. } = fluid;
     pairs.fill(neighbors, |query, target| {

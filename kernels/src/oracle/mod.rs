@@ -1,9 +1,9 @@
-//! Oracles: every kernel once more, as a plain loop in f64 over all pairs.
+//! Oracles: every kernel as a plain loop in f64 over all pairs.
 //!
-//! An oracle is written from the formula in the documentation of its kernel, knows no lists, cells, lanes or
-//! threads, and writes to the same columns, rounded at the end. Rows in use are right; padding rows are not
-//! meant to be read. Where a kernel may choose an order (of rows or of a list), the oracle keeps the order it
-//! finds: compare by identity (`fluid.id`, `controls.node`), not by row.
+//! An oracle is written from the formula in the documentation of its kernel, without lists, cells, lanes or threads. It
+//! writes to the same columns, rounded at the end. Rows in use are right; padding rows are not meant to be read. Where a
+//! kernel may choose an order (of rows or of a list), the oracle keeps the present order: compare by identity (`fluid.id`,
+//! `controls.node`), not by row.
 
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ fn vectors(rows: &[[f32; 4]], count: usize) -> Vec<DVec3> {
     rows[..count].iter().map(|row| vector(*row)).collect()
 }
 
-/// `a - b`, with the image of b that is nearest to a where space repeats.
+/// `a - b`, with the nearest image of b along periodic axes.
 pub(crate) fn apart(params: &Params, a: DVec3, b: DVec3) -> DVec3 {
     let raw = a - b;
     let periods = params.periodic.map_or(DVec3::ZERO, |periodic| periodic.periods().as_dvec3());
@@ -50,7 +50,7 @@ fn keep(old: [f32; 4], vector: DVec3) -> [f32; 4] {
     row(vector, f64::from(old[3]))
 }
 
-/// 1 - r / H, not below zero.
+/// 1 - r / H, at least zero.
 fn closeness(support_radius: f32, distance: f64) -> f64 {
     (1.0 - distance / f64::from(support_radius)).max(0.0)
 }
@@ -60,7 +60,7 @@ fn pi_power(support_radius: f32, exponent: i32) -> f64 {
     std::f64::consts::PI * f64::from(support_radius).powi(exponent)
 }
 
-/// Wendland's kernel, 21 / (2 pi H^3) (1 - q)^4 (4 q + 1).
+/// Wendland's function, 21 / (2 pi H^3) (1 - q)^4 (4 q + 1).
 fn smoothing(support_radius: f32, distance: f64) -> f64 {
     let (u, q) = (closeness(support_radius, distance), distance / f64::from(support_radius));
     21.0 / (2.0 * pi_power(support_radius, 3)) * u.powi(4) * (4.0 * q + 1.0)

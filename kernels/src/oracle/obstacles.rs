@@ -1,4 +1,4 @@
-//! Bodies in the way of particles, and friction at walls, one by one.
+//! Swept contact of particles with bodies, and friction at walls, one by one.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use crate::{
     sweep,
 };
 
-/// What other kernels gave to every body before.
+/// Wrenches of previous kernels on every body.
 pub(super) fn given(wrenches: &[Wrench], bodies: usize) -> Vec<Wrench> {
     let mut total = vec![Wrench::default(); bodies];
     for chunk in wrenches.chunks(bodies.max(1)) {
@@ -22,14 +22,14 @@ pub(super) fn given(wrenches: &[Wrench], bodies: usize) -> Vec<Wrench> {
     total
 }
 
-/// A place in the frame of one body, in that of the other.
+/// A position in the frame of one body, transferred to that of the other.
 fn carried(from: &Body, to: &Body, point: DVec3) -> DVec3 {
     let local = shapes::rotation(from).transpose() * (point - from.state.position.as_dvec3());
     shapes::rotation(to) * local + to.state.position.as_dvec3()
 }
 
-/// Follows a way to a body that stands still: the distance where it ends, that of the end of the way from the plane there less
-/// it, and the normal.
+/// Follows a path to a body that stands still: the distance at its end, the distance of the end of the path from the plane
+/// there less that, and the normal.
 pub(super) fn met(body: &Body, margin: f64, from: DVec3, to: DVec3) -> (f64, f64, DVec3) {
     let length = (to - from).length();
     let (mut gone, mut at) = (0.0, from);
@@ -49,7 +49,7 @@ pub(super) fn met(body: &Body, margin: f64, from: DVec3, to: DVec3) -> (f64, f64
     (distance, (to - at).dot(normal), normal)
 }
 
-/// What has to be added to the end of a way that a body is in: everything is looked at where the body began.
+/// Correction of the end of a path inside a body, in the frame of the body at the beginning.
 fn correction([before, after]: [&Body; 2], margin: f64, from: DVec3, to: DVec3) -> DVec3 {
     let (distance, beyond, normal) = met(before, margin, from, carried(after, before, to));
     let beyond = (distance.max(0.0) + beyond).min(0.0);
@@ -80,7 +80,7 @@ pub(crate) fn sweep_fluid(params: &Params, columns: &mut Columns) {
     columns.bodies.fluid_wrenches.0 = wrenches;
 }
 
-/// Integral of `lap W z / y` over a half-space at the distance y, for the kernel of the viscosity, slice by slice.
+/// Integral of `lap W z / y` over a half-space at the distance y, for the viscosity function, slice by slice.
 pub(super) fn half_space(radius: f64, distance: f64) -> f64 {
     const SLICES: usize = 4000;
     let y = distance.max(radius / 8.0);

@@ -84,7 +84,7 @@ struct Tet {
     p: [DVec3; 4],
     old: [DVec3; 4],
     w: [f64; 4],
-    /// Volume that it stands for, over its own; strain constraints know the tets alone.
+    /// Weight of the tet; strain constraints use none.
     weight: f64,
 }
 
@@ -93,7 +93,7 @@ impl Tet {
         let edge = f64::from(sponge.edge);
         let volume = edge.powi(3) / 12.0;
         let tau = f64::from(sponge.damping_time);
-        // Iterations restart from no impulse: each takes its share of the stiffness.
+        // Iterations restart with zero multipliers: each has its share of the stiffness.
         let compliance = |modulus: f32| f64::from(sponge.iterations) / (f64::from(modulus) * volume * h * h);
         let settings = |modulus| (edge, compliance(modulus), tau / h);
         for k in 0..3 {
@@ -166,7 +166,7 @@ impl Tet {
 pub(crate) fn contact(params: &Params, columns: &mut Columns) {
     let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
     let h = f64::from(params.step);
-    // What other kernels gave before, in one chunk.
+    // Wrenches of previous kernels, in one chunk.
     let mut wrenches = vec![Wrench::default(); bodies.len()];
     for chunk in columns.bodies.node_wrenches.0.chunks(bodies.len().max(1)) {
         for (wrench, part) in wrenches.iter_mut().zip(chunk) {
@@ -203,7 +203,7 @@ pub(crate) fn contact(params: &Params, columns: &mut Columns) {
     columns.bodies.node_wrenches.0 = wrenches;
 }
 
-/// Change of position by one body, which stands where it began the step.
+/// Change of position by one body, at its place of the beginning of the step.
 fn touch(body: &Body, clearance: f64, [point, old]: [DVec3; 2], h: f64) -> DVec3 {
     let drift = h * shapes::velocity(body, point);
     let (distance, beyond, normal) = obstacles::met(body, clearance, old, point - drift);

@@ -11,7 +11,7 @@ use crate::{
     params::Params,
 };
 
-/// Support radius of the volume of the material.
+/// Support radius of the material volume.
 fn solid_radius(params: &Params) -> f32 {
     params.solid.map_or(1.0, |solid| solid.support_radius)
 }
@@ -48,7 +48,7 @@ pub(crate) fn solid_pressure(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Whatever moves into reach within the step is not seen: lists are those of its beginning.
+/// Particles that come within reach in the step are missed: lists are those of its beginning.
 pub(crate) fn solid_share(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     for particle in 0..columns.rows.fluid {
@@ -141,7 +141,7 @@ pub(crate) fn drag_impulse(params: &Params, columns: &mut Columns) {
         let apart = vector(columns.fluid.velocity[particle]) - sponge;
         let [linear, inertial, ..] = columns.fluid.drag_rate[particle].map(f64::from);
         let h = f64::from(params.step);
-        // What is left of the speed, as the root of s (1 + h beta + h gamma s) = |v - u|.
+        // The speed that the drag leaves, as the root of s (1 + h beta + h gamma s) = |v - u|.
         let (mut low, mut high) = (0.0, apart.length());
         for _ in 0..80 {
             let middle: f64 = 0.5 * (low + high);
@@ -150,7 +150,7 @@ pub(crate) fn drag_impulse(params: &Params, columns: &mut Columns) {
         }
         let rate = h * (linear + inertial * low);
         let mass = f64::from(params.fluid.particle_mass) * rate / (1.0 + rate);
-        // The column holds impulses and masses over the interior value.
+        // The column has impulses and masses over the interior value.
         columns.fluid.drag[particle] = row(mass * inverse * apart, mass * inverse);
     }
 }

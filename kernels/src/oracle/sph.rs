@@ -164,7 +164,7 @@ pub(crate) fn advect(params: &Params, columns: &mut Columns) {
         if let Some((low, high)) = params.walls {
             let inside = x.clamp(low.as_dvec3() + margin, high.as_dvec3() - margin);
             for axis in 0..3 {
-                // Where the wall pushed the particle back, no speed into the wall is left.
+                // Where the wall pushed the particle back, the velocity into the wall is zero.
                 if (inside - x)[axis] * v[axis] < 0.0 {
                     v[axis] = 0.0;
                 }

@@ -1,4 +1,4 @@
-//! Surface tension from an energy of the surface, pair by pair.
+//! Surface tension from a surface energy, pair by pair.
 
 use glam::DVec3;
 

@@ -15,7 +15,7 @@ fn meet(params: &Params, a: usize, b: usize) -> bool {
     descend && (a != b || own.self_contact)
 }
 
-/// Largest edge of two sponges, as wet as they can be.
+/// Largest edge of two sponges, when fully swollen.
 fn edge(params: &Params, sponges: [usize; 2]) -> f64 {
     let edge = |sponge: usize| {
         let sponge = &params.sponges[sponge];
@@ -33,7 +33,7 @@ fn normals(nodes: &Nodes, count: usize) -> Vec<(DVec3, f64)> {
         for slot in 0..4 {
             let [p, q, r] = [1, 2, 3].map(|k| x[(slot + k) % 4]);
             let face = (q - p).cross(r - p);
-            // Away from the node, where the tet is the right side out.
+            // Away from the node, unless the tet is inverted.
             let sign = face.dot(p - x[slot]).signum() * whole.signum();
             sums[tet[slot] as usize] -= sign * face / 6.0;
         }
@@ -46,7 +46,7 @@ fn normals(nodes: &Nodes, count: usize) -> Vec<(DVec3, f64)> {
     sums.into_iter().enumerate().map(weighted).collect()
 }
 
-/// By how much two weighted normals are opposed more than they have to be.
+/// Excess of the opposition of two weighted normals over the limit.
 fn facing(n_a: DVec3, n_b: DVec3) -> f64 {
     -n_a.normalize().dot(n_b.normalize()) - 0.1 - 0.6 * (1.0 - n_a.length().max(n_b.length()))
 }
@@ -153,7 +153,7 @@ pub(crate) fn touch(params: &Params, columns: &mut Columns) {
     (nodes.touch, nodes.touch_stiffness, nodes.touch_between) = (force, stiffness, between);
 }
 
-/// Adds what touches a node to its force and its stiffness, and tells whether anything does.
+/// Adds the contact of a node to its force and its stiffness, and returns whether there is any.
 pub(super) fn add(nodes: &Nodes, node: usize, (force, stiffness): (&mut DVec3, &mut DMat3)) -> bool {
     let Some(own) = nodes.touch.get(node) else { return false };
     let (along, between) = (vector(nodes.touch_stiffness[node]), vector(nodes.touch_between[node]));
@@ -166,7 +166,7 @@ pub(super) fn add(nodes: &Nodes, node: usize, (force, stiffness): (&mut DVec3, &
     along != DVec3::ZERO
 }
 
-/// For every sponge, those that it touches, directly or through others, and itself.
+/// For every sponge, those in contact with it, directly or through others, and itself.
 pub(super) fn joined(nodes: &Nodes, sponges: usize) -> Vec<Vec<usize>> {
     let mut groups: Vec<usize> = (0..sponges).collect();
     for column in [&nodes.touch, &nodes.touch_stiffness] {

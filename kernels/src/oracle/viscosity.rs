@@ -12,7 +12,7 @@ use crate::{
     params::{ImplicitViscosity, Params},
 };
 
-/// What slows a particle down that moves past its neighbours at these velocities, or in place of velocities another field.
+/// Deceleration of a particle by its neighbours at these velocities, or at another field in their place.
 fn pairs(params: &Params, implicit: &ImplicitViscosity, fluid: &Fluid, field: &[DVec3]) -> Vec<DVec3> {
     let x = vectors(&fluid.position, field.len());
     let radius = params.fluid.smoothing.support_radius;
@@ -33,7 +33,7 @@ fn pairs(params: &Params, implicit: &ImplicitViscosity, fluid: &Fluid, field: &[
     (0..field.len()).map(one).collect()
 }
 
-/// Rate at which a surface slows a particle down at a distance.
+/// Rate of deceleration by a surface at a distance.
 fn rate(params: &Params, distance: f64) -> f64 {
     let radius = f64::from(params.fluid.smoothing.support_radius);
     let kinematic = f64::from(params.fluid.wall_viscosity) / f64::from(params.fluid.rest_density);

@@ -1,4 +1,4 @@
-//! What depends on how wet a sponge is.
+//! Properties that depend on the wetness of a sponge.
 
 use super::couple::sponge;
 use crate::{

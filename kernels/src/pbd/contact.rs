@@ -1,8 +1,8 @@
 //! Contact of nodes with walls and bodies, with friction (the paper, sections 3.2 and 3.3).
 //!
-//! A node whose way leads into a body (`sweep.rs`) is moved to the plane of the surface that it meets, and its motion along
-//! the surface, relative to the body, is undone as far as Coulomb friction reaches: up to `mu` times the depth. Bodies
-//! receive the opposite impulse `-m dy / h`.
+//! A node whose path leads into a body (`sweep.rs`) is moved to the tangent plane at the point of contact. Its tangential
+//! motion relative to the body is undone as far as Coulomb friction reaches: up to `mu` times the depth. Bodies receive the
+//! opposite impulse `-m dy / h`.
 
 use glam::{DVec3, Vec3};
 
@@ -61,7 +61,7 @@ impl Task<'_> {
             let [x, y, z, w] = lanes::load_rows(simd, predicted, row);
             let [ox, oy, oz, _] = lanes::load_rows(simd, self.position, first + row);
             let (mut point, old) = ([x, y, z], [ox, oy, oz]);
-            // Eight nodes may belong to several sponges, or to none where rows are padding.
+            // Eight nodes may belong to several sponges, and padding rows to none.
             let clearance = f32x8::from_fn(simd, |lane| {
                 self.sponge_of(first + row + lane).map_or(0.0, |sponge| CLEARANCE * sponge.edge)
             });
@@ -70,7 +70,7 @@ impl Task<'_> {
             for (index, placed) in &placed {
                 let body = &self.bodies[*index];
                 let drift = times(placed.velocity(point), lanes::splat(simd, self.params.step));
-                // The body stands where it began the step: so is the node, in the body's frame.
+                // The body is at its place of the beginning of the step: so is the node, in the body's frame.
                 let way = [placed.local(old), placed.local(minus(point, drift))];
                 let met = met(simd, placed, way, clearance);
                 let normal = placed.turned(met.normal);
@@ -85,7 +85,7 @@ impl Task<'_> {
         }
     }
 
-    /// 1 for nodes that can be moved, 0 for held ones and for those that meet obstacles in their own solver.
+    /// 1 for movable nodes, 0 for held ones and for those whose own solver handles obstacles.
     #[inline(always)]
     fn moves<S: Simd>(&self, simd: S, row: usize, inverse_mass: f32x8<S>) -> f32x8<S> {
         let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
@@ -126,14 +126,14 @@ impl Task<'_> {
         }
     }
 
-    /// One obstacle may have pushed into another: walls have the last word.
+    /// One obstacle may push a node into another: walls come last.
     #[inline(always)]
     fn stays_inside<S: Simd>(&self, simd: S, moves: f32x8<S>, point: &mut Vec3x8<S>) {
         let Some((minimum, maximum)) = self.params.walls else { return };
         let can_move = moves.simd_gt(lanes::splat(simd, 0.0));
         for axis in 0..3 {
             let (low, high) = (lanes::splat(simd, minimum[axis]), lanes::splat(simd, maximum[axis]));
-            // What is not a number stays so.
+            // NaN stays NaN.
             point[axis] = select(can_move & point[axis].simd_lt(low), low, point[axis]);
             point[axis] = select(can_move & point[axis].simd_gt(high), high, point[axis]);
         }
@@ -175,7 +175,7 @@ fn contact<S: Simd>(
     let length = dot(tangent, tangent).sqrt();
     let reach = depth * friction;
     let slips = length.simd_gt(reach);
-    // Sticks if friction reaches as far as the node slid, which includes not having slid at all.
+    // Sticks if friction reaches as far as the slip, also for a slip of zero.
     let undone = select(slips, reach / select(slips, length, one), one);
     let touches = depth.simd_gt(lanes::splat(simd, 0.0));
     let undone = select(touches, undone, lanes::splat(simd, 0.0));

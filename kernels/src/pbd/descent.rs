@@ -1,26 +1,27 @@
-//! The energy of one node while all others stand still: what vertex block descent minimises.
+//! Energy of one node while all others are fixed: the objective of vertex block descent.
 //!
-//! Energy density of a tet, the compressible Neo-Hookean material of \[BW08, section 6.4.3\], with F the deformation gradient
-//! and J its determinant:
+//! Energy density of a tet: the compressible Neo-Hookean material of \[BW08, section 6.4.3\], with the deformation gradient
+//! F and its determinant J:
 //!
 //! ```text
 //! psi = mu / 2 (|F|^2 - 3) - mu ln J + (lambda - mu) / 2 (J - 1)^2
 //! ```
 //!
-//! Below a fifth of its volume, where hardly more than solid is left of a sponge, a tet goes on with the first three terms of
-//! the logarithm's series there: with `K = max(J, 1/5)`,
+//! Below a fifth of its volume, where a sponge is mostly solid, a tet uses the first three terms of the Taylor series of the
+//! logarithm there. With `K = max(J, 1/5)`,
 //!
 //! ```text
 //! dpsi/dJ = p = (lambda - mu) (J - 1) - mu (2 K - J) / K^2,   dp/dJ = k = lambda - mu + mu / K^2
 //! ```
 //!
-//! so that it is finite for any places of the nodes, inverted tets included. Without Poisson's ratio every axis is on its own
-//! down to there: a sponge that is squeezed does not get narrower. The energies without a logarithm \[SGK18, MM21\] draw a sponge that is pressed to
-//! half its thickness together to half its width, and one that is pressed further into a single point.
+//! which is finite for any positions of the nodes, inverted tets included. At a Poisson's ratio of zero the axes are
+//! independent down to there: a compressed sponge keeps its width. The energies without a logarithm \[SGK18, MM21\] contract
+//! a sponge at half its thickness to half its width, and one at less to a point.
 //!
-//! J is linear in the place x of one node and |F|^2 quadratic, so the energy is convex in x. A tet counts with the volume that it
-//! stands for: w times its own, where w is 1 inside and more where the faces of a sponge are pits. With the corners of the star
-//! `p_k`, which lie in tets of weight `c_k` together, and per tet the partner u and the consecutive corners r and q of its ring:
+//! J is linear in the position x of one node and |F|^2 quadratic, so that the energy is convex in x. A tet counts with the
+//! volume that it stands for: w times its own, where w is 1 inside and larger at pits. `p_k` are the corners of the star,
+//! and `c_k` the sum of the weights of the tets at a corner. Each tet has the partner u and the consecutive corners r and q
+//! of its ring:
 //!
 //! ```text
 //! G = 2 (q - u) x (r - u) / a^2,   J = (u - x) . G / a
@@ -28,13 +29,13 @@
 //! H      = a mu / 12 sum_k c_k 1         + a   / 12 sum_tets w k G G^T
 //! ```
 //!
-//! Where material becomes wet, its tets are not all alike: `wetted.rs`.
+//! Wet material has different constants in each tet: `wetted.rs`.
 //!
-//! H plus the inertia m / h^2 is positive definite. As p is concave, Newton's method goes too far once at most.
+//! H plus the inertia m / h^2 is positive definite. p is concave, so that Newton's method overshoots at most once.
 //!
-//! Damping is that of a Kelvin-Voigt material with the strain rate of the deformation at the beginning of the step, so
-//! that it is linear in x, and acts along that configuration: it keeps linear and angular momentum. With the columns g
-//! of F at that time and n how x enters them:
+//! Damping is that of a Kelvin-Voigt material with the strain rate relative to the beginning of the step. It is linear in x,
+//! and acts in the configuration at that time, which conserves linear and angular momentum. With the columns g of F at that
+//! time and the coefficients n of x in them:
 //!
 //! ```text
 //! e_kl = (g_k . df_l + g_l . df_k) / 2,   s = tau / h (2 mu e + (lambda - mu) tr e 1)
@@ -51,13 +52,13 @@ use crate::{
     vector::{Vec3x8, cross, dot, minus, plus, times},
 };
 
-/// Volume of a tet over that at rest below which its energy goes on as a polynomial \[1\].
+/// Volume ratio below which the logarithm continues as a polynomial \[1\].
 pub(super) const SOLID: f32 = 0.2;
 
-/// How far `pbd::vbd` goes beyond the least energy, over the way there, in steps of more than one sweep \[1\].
+/// Over-relaxation of `pbd::vbd` beyond the minimum, over the way to it, in steps of more than one sweep \[1\].
 pub(super) const RELAXATION: f32 = 0.3;
 
-/// A symmetric matrix of three rows: xx, yy, zz, xy, xz, yz.
+/// A symmetric 3 x 3 matrix: xx, yy, zz, xy, xz, yz.
 pub(super) type Symmetric<S> = [f32x8<S>; 6];
 
 /// Adds `b b^T` times a scalar, given as `a = scale b`.
@@ -84,7 +85,7 @@ pub(super) fn product<S: Simd>(m: &Symmetric<S>, v: Vec3x8<S>) -> Vec3x8<S> {
 /// Inverse of a positive definite matrix.
 #[inline(always)]
 pub(super) fn inverse<S: Simd>(simd: S, m: &Symmetric<S>) -> Symmetric<S> {
-    // Over its trace: the determinant of stiff material in short steps would be more than a number can be.
+    // Divided by its trace: the determinant of stiff material in short steps would overflow.
     let small = lanes::splat(simd, 1.0) / (m[0] + m[1] + m[2]);
     let [xx, yy, zz, xy, xz, yz] =
         [m[0] * small, m[1] * small, m[2] * small, m[3] * small, m[4] * small, m[5] * small];
@@ -114,7 +115,7 @@ pub(super) struct Material<S: Simd> {
     pub(super) volume: f32x8<S>,
     /// tau / h.
     damping: f32x8<S>,
-    /// How far a node goes beyond its least energy, over the way there.
+    /// Over-relaxation beyond the minimum, over the way to it.
     pub(super) relaxation: f32x8<S>,
     damps: bool,
 }
@@ -134,7 +135,7 @@ fn constants(sponge: &SpongeParams, step: f32) -> [f32; 8] {
     ]
 }
 
-/// The constants of the sponges of eight nodes; most often that is one.
+/// The constants of the sponges of eight nodes, most often of one sponge.
 #[inline(never)]
 pub(super) fn constants_of(params: &Params, sponge: &[u32], nodes: &[u32; LANES]) -> [[f32; LANES]; 8] {
     let mut columns = [[0.0; LANES]; 8];
@@ -172,17 +173,17 @@ impl<S: Simd> Material<S> {
     }
 }
 
-/// Eight nodes and what surrounds them.
+/// Eight nodes and their neighbours.
 pub(super) struct Star<'a, S: Simd> {
     pub(super) simd: S,
     pub(super) group: &'a StarGroup,
     pub(super) shape: &'a StarShape,
-    /// Places of the neighbours, first the corners, then the directions.
+    /// Positions of the neighbours, first the corners, then the directions.
     pub(super) around: [Vec3x8<S>; NEIGHBORS],
 }
 
 impl<'a, S: Simd> Star<'a, S> {
-    /// Loads the places of the neighbours.
+    /// Loads the positions of the neighbours.
     #[inline(always)]
     fn new(simd: S, (group, shape): (&'a StarGroup, &'a StarShape), places: &[[f32; 4]]) -> Self {
         let zero = lanes::splat(simd, 0.0);
@@ -194,7 +195,7 @@ impl<'a, S: Simd> Star<'a, S> {
         Self { simd, group, shape, around }
     }
 
-    /// Elastic force on the node at `x`, its stiffness, and how far from rest the volumes around it are.
+    /// Elastic force on the node at `x`, its stiffness, and the largest volume change around it.
     #[inline(always)]
     fn elasticity(&self, material: &Material<S>, x: Vec3x8<S>) -> Local<S> {
         let simd = self.simd;
@@ -221,7 +222,7 @@ impl<'a, S: Simd> Star<'a, S> {
                 let present = lanes::load_array(simd, &self.group.tets[4 * direction + k]);
                 let own = times(area, present);
                 let ratio = dot(out, area) * material.inverse_edge;
-                // Where no tet is, nothing is known of its corners.
+                // Without a tet its corners have no valid position.
                 strain = strain.max(select(present.simd_gt(zero), (ratio - one).abs(), zero));
                 let inverse = one / ratio.max(lanes::splat(simd, SOLID));
                 let slope = lame * (ratio - one) - shear * inverse * (two - ratio * inverse);
@@ -237,8 +238,8 @@ impl<'a, S: Simd> Star<'a, S> {
         Local { force, stiffness, strain }
     }
 
-    /// Adds the damping force and its derivative; `before` are the stars at the beginning of the step, where the node was
-    /// at `old`.
+    /// Adds the damping force and its derivative; `before` are the stars at the beginning of the step, with the node at
+    /// `old`.
     #[inline(always)]
     fn damp(
         &self,
@@ -248,7 +249,7 @@ impl<'a, S: Simd> Star<'a, S> {
         Local { force, stiffness, .. }: &mut Local<S>,
     ) {
         let simd = self.simd;
-        // The columns are left without their factor 1 / a, and n without its own.
+        // The columns lack their factor 1 / a, and n its own.
         let lame = material.volume - material.shear;
         let twice = material.shear + material.shear;
         let inverse_square = material.inverse_edge * material.inverse_edge;
@@ -290,7 +291,7 @@ impl<'a, S: Simd> Star<'a, S> {
     }
 }
 
-/// One entry of the strain rate times the step, `(g_k . df_l + g_l . df_k) / 2` by way of a scale. A function, because a closure
+/// One entry of the strain rate times the step, `(g_k . df_l + g_l . df_k) / 2` by a scale. A function, because a closure
 /// would lose the instruction set.
 #[inline(always)]
 fn rate<S: Simd>(
@@ -302,11 +303,11 @@ fn rate<S: Simd>(
     (dot(g[k], df[l]) + dot(g[l], df[k])) * scale
 }
 
-/// The energy around eight nodes without inertia, to second order at their present place.
+/// The energy around eight nodes without inertia, to second order at their present positions.
 pub(super) struct Local<S: Simd> {
     pub(super) force: Vec3x8<S>,
     pub(super) stiffness: Symmetric<S>,
-    /// The largest change of the volume of a tet, of either sign, over that at rest \[1\].
+    /// The largest volume change of a tet, of either sign, over the volume at rest \[1\].
     pub(super) strain: f32x8<S>,
 }
 
@@ -319,7 +320,7 @@ pub(super) fn local<S: Simd>(
     (now, before, wet): (&[[f32; 4]], &[[f32; 4]], Wet<'_>),
     (x, old): (Vec3x8<S>, Vec3x8<S>),
 ) -> Local<S> {
-    // Neither is written out again for every caller, and dry sponges do not pay for wet ones.
+    // Neither is inlined at every caller, and dry sponges do not pay for wet ones.
     if wet.wetting.is_empty() {
         return simd.vectorize(
             #[inline(always)]
@@ -330,8 +331,8 @@ pub(super) fn local<S: Simd>(
                     let before = Star::new(simd, group, before);
                     star.damp((material, None), &before, (x, old), &mut local);
                 }
-                // Further terms that are quadratic in the place of the node, such as the drag of the water in the pores,
-                // add their force and stiffness here.
+                // Further terms that are quadratic in the position of the node, such as drag of the water in the pores, add
+                // their force and stiffness here.
                 local
             },
         );

@@ -1,20 +1,20 @@
-//! How flat the surface of a sponge is around its nodes.
+//! Flatness of the surface of a sponge around its nodes.
 
 use glam::DVec3;
 
 /// Slots of the face opposite to each slot, wound outwards for a positively oriented tet.
 const FACE: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
-/// Flatness of a rim, over that of a face, at which a node no longer counts like one of a face; and that of what counts like a face.
+/// Flatness of a rim over that of a face: below the first a node belongs to a rim, above the second to a face.
 const RIM: f64 = 0.75;
 const WHOLE: f64 = 0.95;
-/// What nodes of a rim count: they have a normal of their own only where they meet another rim.
+/// Weight of nodes of a rim: their normal counts only where they meet another rim.
 const LEAST: f64 = 1.0e-3;
 
-/// For every node, 1 where it lies on a face of the sponge at rest, next to nothing on rims and at corners, 0 inside.
+/// For every node 1 on a face of the sponge at rest, nearly 0 on rims and at corners, 0 inside.
 ///
-/// The vector sum of the areas of the surface around a node, over the sum of their sizes: on a face of the lattice, which consists of
-/// pyramids, it is the root of a half, where two faces meet no more than a half.
+/// The length of the vector sum of the surface areas around a node, over the sum of their sizes. On a face of the lattice,
+/// which consists of pyramids, it is the root of a half. Where two faces meet it is at most a half.
 #[must_use]
 pub fn flatness(tets: &[[u32; 4]], rest: &[[f32; 4]]) -> Vec<f32> {
     let mut faces = Vec::with_capacity(tets.len() * 4);

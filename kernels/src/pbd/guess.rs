@@ -1,14 +1,14 @@
-//! Where vertex block descent begins \[CLYX24, section 3.7\].
+//! First guess of vertex block descent \[CLYX24, section 3.7\].
 //!
 //! ```text
 //! z = y,   y <- z - h^2 (1 - s) a
 //! ```
 //!
-//! The target z is where the node would go without elastic forces. The first guess leaves out the share of the external
-//! acceleration a that the node did not follow in the last step, because something held it: `s = 1` in free fall,
-//! `s = 0` at rest. What is at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
+//! The target z is the position without elastic forces. The first guess leaves out the share of the external acceleration a
+//! that the node did not follow in the last step, because something held it. In free fall `s = 1`, at rest `s = 0`. A sponge
+//! at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
 //!
-//! Fluid may draw the nodes as well: then `couple::drag_target` moves the target, by its mass. Sponges may touch: `pbd::touch`.
+//! With fluid, `couple::drag_target` shifts the target and adds mass. Contact between sponges is in `pbd::touch`.
 
 use crate::{
     columns::{Columns, Nodes, lane},
@@ -44,7 +44,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         touch_between,
         ..
     } = &mut columns.nodes;
-    // Stay empty where nothing touches a sponge but bodies and walls.
+    // Empty where sponges touch only bodies and walls.
     [touch, touch_stiffness, touch_between].into_iter().for_each(Vec::clear);
     target.resize(predicted.len(), [0.0; 4]);
     for of_fluid in [drag, drag_moment] {

@@ -23,9 +23,9 @@ pub struct TetChunk {
 pub struct Topology {
     /// Nodes of every tet, ordered by colour.
     pub tets: Vec<[u32; 4]>,
-    /// Volume that every tet stands for, over its own \[1\]: above 1 where the faces of a sponge are pits.
+    /// Volume that every tet stands for, over its own \[1\]: above 1 at pits.
     pub weights: Vec<f32>,
-    /// Where the vertex colours begin: each tet has one node of each.
+    /// First node of each vertex colour: each tet has one node of each.
     pub vertex_color_start: [u32; 5],
     /// Vertex colour of every slot of the tets of a colour.
     pub slot_vertex_color: [[u8; 4]; COLORS],

@@ -1,36 +1,36 @@
-//! What two nodes at surfaces of sponges are to each other; `pairs` has the formulas.
+//! Pairs of surface nodes of sponges; `pairs` has the formulas.
 
 use glam::Vec3;
 
 use crate::params::Params;
 
-/// Scalar product of the normals, of opposite sign, above which two surfaces face each other \[1\].
+/// Scalar product of the opposite normals above which two surfaces face each other \[1\].
 const FACING: f32 = 0.1;
-/// What is added to it for two nodes of rims, whose normals are known less well \[1\].
+/// Added to it for two nodes of rims, whose normals are less precise \[1\].
 const ALIKE: f32 = 0.6;
-/// How far the tangent planes of a pair may have passed each other, in edges.
+/// Largest depth by which the tangent planes of a pair may have passed each other, in edges.
 const DEEP: f32 = 1.0;
-/// How far they may be from each other, in edges.
+/// Largest distance between them, in edges.
 const NEAR: f32 = 0.6;
-/// Distance along the surface within which nodes push each other, in edges: nodes on a square of one edge then feel a surface
-/// that is stiff to 6 % everywhere.
+/// Tangential distance within which nodes push each other, in edges: the stiffness of a surface of nodes one edge apart then
+/// varies by 6 %.
 pub(super) const REACH: f32 = 1.5;
 
-/// A pair as both of its nodes see it.
+/// A pair, the same for both of its nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     /// From the second to the first.
     pub(super) normal: Vec3,
-    /// By how much their normals are opposed more than they have to be \[1\].
+    /// Excess of the opposition of their normals over the limit \[1\].
     pub(super) facing: f32,
     /// Distance along the normal, at the beginning of the step \[m\].
     pub(super) gap: f32,
-    /// Square of that along the surface \[m^2\].
+    /// Square of the tangential distance \[m^2\].
     pub(super) aside: f32,
 }
 
 impl Pair {
-    /// What two nodes are to each other, with weights as the lengths of their normals; none where their surfaces do not face each
+    /// The pair of two nodes, with weights as the lengths of their normals; none where their surfaces do not face each
     /// other.
     pub(super) fn new([a, b]: [[f32; 4]; 2], [normal_a, normal_b]: [[f32; 4]; 2]) -> Option<Self> {
         let [x_a, x_b, n_a, n_b] = [a, b, normal_a, normal_b].map(vector);
@@ -62,10 +62,10 @@ pub(super) fn vector(row: [f32; 4]) -> Vec3 {
     Vec3::new(row[0], row[1], row[2])
 }
 
-/// How far apart the nodes of a pair can be \[m\].
+/// Largest distance between the nodes of a pair \[m\].
 #[must_use]
 pub fn pair_radius(params: &Params) -> f32 {
-    // Of the cylinder that `Pair::is_near` describes.
+    // Of the cylinder of `Pair::is_near`.
     let reach = (REACH * REACH + DEEP * DEEP).sqrt();
     let edges = (0..).zip(&params.sponges).filter(|(index, _)| params.meets_any(*index));
     edges.map(|(_, sponge)| sponge.contact_edge()).fold(0.0, f32::max) * reach

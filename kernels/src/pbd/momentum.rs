@@ -1,7 +1,7 @@
-//! Gives a sponge the momentum that it lacks after few sweeps of vertex block descent.
+//! Restores the momentum of sponges after few sweeps of vertex block descent.
 //!
-//! Elastic forces neither change the momentum of a sponge nor its angular momentum, but those of an unconverged solution
-//! do. Every sponge receives the rigid motion that makes up for it:
+//! Elastic forces change neither the linear nor the angular momentum of a sponge, but those of an unconverged solution do.
+//! Every sponge receives the rigid motion that compensates:
 //!
 //! ```text
 //! dP = sum (J + D) - sum m (v' - v*),   v' = (y - x) / h,   v* = (z - x) / h
@@ -9,22 +9,24 @@
 //! y += h (u + w x (x - c)),   u = dP / M,   w = I^-1 (dL - c x dP)
 //! ```
 //!
-//! with the impulses J from outside and D of the fluid's drag, whose moments about the nodes are M. Moments are taken at the places x of the beginning of the step, at which
-//! `sum x x m v` is the angular momentum of the new velocities whatever the new places are. Nodes that touch something or
-//! are held stay where they are; M, I and the centre c count them with the mass `h^2 k` that resists like their stiffness k,
-//! so that a sponge that stands on something is not shaken, and what they touch takes their part of the momentum:
+//! with the external impulses J and the drag impulses D, whose moments about the nodes are M. Moments are taken at the
+//! positions x of the beginning of the step, at which `sum x x m v` is the angular momentum of the new velocities for any
+//! new positions. Nodes in contact and held nodes stay in place. M, I and the centre c count them with the mass `h^2 k`, by
+//! their stiffness k. A sponge that stands on something is then not shaken. What they touch receives their part of the
+//! momentum:
 //!
 //! ```text
 //! J -= h^2 k (u + w x (x - c))
 //! ```
 //!
-//! The body that is nearest receives the opposite, if it is as near as what touches. Free nodes move with the mass of the fluid that their drag
-//! takes along. Sponges and bodies keep both momenta to rounding. No node is moved through a wall of the container.
+//! The nearest body receives the opposite, if it is as near as a contact. Free nodes move with the mass of the fluid that
+//! the drag moves with them. Sponges and bodies conserve both momenta to rounding. No node is moved through a wall of the
+//! container.
 //!
-//! Sponges that touch each other (`touch.rs`) lack momentum together: what they give to each other need not be told, as that between the
-//! nodes of one sponge, and both momenta of all of them are kept.
+//! Sponges in contact (`touch.rs`) are corrected together: contact forces between them are internal, like those between the
+//! nodes of one sponge. Both momenta of all of them are conserved.
 //!
-//! The share of the external acceleration that a node followed is kept for the next `pbd::guess`.
+//! The share of the external acceleration that a node followed is stored for the next `pbd::guess`.
 
 use glam::{DMat3, DVec3, Vec3};
 
@@ -112,7 +114,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Gives a node, or what it touches, its part of the motion.
+    /// Adds to a node, or to what it touches, its part of the motion.
     fn node(
         &self,
         node: usize,
@@ -122,7 +124,7 @@ impl Task<'_> {
         wrenches: &mut [Wrench],
     ) {
         let (x, step) = (self.position[node], self.params.step);
-        // There are no sponges for the padding of the rows.
+        // Padding rows belong to no sponge.
         let Some(own) = self.sponge.get(node).copied() else { return };
         if self.params.solver(own) != Some(Solver::Vbd) {
             return;
@@ -147,7 +149,7 @@ impl Task<'_> {
         }
     }
 
-    /// Gives the body that a node touches the momentum that the node would take as a mass below zero.
+    /// Gives the body in contact with a node the part of the momentum of that node.
     fn give(&self, node: usize, y: &[f32; 4], change: [f32; 3], mass: f32, wrenches: &mut [Wrench]) {
         let vector = |row: &[f32]| Vec3::new(row[0], row[1], row[2]);
         let edge = self.params.sponges[self.sponge[node] as usize].edge;
@@ -163,7 +165,7 @@ impl Task<'_> {
         for (index, body) in self.bodies.iter().enumerate().filter(|(_, body)| body.touches_nodes) {
             let BodyState { position, linear_velocity, angular_velocity, .. } = body.state;
             let velocity = linear_velocity + angular_velocity.cross(point - position);
-            // The body stands where it began the step: so does the point, in the body's frame.
+            // The body is at its place of the beginning of the step, and so is the point in the body's frame.
             let distance = body.distance(point - velocity * self.params.step);
             if distance < found.1 {
                 found = (Some(index), distance);
@@ -173,7 +175,7 @@ impl Task<'_> {
     }
 }
 
-/// For every sponge, the first of those that it touches, directly or through others, or itself.
+/// For every sponge, the first of those in contact with it, directly or through others, or itself.
 pub(crate) fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) -> Vec<usize> {
     let mut first: Vec<usize> = (0..sponges).collect();
     for column in touches {
@@ -182,7 +184,7 @@ pub(crate) fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) 
             if a == b {
                 continue;
             }
-            // As long as the chain is: there are few sponges.
+            // As long as the chain: there are few sponges.
             while first[a] != a {
                 a = first[a];
             }
@@ -199,7 +201,7 @@ pub(crate) fn joined(sponge: &[u32], touches: [&[[f32; 4]]; 2], sponges: usize) 
     first
 }
 
-/// The motion of every sponge: what several lack that touch each other, they lack together.
+/// The motion of every sponge: sponges in contact have one motion together.
 fn motions(totals: &[Sums], first: &[usize]) -> Vec<Motion> {
     let mut joined = totals.to_vec();
     for (index, total) in totals.iter().enumerate().filter(|(index, _)| first[*index] != *index) {
@@ -208,7 +210,7 @@ fn motions(totals: &[Sums], first: &[usize]) -> Vec<Motion> {
     first.iter().map(|first| joined[*first].motion()).collect()
 }
 
-/// A coordinate between two walls; what is not a number stays so.
+/// A coordinate clamped between two walls; NaN stays NaN.
 fn inside(value: f32, [low, high]: [f32; 2]) -> f32 {
     if value < low {
         low
@@ -227,7 +229,7 @@ fn followed(x: [f32; 4], y: [f32; 4], v: [f32; 4], a: [f32; 4], step: f32) -> f3
         square += a[axis] * a[axis];
     }
     let share = along / (step * square);
-    // Not a number without acceleration, where the share does not matter.
+    // NaN without acceleration, where the share does not matter.
     if share >= 1.0 {
         1.0
     } else if share > 0.0 {
@@ -284,7 +286,7 @@ impl Sums {
         let own = if inverse > 0.0 { rate / inverse } else { 0.0 };
         let gained = (vector(rows.predicted[node]) - vector(rows.free[node])) * own;
         let mut lacking = vector(rows.reaction[node]) - gained;
-        // What the fluid gives to a held node goes to its body.
+        // Impulses of the fluid on a held node go to its body.
         if inverse > 0.0 {
             lacking += vector(rows.drag[node]);
             self.angular_momentum += vector(rows.drag_moment[node]);
@@ -302,7 +304,7 @@ impl Sums {
         self.angular_momentum += other.angular_momentum;
     }
 
-    /// The rigid motion that makes up for what is lacking.
+    /// The rigid motion that restores the momentum.
     fn motion(&self) -> Motion {
         let [free, mass] = self.mass;
         if free <= 0.0 {
@@ -315,7 +317,7 @@ impl Sums {
         let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - second;
         let angular = self.angular_momentum - centre.cross(self.momentum);
         let determinant = inertia.determinant();
-        // A sponge of nodes in one line cannot be turned about it.
+        // A sponge with all nodes on a line has no inertia about it.
         let turns = determinant > 1.0e-12 * trace.powi(3);
         let angular_velocity = if turns { inertia.inverse() * angular } else { DVec3::ZERO };
         Motion { centre, velocity: self.momentum / mass, angular_velocity }
@@ -331,7 +333,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// Velocity at a place.
+    /// Velocity at a position.
     fn at(&self, [x, y, z, _]: [f32; 4]) -> [f32; 3] {
         let arm = DVec3::new(f64::from(x), f64::from(y), f64::from(z)) - self.centre;
         (self.velocity + self.angular_velocity.cross(arm)).as_vec3().to_array()

@@ -1,15 +1,14 @@
-//! Walls and bodies in the way of a node that has an energy of its own.
+//! Contact of a node with walls and bodies, in its quadratic energy.
 //!
-//! A node at x with stiffness H that lies `depth` below a surface with normal n is pushed by a force r to the place where
-//! its energy is least of all that are not below the surface. The surface is that which its way through the step meets
-//! first (`sweep.rs`), in the frame of the body:
+//! A node at x with stiffness H lies `depth` below a surface with normal n. A force r pushes it to the minimum of its energy
+//! on the surface. The surface is the first one on its path through the step (`sweep.rs`), in the frame of the body:
 //!
 //! ```text
 //! dx = H^-1 r,   n . dx = depth
 //! ```
 //!
-//! It sticks if the force that takes it to where it stuck, `r = H (depth n - slide)`, lies in the cone of Coulomb friction,
-//! `|r_t| <= mu r_n`; else it slips, and `r = l (n + mu r_t / |r_t|)`.
+//! It sticks if the force to the point of sticking, `r = H (depth n - slide)`, lies in the cone of Coulomb friction,
+//! `|r_t| <= mu r_n`. Otherwise it slips, and `r = l (n + mu r_t / |r_t|)`.
 
 use glam::{DVec3, Vec3};
 
@@ -23,12 +22,12 @@ use crate::{
     vector::{Vec3x8, dot, minus, plus, splat, times},
 };
 
-/// How close to an obstacle, in edges, a node is looked at.
+/// Distance from an obstacle, in edges, within which a node is examined.
 pub(super) const MARGIN: f32 = 1.0e-2;
 
-/// Distance that nodes keep from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
+/// Clearance of nodes from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
 pub(super) const CLEARANCE: f32 = 1.0e-3;
-/// What is left of the distance of a node from a body after rounding, at least \[1\].
+/// Part of the distance of a node from a body that is certain after rounding \[1\].
 const SPARE: f32 = 0.999;
 /// Smallest part of the compliance along the normal that friction may leave.
 const LEAST_COMPLIANCE: f32 = 0.1;
@@ -36,27 +35,27 @@ const LEAST_COMPLIANCE: f32 = 0.1;
 /// Eight values of each coordinate.
 type Lanes3 = [[f32; LANES]; 3];
 
-/// What nodes must stay out of.
+/// Obstacles of nodes.
 ///
-/// Its functions are compiled on their own, with arrays between them and their callers: most nodes touch nothing, and code
-/// for all shapes in the middle of the solver takes the compiler minutes.
+/// Its functions are compiled separately, with arrays at their interface. Few nodes touch anything, and inlining the code of
+/// all shapes into the solver takes the compiler minutes.
 #[derive(Debug)]
 pub(super) struct Obstacles<'a> {
     cpu: &'a Cpu,
     step: f32,
-    /// Axis, direction of the normal along it, and place of every wall.
+    /// Axis, direction of the normal along it, and position of every wall.
     walls: Vec<(usize, f32, f32)>,
     bodies: &'a [Body],
     spheres: Vec<Sphere>,
 }
 
-/// What a body may reach within a step.
+/// Region that a body may reach within a step.
 #[derive(Clone, Copy, Debug)]
 struct Sphere {
     centre: Vec3,
-    /// Of the body and the way of its centre; infinite for planes \[m\].
+    /// Radius of the body and the path of its centre; infinite for planes \[m\].
     radius: f32,
-    /// Angle by which it turns.
+    /// Angle by which it rotates.
     turn: f32,
 }
 
@@ -67,11 +66,11 @@ impl Sphere {
         Self { centre: position, radius, turn: step * angular_velocity.length() }
     }
 
-    /// Whether none of eight nodes can have come closer than `margin` to the body on the way from `old`.
+    /// Whether none of eight nodes can have come closer than `margin` to the body on the path from `old`.
     #[inline(always)]
     fn is_far<S: Simd>(&self, simd: S, [point, old]: [Vec3x8<S>; 2], margin: f32x8<S>) -> bool {
         let (way, away) = (minus(point, old), minus(old, splat(simd, self.centre.to_array())));
-        // In the frame of the body its turn adds to the way of a node, by as much as the node is away.
+        // In the frame of the body its rotation adds to the path of a node, in proportion to the distance.
         let nearest = dot(away, away).sqrt() * (SPARE - self.turn) - dot(way, way).sqrt() * (1.0 + self.turn);
         nearest.simd_gt(margin + self.radius).all_true()
     }
@@ -80,9 +79,9 @@ impl Sphere {
 /// Eight nodes in their quadratic energies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
-    /// Where the nodes are.
+    /// Positions of the nodes.
     pub(super) point: Lanes3,
-    /// Where they were at the beginning of the step.
+    /// Positions at the beginning of the step.
     pub(super) old: Lanes3,
     /// Second derivative of the energy, with inertia.
     pub(super) stiffness: [[f32; LANES]; 6],
@@ -92,7 +91,7 @@ pub(super) struct Contact {
     pub(super) friction: [f32; LANES],
     /// 1 for nodes that obstacles may move, else 0.
     pub(super) own: [f32; LANES],
-    /// Distance that they keep from bodies \[m\].
+    /// Clearance from bodies \[m\].
     pub(super) clearance: [f32; LANES],
 }
 
@@ -102,7 +101,7 @@ impl<'a> Obstacles<'a> {
         Self { cpu, step: params.step, walls: params.walls.map_or_else(Vec::new, walls), bodies, spheres }
     }
 
-    /// 1 for points that may have come closer than `margin` to an obstacle on the way from `old`, else 0.
+    /// 1 for points that may have come closer than `margin` to an obstacle on the path from `old`, else 0.
     #[inline(never)]
     pub(super) fn near(&self, point: &Lanes3, old: &Lanes3, margin: &[f32; LANES]) -> [f32; LANES] {
         with_lanes!(self.cpu, simd => self.near_lanes(simd, [point, old], margin))
@@ -136,8 +135,8 @@ impl<'a> Obstacles<'a> {
         near.to_array()
     }
 
-    /// Moves the nodes out of everything, and gives the forces on them that it takes. Adds what bodies receive for it to
-    /// `wrenches`, with the places at the beginning of the step as the points of attack.
+    /// Moves the nodes out of all obstacles, and returns the forces on them. Adds the impulses on bodies to `wrenches`, with
+    /// the positions at the beginning of the step as the points of attack.
     #[inline(never)]
     pub(super) fn push(&self, contact: &mut Contact, wrenches: Option<&mut [Wrench]>) -> Lanes3 {
         with_lanes!(self.cpu, simd => self.push_lanes(simd, contact, wrenches))
@@ -157,7 +156,7 @@ impl<'a> Obstacles<'a> {
         let old = vector(simd, &contact.old);
         let mut point = vector(simd, &contact.point);
         let mut total = [zero; 3];
-        // What sticks to the floor does not hold out against a plate: bodies come after the walls, and what they push into a
+        // A node that sticks to the floor must not resist a plate: bodies come after the walls. A node that they push into a
         // wall slides along it.
         let walls = self.walls.len();
         for index in 0..2 * walls + self.bodies.len() {
@@ -171,7 +170,7 @@ impl<'a> Obstacles<'a> {
                 }
                 let placed = Placed::new(simd, body);
                 drift = times(placed.velocity(point), lanes::splat(simd, self.step));
-                // The body stands where it began the step: so is the node, in the body's frame.
+                // The body is at its place of the beginning of the step: so is the node, in the body's frame.
                 let way = [placed.local(old), placed.local(minus(point, drift))];
                 let met = met(simd, &placed, way, clearance);
                 (distance, normal) = (met.distance + met.beyond, placed.turned(met.normal));
@@ -197,7 +196,7 @@ impl<'a> Obstacles<'a> {
                 give(&array(force), &contact.old, (self.step, centre), &mut wrenches[body]);
             }
         }
-        // One obstacle may have pushed into another: walls have the last word.
+        // One obstacle may push a node into another: walls come last.
         for (axis, sign, wall) in &self.walls {
             let outside = ((point[*axis] - *wall) * *sign).simd_lt(zero) & own.simd_gt(zero);
             point[*axis] = select(outside, lanes::splat(simd, *wall), point[*axis]);
@@ -278,7 +277,7 @@ fn walls((minimum, maximum): (Vec3, Vec3)) -> Vec<(usize, f32, f32)> {
     (0..3).flat_map(|axis| [(axis, 1.0, minimum[axis]), (axis, -1.0, maximum[axis])]).collect()
 }
 
-/// Change of place and force; both are zero where `depth` is.
+/// Change of position and force; both are zero where `depth` is.
 #[inline(always)]
 fn react<S: Simd>(
     simd: S,
@@ -295,7 +294,7 @@ fn react<S: Simd>(
     let across = dot(stuck, normal);
     let along = minus(stuck, times(normal, across));
     let length = dot(along, along).sqrt();
-    // Weights instead of choices: the scalar fallback branches at every choice of every lane.
+    // Weights instead of selections: the scalar fallback branches at every selection of every lane.
     let sticks = select(length.simd_le(across * friction), one, zero);
     let slips = one - sticks;
     let scale = friction / select(length.simd_gt(zero), length, one);

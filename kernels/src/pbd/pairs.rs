@@ -1,27 +1,27 @@
-//! Which nodes of the surfaces of sponges may touch in this step.
+//! Pairs of surface nodes of sponges that may touch in this step.
 //!
-//! A surface node a has an outward normal and an area, by which the volume of its sponge grows as it moves:
+//! A surface node a has an outward normal and an area, the derivative of the volume of its sponge by its position:
 //!
 //! ```text
 //! A n_a = -sum over tets of (q - u) x (r - u) / 6
 //! ```
 //!
-//! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p, which is 1 on a face and next to nothing on a
-//! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least `APART` edges from
-//! each other at rest, are a pair where their surfaces face each other:
+//! with the partner u and the corners r, q of its tets (`stars.rs`). The weight p is 1 on a face and nearly 0 on a rim
+//! (`flatness.rs`). Two nodes a and b belong to different sponges, or to one with self-contact, at least `APART` edges from
+//! each other at rest. They are a pair where their surfaces face each other:
 //!
 //! ```text
 //! n = (p_b n_b - p_a n_a) / |..|,   g = n . (x_a - x_b),   t^2 = |x_a - x_b|^2 - g^2
 //! c = -n_a . n_b - FACING - ALIKE (1 - max(p_a, p_b)) > 0,   -DEEP e < g < NEAR e,   t < REACH e
 //! ```
 //!
-//! with e the larger of their edges. The normal of a node of a rim is between those of two faces: where it meets a face, that of the face
-//! counts. With the mean of both, blocks that lie on each other would be a twentieth of an edge inside each other there, which is
-//! many times what bears their weight. Two rims must face each other squarely. What `touch.rs` makes of a pair is the same from both
-//! sides to the last bit but for its sign, because n is.
+//! with e the larger of their edges. The normal of a node of a rim lies between those of two faces: where it meets a face,
+//! the normal of the face counts. With the mean of both, blocks on each other would be a twentieth of an edge inside each
+//! other there, many times the depth that carries their weight. Two rims must face each other squarely. The contact of a
+//! pair (`touch.rs`) is the same from both sides to the last bit except for its sign, because n is.
 //!
-//! Everything is of the beginning of the step. No node moves by more than a quarter of an edge in a step (`src/clock.rs`),
-//! and two not by more than half of one towards each other, so that none is missed that would go through.
+//! All values are of the beginning of the step. No node moves by more than a quarter of an edge in a step (`src/clock.rs`),
+//! and two by at most half of one towards each other. No pair that would pass is therefore missed.
 
 use glam::Vec3;
 
@@ -35,7 +35,7 @@ use crate::{
     pbd::stars::{CORNERS, RINGS, StarGroup, Stars},
 };
 
-/// Distance at rest of two nodes of one sponge, in edges, from which on they may touch.
+/// Smallest distance at rest at which two nodes of one sponge may touch, in edges.
 const APART: f32 = 4.0;
 /// Area of a node, over the square of the edge, below which it has no normal.
 const SMALLEST: f32 = 1.0e-3;
@@ -106,9 +106,9 @@ fn bounds(points: &[[f32; 4]]) -> Domain {
     Domain::Bounded { minimum, maximum }
 }
 
-/// Which nodes may be near another sponge.
+/// Nodes that may be near another sponge.
 struct Near {
-    /// For every sponge, the boxes of those that it may meet, wide enough.
+    /// For every sponge, the enlarged boxes of those that it may touch.
     boxes: Vec<Vec<(Vec3, Vec3)>>,
 }
 
@@ -120,7 +120,7 @@ impl Near {
             let (low, high) = &mut own[sponge as usize];
             (*low, *high) = (low.min(vector(row)), high.max(vector(row)));
         }
-        // Nothing is near what is asleep.
+        // Nothing is near a sleeping sponge.
         let wide = |other: u32| {
             let (low, high) = own[other as usize];
             (low - radius, high + radius)
@@ -163,7 +163,7 @@ fn normals(
     }
 }
 
-/// Normal, as long as its weight, and area of one node; zero inside of a sponge.
+/// Normal, with the weight as its length, and area of one node; zero inside of a sponge.
 fn normal_of(group: &StarGroup, lane: usize, position: &[[f32; 4]], (edge, weight): (f32, f32)) -> [f32; 4] {
     if weight <= 0.0 {
         return [0.0; 4];
@@ -180,7 +180,7 @@ fn normal_of(group: &StarGroup, lane: usize, position: &[[f32; 4]], (edge, weigh
     }
     let length = sum.dot(sum).sqrt();
     let area = length / 6.0;
-    // Nor has what is not a number.
+    // NaN has none either.
     if area > SMALLEST * edge * edge {
         let scale = weight / length;
         [sum.x * scale, sum.y * scale, sum.z * scale, area]
@@ -192,7 +192,7 @@ fn normal_of(group: &StarGroup, lane: usize, position: &[[f32; 4]], (edge, weigh
 /// The nodes that may touch.
 struct Surface<'a> {
     params: &'a Params,
-    /// How far apart the nodes of a pair can be \[m\].
+    /// Largest distance between the nodes of a pair \[m\].
     radius: f32,
     position: &'a [[f32; 4]],
     rest: &'a [[f32; 4]],

@@ -4,7 +4,7 @@
 //! y = x + h (v + h a)
 //! ```
 //!
-//! with the external acceleration a, by gravity and fluid. Held nodes go where their body takes them.
+//! with the external acceleration a, by gravity and fluid. Held nodes follow their body.
 
 use glam::{Mat3, Vec3};
 
@@ -55,7 +55,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// Where a held node is at the end of the step.
+/// Position of a held node at the end of the step.
 fn held(body: &Body, offset: [f32; 4], step: f32) -> Vec3 {
     let arm = Mat3::from_quat(body.state.rotation) * Vec3::new(offset[0], offset[1], offset[2]);
     let velocity = body.state.linear_velocity + body.state.angular_velocity.cross(arm);

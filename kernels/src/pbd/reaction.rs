@@ -1,8 +1,8 @@
-//! What walls, bodies and grips gave to the nodes of vertex block descent.
+//! Impulses of walls, bodies and grips on the nodes of vertex block descent.
 //!
-//! Few sweeps leave forces in a sponge that do not balance, but what acts from outside can be told: the force that keeps
-//! a touching node out of an obstacle (`obstacles.rs`), and that with which a grip answers the elastic force on a held
-//! node. Bodies receive the opposite. The fourth value is what the node weighs in `pbd::momentum`.
+//! After few sweeps the forces in a sponge do not balance, but the external ones are known. They are the force that keeps a
+//! node out of an obstacle (`obstacles.rs`), and that of a grip against the elastic force on a held node. Bodies receive the
+//! opposite. The fourth lane is the mass of the node in `pbd::momentum`.
 
 use crate::{
     body::{Body, Wrench, by_chunk},
@@ -57,7 +57,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let rows = stars.rows(color);
         let wet = Wet::new(params, sponge, wetting);
         let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
-        // A vertex colour does not begin with a chunk of rows: its chunks have wrenches of their own.
+        // A vertex colour does not begin with a chunk of rows: its chunks have separate wrenches.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
         let mut of_chunks = by_chunk(&mut own, chunks, bodies.len());
@@ -110,7 +110,7 @@ impl Task<'_> {
         }
     }
 
-    /// Impulse from outside, and mass.
+    /// External impulse, and mass.
     #[inline(always)]
     fn look<S: Simd>(
         &self,

@@ -1,8 +1,8 @@
 //! The star of a node: the tets that meet in it and the nodes around it.
 //!
-//! On the lattice every inner node has the same star: six neighbours of its own sublattice one edge away along the
+//! On the lattice every inner node has the same star. It has six neighbours of its own sublattice one edge away along the
 //! axes, eight of the other sublattice at the corners of a cube around it, and 24 tets. Around each of the six lie four
-//! tets; their other two nodes are consecutive corners of a ring of four. A node at the surface lacks some of them.
+//! tets, whose other two nodes are consecutive corners of a ring of four. A node at the surface lacks some of them.
 //!
 //! Bits of a corner: x, y, z, set where it lies on the positive side. Directions: `2 axis + 1` for the positive one.
 //! Tet `4 direction + k` has the corners `k` and `k + 1` of the [`RINGS`].
@@ -19,7 +19,7 @@ pub const CORNERS: usize = 8;
 pub const NEIGHBORS: usize = CORNERS + DIRECTIONS;
 /// Tets of a full star.
 pub const TETS: usize = 4 * DIRECTIONS;
-/// Nodes of a piece that is summed up on its own.
+/// Nodes of a piece that is summed separately.
 const PIECE: usize = 256;
 
 /// Corners next to every direction, clockwise when looking along it.
@@ -34,7 +34,7 @@ const fn rings() -> [[usize; 4]; DIRECTIONS] {
         let (axis, positive) = (direction / 2, direction % 2);
         let mut k = 0;
         while k < 4 {
-            // Seen from the other side the turn is the opposite one.
+            // Seen from the opposite side the orientation is reversed.
             let [e, f] = sides[if positive == 1 { k } else { (4 - k) % 4 }];
             rings[direction][k] = positive << axis | e << ((axis + 1) % 3) | f << ((axis + 2) % 3);
             k += 1;
@@ -61,7 +61,7 @@ pub struct StarGroup {
     pub(crate) shares: [[f32; LANES]; CORNERS],
 }
 
-/// Nodes of one sponge whose rows follow each other.
+/// Nodes of one sponge with consecutive rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
     pub(crate) sponge: u32,
@@ -77,12 +77,12 @@ pub struct Stars {
     pub(crate) group_start: [u32; 5],
     pub(crate) groups: Vec<StarGroup>,
     pub(crate) shape: StarShape,
-    /// All nodes, cut where the sponge or the vertex colour changes.
+    /// All nodes, divided where the sponge or the vertex colour changes.
     pub(crate) pieces: Vec<Piece>,
 }
 
-/// The tets of a full star. Lists whose lengths the compiler does not know: it would write out the passes over the 24
-/// tets of eight nodes in full, for every SIMD level.
+/// The tets of a full star. The lists have lengths that the compiler does not know: it would unroll the passes over the 24
+/// tets of eight nodes for every SIMD level.
 #[derive(Clone, Debug)]
 pub(crate) struct StarShape {
     /// Corners of every direction, [`RINGS`].

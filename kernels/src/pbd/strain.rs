@@ -15,13 +15,13 @@
 //! p += w dl grad C
 //! ```
 //!
-//! and last, with hardly any compliance, that the volume is at least a tenth of that at rest: an inverted tet satisfies
-//! the stretch and shear constraints, and would stay inverted.
+//! and last, with almost no compliance, that the volume is at least a tenth of that at rest. An inverted tet satisfies the
+//! stretch and shear constraints, and would stay inverted.
 //!
-//! V is the volume of the tet: what it stands for beyond that where the faces of a sponge are pits adds to the masses alone.
+//! V is the volume of the tet itself: pits count only in the masses.
 //!
-//! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\] instead of a stiffness
-//! between 0 and 1 (compliance of \[MMC16\]), so that the sponge does not stiffen when the step shrinks.
+//! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\] instead of a stiffness between 0
+//! and 1 (compliance of \[MMC16\]). The sponge then does not stiffen when the step shrinks.
 
 use crate::{
     columns::Columns,
@@ -33,7 +33,7 @@ use crate::{
     vector::{Vec3x8, cross, dot, minus, negative, plus, times},
 };
 
-/// Smallest volume over volume at rest that a tet is pressed to.
+/// Smallest volume over volume at rest of a tet.
 const SMALLEST_RATIO: f32 = 0.1;
 
 /// Compliance of that constraint over that of the volume; not zero, which would divide by zero for held nodes.
@@ -77,7 +77,7 @@ impl<S: Simd> Solver<S> {
     #[inline(always)]
     fn new(simd: S, sponge: &SpongeParams, step: f32) -> Self {
         let volume = sponge.edge * sponge.edge * sponge.edge / 12.0;
-        // Iterations restart from no impulse: each takes its share of the stiffness.
+        // Iterations restart with zero multipliers: each has its share of the stiffness.
         let share = sponge.iterations as f32;
         let compliance = |modulus: f32| lanes::splat(simd, share / (modulus * volume * step * step));
         Self {

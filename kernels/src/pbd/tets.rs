@@ -1,7 +1,7 @@
 //! Passes over the tets: colour by colour, eight tets of a colour at a time.
 //!
-//! What is solved for eight tets is a [`Law`]; all laws share the loads, the stores and the split among threads. Two
-//! tets of a colour share no node, so that chunks of a colour can be solved at the same time.
+//! A [`Law`] solves eight tets. All laws share the loads, the stores and the division among threads. Two tets of a colour
+//! share no node, so that chunks of a colour can be solved at the same time.
 
 use crate::{
     columns::Nodes,
@@ -20,7 +20,7 @@ pub(super) struct TetLanes<S: Simd> {
     pub(super) old: [Vec3x8<S>; 4],
     /// Inverse masses.
     pub(super) w: [f32x8<S>; 4],
-    /// Volumes that they stand for, over their own.
+    /// Weights of the tets: volumes that they stand for, over their own.
     pub(super) weight: f32x8<S>,
 }
 
@@ -37,9 +37,9 @@ impl<S: Simd> TetLanes<S> {
     }
 }
 
-/// How eight tets of a sponge are corrected.
+/// Correction of eight tets of a sponge.
 pub(super) trait Law: Sync {
-    /// The sponges that it holds for.
+    /// The solver of the sponges that it applies to.
     const SOLVER: Solver;
 
     /// Moves the nodes of eight tets.
@@ -73,7 +73,7 @@ struct NodeSlices<'a> {
 }
 
 impl NodeSlices<'_> {
-    /// Cuts every vertex colour before the nodes of `chunk`.
+    /// Divides every vertex colour before the nodes of `chunk`.
     fn split(self, chunk: &TetChunk) -> (Self, Self) {
         let starts = std::array::from_fn::<_, 4, _>(|color| chunk.nodes[color].start as usize);
         let [a, b, c, d] = self.nodes;
@@ -103,7 +103,7 @@ impl<L: Law> Task<'_, L> {
         if parts <= 1 || chunks.len() <= 1 {
             for chunk in chunks {
                 let sponge = &self.params.sponges[chunk.sponge as usize];
-                // A tet has all of its nodes in one sponge.
+                // All nodes of a tet belong to one sponge.
                 let node = self.tets[chunk.tets.start as usize][0];
                 if sponge.solver != L::SOLVER || self.params.asleep.has(node as usize) {
                     continue;

@@ -1,24 +1,24 @@
 //! Contact of sponges with each other and with themselves, with friction.
 //!
-//! The pairs of `pairs.rs` have an energy where the planes through their nodes have passed each other, by the depth d along
-//! the normal n that they had at the beginning of the step:
+//! The pairs of `pairs.rs` have an energy where the tangent planes of their nodes have passed each other. The depth d is
+//! along the normal n of the beginning of the step:
 //!
 //! ```text
 //! d = -n . (y_a - y_b),   psi = k (d^2 / 2 + d^4 / e^2),   k = STIFFNESS M / e f A_a A_b w
 //! w = 3 / (pi R^2) (1 - t^2 / R^2)^2,   f = min(c / TURN, 1)
 //! ```
 //!
-//! so that surfaces of many nodes, or of few large ones, feel the same pressure. M is the harmonic mean of the moduli
-//! lambda + mu of both materials, e the larger edge. Where the pair slips by s along the surface in this step, friction of up to mu
-//! times the normal force acts against it, linear up to a speed `CREEP`.
+//! The pressure does not depend on the number of nodes of a surface. M is the harmonic mean of the moduli lambda + mu of
+//! both materials, e the larger edge. The pair slips by s along the surface in this step. Friction of up to mu times the
+//! normal force acts against it, linear up to a speed `CREEP`.
 //!
 //! ```text
 //! F_a = n k d (1 + 4 d^2 / e^2) - k_t s,   H_a = k (1 + 12 d^2 / e^2) n n^T + k_t (1 - n n^T),   k_t = mu |F_n| / max(|s|, h CREEP)
 //! ```
 //!
-//! Both nodes get the same with opposite sign. Vertex block descent adds force and stiffness to those of the material
-//! (`vbd.rs`). They are of the places before the sweep: nodes of one vertex colour may touch each other. As each of the two
-//! resists with all of the stiffness, nodes that move at the same time do not go too far.
+//! Both nodes receive the same with opposite sign. Vertex block descent adds force and stiffness to those of the material
+//! (`vbd.rs`). They are of the positions before the sweep (Jacobi), because nodes of one vertex colour may touch each other.
+//! Each of the two has the full stiffness, so that nodes that move at the same time do not overshoot.
 
 use glam::{Mat3, Vec3};
 
@@ -37,9 +37,9 @@ use crate::{
 
 /// Stiffness of a surface times the edge, over the modulus of the material \[1\].
 const STIFFNESS: f32 = 10.0;
-/// Range of c in which a pair comes to its full stiffness \[1\].
+/// Range of c over which a pair reaches its full stiffness \[1\].
 const TURN: f32 = 0.4;
-/// Speed at which what sticks may slip \[m/s\].
+/// Slip speed up to which friction is linear, also in sticking \[m/s\].
 const CREEP: f32 = 2.0e-3;
 
 declare! {
@@ -89,7 +89,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// What touches a node.
+/// Contact of a node.
 struct Sum {
     force: Vec3,
     stiffness: Mat3,
@@ -106,11 +106,11 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Adds what one node does to another.
+    /// Adds the contact of one node with another.
     fn add(&self, a: usize, b: usize, sum: &mut Sum) {
         let normals = [self.normal[a], self.normal[b]];
         let [y_a, y_b] = [a, b].map(|node| vector(self.predicted[node]));
-        // Most do not touch.
+        // Most pairs do not touch.
         if (vector(normals[1]) - vector(normals[0])).dot(y_a - y_b) >= 0.0 {
             return;
         }
@@ -144,7 +144,7 @@ impl Task<'_> {
     }
 }
 
-/// What touches nodes, where vertex block descent needs it; empty in scenes where nothing can.
+/// Contact of nodes, for vertex block descent; empty in scenes without any.
 #[derive(Clone, Copy)]
 pub(super) struct Touch<'a> {
     pub(super) force: &'a [[f32; 4]],
@@ -153,7 +153,7 @@ pub(super) struct Touch<'a> {
 }
 
 impl Touch<'_> {
-    /// Adds what touches eight nodes to their energy. Those that touch something go to their least energy, and not further.
+    /// Adds the contact of eight nodes to their energy. Nodes in contact move to their minimum, without over-relaxation.
     #[inline(always)]
     pub(super) fn add<S: Simd>(&self, simd: S, nodes: &[u32; LANES], local: &mut Local<S>) {
         if self.force.is_empty() {

@@ -1,18 +1,18 @@
-//! Vertex block descent: every node goes to where its energy is least while the others stand still \[CLYX24\].
+//! Vertex block descent: every node moves to the minimum of its energy while the others are fixed \[CLYX24\].
 //!
 //! ```text
 //! E(x) = m / (2 h^2) |x - z|^2 + sum over tets of V psi(F) + damping,   x <- x + (m / h^2 + H)^-1 (m / h^2 (z - x) - dE/dx)
 //! ```
 //!
-//! with the target z and the energy of `descent.rs`; where there is fluid, target and mass include its drag
-//! (`couple::drag_target`). Four vertex colours: the neighbours of a node have another one, so
-//! nodes of a colour can move at the same time. A node goes further than to its least energy by three tenths of the way there,
-//! which needs fewer sweeps for what reaches far, but not in a step of a single sweep, where it would feed vibrations, nor
-//! where a tet is far from its volume at rest or the way is long, where the energy is not nearly quadratic. Contact and friction are solved together with the elasticity of the node,
-//! in `obstacles.rs`. What a sweep does never raises the total energy without contact; it is stable at any step.
+//! with the target z and the energy of `descent.rs`. With fluid, target and mass include its drag (`couple::drag_target`).
+//! There are four vertex colours: the neighbours of a node have other colours, so that nodes of a colour can move at the
+//! same time. A node is over-relaxed by three tenths of the way to its minimum, so that errors of long wavelength need fewer
+//! sweeps. Steps of a single sweep are an exception, because vibrations would grow. So are tets far from their volume and
+//! long ways, where the energy is not nearly quadratic. Contact and friction are solved together with the elasticity of the
+//! node, in `obstacles.rs`. Without contact a sweep never raises the total energy, and is stable at any step.
 //!
-//! Differs from the paper: the Hessian is exact and positive definite as it is, because the energy is quadratic in one
-//! node; contact is exact instead of a penalty; no step is lengthened.
+//! Differs from the paper: the Hessian is exact and positive definite, because the energy of one node is convex. Contact is
+//! exact instead of a penalty. Over-relaxation takes the place of Chebyshev acceleration.
 
 use crate::{
     body::Body,
@@ -31,16 +31,16 @@ use crate::{
     vector::{Vec3x8, choose, dot, minus, plus, times},
 };
 
-/// Change of the volume of a tet around a node, over that at rest, up to which the node goes all the way further, and that
-/// from which on it goes no further than to its least energy \[1\].
+/// Volume change of a tet around a node, over the volume at rest, up to which the node is fully over-relaxed, and from which
+/// on it is not over-relaxed \[1\].
 const SOUND: f32 = 0.2;
 const SPOILT: f32 = 0.5;
-/// Way, in edges, from which on a node goes no further than to its least energy; it goes all the way further up to half of that \[1\].
+/// Way, in edges, from which on a node is not over-relaxed; up to half of it the node is fully over-relaxed \[1\].
 const LONG: f32 = 0.1;
 
-/// Parts of the last digit of a place that chance is taken from, see [`moved`] \[1\].
+/// Parts of the last digit of a position from which the random number of [`moved`] is taken \[1\].
 const FINE: f32 = 4096.0;
-/// Smallest place that chance is scaled by, so that a way over its last digit is a number \[m\].
+/// Smallest position by which the random number is scaled, so that a way over its last digit is finite \[m\].
 const LEAST: f32 = 1.0e-6;
 
 declare! {
@@ -141,7 +141,7 @@ impl Task<'_> {
         obstacles.push(&mut contact, None);
         let mut end = vector(simd, &contact.point);
         if contact.point != array(relaxed) {
-            // What is in the way answers to the energy, and not to what goes beyond.
+            // The contact force is that of the minimum, without over-relaxation.
             let mut contact = quadratic.contact((point, old), material, own);
             obstacles.push(&mut contact, None);
             let off = minus(end, relaxed);
@@ -152,7 +152,7 @@ impl Task<'_> {
     }
 }
 
-/// How far a node goes, over the way to its least energy.
+/// Over-relaxed way of a node, over the way to its minimum.
 #[inline(always)]
 fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: Vec3x8<S>) -> f32x8<S> {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
@@ -164,7 +164,7 @@ fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: V
     one + share.min(short).max(zero).min(one) * material.relaxation
 }
 
-/// The way to where an energy is least without obstacles, and its second derivative; with what draws it to its target.
+/// The way to the minimum of an energy without obstacles, and its Hessian, with the target of the node.
 #[inline(always)]
 pub(super) fn least<S: Simd>(
     simd: S,
@@ -182,10 +182,11 @@ pub(super) fn least<S: Simd>(
     (product(&inverse, pull), Quadratic { stiffness, inverse })
 }
 
-/// Points a way on, rounded up or down by chance, in proportion to what is lost.
+/// Adds a way to points with stochastic rounding: up or down with a probability in proportion to the remainder.
 ///
-/// What bends a long bar moves single nodes by less than half of the last digit of their places. Rounded to the nearest, they would stay where they
-/// are, and the bar short of its equilibrium by 1e-4 of its length. The chance is what the way has beyond a few thousandths of that digit.
+/// The forces that bend a long bar move single nodes by less than half of the last digit of their positions. Rounded to the
+/// nearest, the nodes would stay in place, and the bar 1e-4 of its length short of its equilibrium. The random number is the
+/// remainder of the way beyond a few thousandths of that digit.
 #[inline(always)]
 fn moved<S: Simd>(simd: S, points: Vec3x8<S>, way: Vec3x8<S>) -> Vec3x8<S> {
     let (half, least) = (lanes::splat(simd, 0.5), lanes::splat(simd, LEAST));

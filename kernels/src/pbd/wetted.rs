@@ -1,13 +1,13 @@
-//! The energy of one node where material is softer and larger at rest as it becomes wet.
+//! Energy of one node where wet material is softer and larger at rest.
 //!
-//! A tet has the mean w of the wetness of its nodes, and is one with another edge and other constants:
+//! A tet has the mean w of the wetness of its nodes, which changes its edge and its constants:
 //!
 //! ```text
 //! a -> a s,   mu -> mu c,   lambda -> lambda c,   s = 1 + swelling w,   c = 1 - softening w
 //! ```
 //!
-//! The energy per volume at rest is that of swollen material at rest, so that Young's modulus is what it says of it too. Of the
-//! terms of `descent.rs` then `G` changes by `1 / s^2`, `J` by `1 / s^3`, `a mu / 12` by `s c`, and what is viscous by `c / s`.
+//! The energy per volume at rest is that of swollen material at rest, so that Young's modulus refers to it. Of the terms of
+//! `descent.rs` then `G` changes by `1 / s^2`, `J` by `1 / s^3`, `a mu / 12` by `s c`, and viscous terms by `c / s`.
 
 use crate::{
     columns::Columns,
@@ -20,7 +20,7 @@ use crate::{
     vector::{Vec3x8, cross, dot, minus, plus, times},
 };
 
-/// What makes material wet; nothing where no sponge changes by it.
+/// Inputs of wet material; empty where no sponge depends on wetness.
 #[derive(Clone, Copy)]
 pub(super) struct Wet<'a> {
     pub(super) wetting: &'a [[f32; 4]],
@@ -36,7 +36,7 @@ impl<'a> Wet<'a> {
     }
 }
 
-/// How wet eight nodes and what surrounds them are, and what that does.
+/// Wetness of eight nodes and their neighbours, and its effect.
 pub(super) struct Wetness<S: Simd> {
     simd: S,
     own: f32x8<S>,
@@ -73,7 +73,7 @@ impl<S: Simd> Wetness<S> {
 }
 
 impl<S: Simd> Star<'_, S> {
-    /// As [`Self::elasticity`], of tets that are not all alike.
+    /// As [`Self::elasticity`], with different constants in each tet.
     #[inline(always)]
     pub(super) fn wetted_elasticity(
         &self,
@@ -114,7 +114,7 @@ impl<S: Simd> Star<'_, S> {
     }
 }
 
-/// Size and stiffness of a tet over those of dry material: what measures and tests need beside the kernels.
+/// Size and stiffness of a tet over those of dry material, for measures and tests.
 #[must_use]
 pub fn of_tet(columns: &Columns, sponge: &SpongeParams, tet: &[u32; 4]) -> (f64, f64) {
     let wetting = &columns.nodes.wetting;

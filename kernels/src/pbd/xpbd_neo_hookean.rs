@@ -1,18 +1,18 @@
 //! Neo-Hookean constraints of the tets, colour by colour \[MM21\].
 //!
-//! With the energy of `pbd::vbd` per tet, and the columns f of the deformation gradient:
+//! With the stable Neo-Hookean energy per tet, and the columns f of the deformation gradient:
 //!
 //! ```text
 //! C_D = |F|,   1 / a_D = mu V,      C_H = J - 1 - mu / lambda,   1 / a_H = lambda V
 //! ((1 + tau / h) G W G^T + diag(a_D, a_H) / h^2) l = -(C + tau / h G (p - x)),   p += W G^T l
 //! ```
 //!
-//! V is the volume that the tet stands for. G holds the gradients of both. Both are far from zero at rest, with forces that cancel, so they must be solved together; and
-//! the multipliers begin at zero, so that more than one sweep a step does not converge to the material: steps must be short
-//! instead.
+//! V is the volume that the tet stands for. G has the gradients of both. Both are far from zero at rest, with forces that
+//! cancel, so that they must be solved together. The multipliers begin at zero, so that more than one sweep per step does
+//! not converge to the material: steps must be short instead.
 //!
 //! With F' the cofactors of F, and g, a the gradients by F and by F' - F, the change is `w (s g + v a)`, where
-//! `s = l_D / |F| + l_H` and `v = l_H`: products of g and a, and s, are as small as the strain.
+//! `s = l_D / |F| + l_H` and `v = l_H`. Products of g and a, and s, are as small as the strain.
 
 use crate::{
     columns::Columns,

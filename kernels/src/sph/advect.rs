@@ -4,9 +4,9 @@
 //! x <- x + h v
 //! ```
 //!
-//! The repulsion is elastic and can be overrun; the clamp cannot, at any speed. A particle that is clamped
-//! loses its speed into the wall. Along axes on which space repeats there is none, and what leaves the box enters it on the
-//! other side.
+//! The repulsion is elastic and a fast particle can pass it; the clamp holds at any speed. A clamped particle loses its
+//! velocity component into the wall. Periodic axes have no walls: a particle that leaves the box enters it on the other
+//! side.
 
 use crate::{
     columns::{Columns, Fluid},

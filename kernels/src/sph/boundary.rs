@@ -1,12 +1,12 @@
-//! Share of walls and bodies in the volume around a particle, at the end of the step.
+//! Boundary volume fraction of walls and bodies around a particle, at the end of the step.
 //!
 //! ```text
 //! lambda(y) = s max(0, 1 - y / R)^6   at the distance y from a surface, added up over surfaces
 //! ```
 //!
-//! A particle of a lattice that begins half a spacing from the surface then has the density of rest, and the pressure of
-//! its neighbours does not push it into the wall: share and slope there are those that `boundary_profile` finds.
-//! Nothing has to be stored on the surface.
+//! The first layer of a lattice, half a spacing from the surface, then has rest density, and the pressure of its neighbours
+//! does not push it into the wall. `boundary_profile` computes the value and slope for that. Nothing is stored on the
+//! surface.
 
 use crate::{
     body::Body,
@@ -24,9 +24,9 @@ declare! {
     reads: [FluidPredicted, BodyStates],
     writes: [FluidBoundary],
     oracle: crate::oracle::incompressible::boundary,
-    // Near the axis of a thin capsule the direction out of it is known less well than the position.
+    // Near the axis of a thin capsule the outward direction is less precise than the position.
     bound: 2e-5,
-    // The sixth power of a distance over the range, a tenth of a millimetre where there are 65 537 particles: 2.6e-5.
+    // The sixth power of a distance over the range, a tenth of a millimetre for 65 537 particles: 2.6e-5.
     twin_bound: 1e-4,
     twin: [pass(NAME, Fluid)],
 }
@@ -38,7 +38,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     fill(cpu, params, &bodies, predicted, boundary);
 }
 
-/// Gradients of the share of walls and bodies \[1/m\], and in w the share \[1\], at the particles as they are now.
+/// Gradients of the boundary volume fraction \[1/m\], and in w the fraction \[1\], at the present positions of the
+/// particles.
 #[must_use]
 pub fn shares(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<[f32; 4]> {
     let mut shares = vec![[0.0; 4]; columns.fluid.position.len()];

@@ -1,4 +1,4 @@
-//! What the change of the pressure gives to the bodies.
+//! Reaction of bodies to the change of the pressure.
 //!
 //! ```text
 //! impulse of a body += m h sum_i dP_i grad lambda_ik   where the body will be at the end of the step
@@ -23,7 +23,7 @@ declare! {
     writes: [BodyFluidWrenches],
     oracle: crate::oracle::incompressible::boundary_reaction,
     bound: 2e-5,
-    // Impulses of either sign, added up in f32 over 65 537 particles, on walls as thin as these are small: 4.9e-5.
+    // Impulses of either sign, summed in f32 over 65 537 particles; on thin walls the sums are small: 4.9e-5.
     twin_bound: 1e-4,
     twin: [pass(NAME, Fluid)],
 }

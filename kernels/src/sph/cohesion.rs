@@ -1,13 +1,13 @@
-//! Surface tension: what an energy of the surface does to the particles.
+//! Surface tension: force on the particles by a surface energy.
 //!
 //! ```text
 //! E = k sum_i V f(e_i),   f' = w
 //! a_i = -dE/dx_i / m = k V^2 / m sum_j (w_i + w_j) grad W_ij
 //! ```
 //!
-//! with the deficits e of `sph::deficit` and their weights w. As the fluid keeps its volume, this energy grows with its
-//! surface alone. Forces are equal and opposite and act along the line between particles, which keeps momentum and angular
-//! momentum; deep inside there are none, so that the fluid stays a fluid there.
+//! with the deficits e of `sph::deficit` and their weights w. The fluid keeps its volume, so that this energy grows with its
+//! surface alone. Forces are equal and opposite and act along the line between particles, which conserves momentum and
+//! angular momentum. Deep inside there are none, so that the fluid stays fluid.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -25,7 +25,7 @@ declare! {
     reads: [FluidPosition, FluidNeighbors, FluidDeficit, FluidAcceleration],
     writes: [FluidAcceleration],
     oracle: crate::oracle::surface::cohesion,
-    // Weights of deficits are a tenth of the sums that they are differences of.
+    // Weights of deficits are a tenth of the sums whose differences they are.
     bound: 1.5e-4,
     twin: [pass(NAME, Fluid)],
 }

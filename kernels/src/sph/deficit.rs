@@ -1,14 +1,14 @@
-//! What particles near the surface of the fluid are short of neighbours, within twice the support radius.
+//! Deficit of neighbours of particles near the surface of the fluid, within twice the support radius.
 //!
 //! ```text
 //! e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 //! ```
 //!
-//! with a kernel of its own, and with the share of walls and bodies in it (`sph::boundary`), so that they are no surface. The noise
-//! of particles deep inside stays below the two per cent. What is written is w, the derivative of the energy density of
-//! `sph::cohesion` by the deficit. With a plain square (w = e) the layers below a surface pull together much harder than
-//! the surface is tense; with this w the energy changes little when they come closer, so that it is that of the surface
-//! alone (docs/pressure-solve.md).
+//! with a smoothing function of its own. The boundary volume fraction (`sph::boundary`) counts as full, so that walls and
+//! bodies are no surface. The noise of particles deep inside stays below the two per cent. The kernel writes w, the
+//! derivative of the energy density of `sph::cohesion` by the deficit. With w = e the layers below a surface attract each
+//! other much more strongly than the surface contracts. With this w the energy hardly depends on their distance, so that it
+//! is that of the surface alone (docs/pressure-solve.md).
 
 use crate::{
     body::Body,
@@ -30,23 +30,23 @@ declare! {
     reads: [FluidPosition, FluidNeighbors, BodyStates],
     writes: [FluidDeficit],
     oracle: crate::oracle::surface::deficit,
-    // Weights of deficits are a tenth of the sums that they are differences of.
+    // Weights of deficits are a tenth of the sums whose differences they are.
     bound: 4e-5,
     twin: [pass(NAME, Fluid)],
 }
 
-/// Share of the neighbourhood above which nothing lacks.
+/// Sum over the neighbourhood above which there is no deficit.
 pub(crate) const FULL: f32 = 0.98;
 
-/// How fast the weight of a deficit falls: with 2.4 the layers below a flat surface pull together least in the continuum, and
-/// 2.5 spreads the periods of drops least.
+/// Slope of the decrease of the weight. In the continuum 2.4 gives the smallest attraction between the layers below a flat
+/// surface; 2.5 gives the smallest spread of the periods of drops.
 const FALL: f64 = 2.5;
 
-/// Weight of what lacks nearly everything, such as a particle alone: positive, so that it is drawn to others.
+/// Weight of particles that lack nearly all neighbours: positive, so that single particles are attracted by others.
 const LEAST: f64 = 0.01;
 
-/// Surface tension of drops that have settled, over that of the layers of a lattice that ends in a plane: measured on eight drops
-/// of 16 to 19 particles across.
+/// Surface tension of settled drops, over that of the layers of a lattice that ends in a plane. Measured on eight drops of
+/// 16 to 19 particles across.
 const SETTLED: f64 = 0.97;
 
 /// Weight of a deficit: the derivative of `energy`.
@@ -58,7 +58,7 @@ pub fn weight(deficit: f64) -> f64 {
 
 /// Energy density of a deficit over the stiffness \[1\].
 fn energy(deficit: f64) -> f64 {
-    // Where the weight has fallen to the least.
+    // The deficit at which the weight reaches its minimum.
     let end = (1.0 + (1.0 - 4.0 * FALL * LEAST).sqrt()) / (2.0 * FALL);
     let e = deficit.min(end);
     e * e * (0.5 - FALL / 3.0 * e) + LEAST * (deficit - e)
@@ -126,7 +126,8 @@ fn weights<S: Simd>(simd: S, deficit: f32x8<S>) -> f32x8<S> {
     select(deficit.simd_gt(lanes::splat(simd, (0.5 / FALL) as f32)), least, falling)
 }
 
-/// Energy density per energy of a deficit \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\].
+/// Stiffness \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\]: energy density over energy of
+/// a deficit.
 #[must_use]
 pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f32 {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
@@ -134,7 +135,7 @@ pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f
     let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
     let mut energies = 0.0;
     for layer in 0..reach {
-        // What lies beyond the outermost layer, and is missing.
+        // Sum beyond the outermost layer, which is missing.
         let mut missing = 0.0;
         for (x, y, z) in (-reach..=reach)
             .flat_map(|x| (layer + 1..=reach).flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))
@@ -160,16 +161,16 @@ mod tests {
             let e = 0.01 * f64::from(index);
             let slope = (energy(e + 1e-6) - energy(e - 1e-6)) / 2e-6;
             assert!((slope - weight(e)).abs() < 1e-6, "{e}: {slope}, {}", weight(e));
-            // The control: a plain square.
+            // Negative control: a square energy.
             assert!((slope - e).abs() > 1e-4, "{e}");
         }
     }
 
-    /// Steepest slope of the pressure that a flat surface needs, over the tension and the square of the radius, with an energy
-    /// and its derivative: `p(z) = integral f'(e(z')) W(z - z') dz' - f(e(z))`, `integral f(e(z)) dz = 1`.
+    /// Largest slope of the pressure that a flat surface needs, over tension and squared radius, for an energy and its
+    /// derivative: `p(z) = integral f'(e(z')) W(z - z') dz' - f(e(z))`, `integral f(e(z)) dz = 1`.
     fn steepest(energy: fn(f64) -> f64, derivative: fn(f64) -> f64) -> f64 {
         let step = 1.0 / f64::from(POINTS);
-        // The kernel over planes, and over all that lies beyond a depth.
+        // The smoothing function integrated over planes, and beyond a depth.
         let depths: Vec<f64> = (0..2 * POINTS).map(|index| (f64::from(index) + 0.5) * step).collect();
         let plane = |z: f64| {
             let rings = depths.iter().filter(|r| **r > z.abs());

@@ -1,4 +1,4 @@
-//! What a pressure solve needs to know of the predicted positions, in one pass over the neighbours.
+//! Coefficients of the pressure solve at the predicted positions, in one pass over the neighbours.
 //!
 //! ```text
 //! c_ij = V (-dW/dr) / r                            grad W_ij = -c_ij x_ij / V
@@ -7,19 +7,19 @@
 //! M_i = h^2 (|B_i|^2 + sum_j |c_ij x_ij|^2) + b e sum_j c_ij    diagonal of the system [BK17, eq. 8]
 //! ```
 //!
-//! A pressure that is higher and lower by turns pushes no particle of a lattice, so that the solve could not answer to a
-//! compression that alternates but by raising such a pressure without end. With
+//! A pressure that alternates from particle to particle exerts no force in a lattice. Without a remedy the solve would
+//! answer an alternating compression by amplifying such a pressure. With
 //!
 //! ```text
 //! w_i = e sum_j c_ij (q_j - q_i)
 //! ```
 //!
-//! of `sph::forces`, and the same of what the solve changes, a compression of `-w_i` is allowed instead: e times the compact
-//! Laplacian of the pressure, beside h^2 times the wide one \[RC83\]. The time in e does not change: an allowance that went
-//! with the step would move the water whenever the step changes. In steps that are short against it the allowance s follows w
-//! with a delay, by a share b in a step, which `sph::predict` has.
+//! of `sph::forces`, and the same of the pressure change, a compression of `-w_i` is permitted. This is e times the compact
+//! Laplacian of the pressure, beside h^2 times the wide one \[RC83\]. The coefficient e does not depend on the step:
+//! otherwise the water would move whenever the step changes. In steps that are short compared with `sqrt(e)` the permitted
+//! compression s follows w with a delay, by a share b per step (`sph::predict`).
 //!
-//! An error of the density is put right at a limited speed: particles that begin on top of each other would fly apart.
+//! A density error is corrected at a limited speed: particles that begin at one place would otherwise fly apart.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -42,7 +42,7 @@ declare! {
     twin: [pass(NAME, Fluid), pass("sph::solve_begin", One)],
 }
 
-/// Least diagonal, over that of a lattice: a lone particle is not moved by its own pressure.
+/// Smallest diagonal, over that of a lattice: its own pressure does not move a lone particle.
 const LEAST_DIAGONAL: f32 = 1.0 / 3.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -61,7 +61,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         ..
     } = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
-    // Where there are sponges, every round of the solve says how far they yield.
+    // With sponges, every iteration of the solve computes the compliance of their material.
     solid_yield.clear();
     factors.resize(predicted.len(), [0.0; 4]);
     pressure_rows.resize(predicted.len(), [0.0; 4]);
@@ -137,7 +137,7 @@ impl Task<'_> {
             }
             let [gx, gy, gz, share] = lanes::load_rows(simd, self.boundary, first + row);
             let own = [own[0] - gx, own[1] - gy, own[2] - gz];
-            // The lists hold the particle itself, which is no pair.
+            // The lists contain the particle itself, which is no pair.
             let rough = (pair_sum - gradient) * prompt;
             let diagonal = (dot(own, own) + others).max(least) * (step * step) + rough;
             let [_, _, _, allowed] = lanes::load_rows(simd, self.acceleration, first + row);
@@ -149,8 +149,8 @@ impl Task<'_> {
     }
 }
 
-/// Sum of `|c_ij x_ij|^2` over the neighbours of a particle in a cubic lattice, the mass of whose particles is such that
-/// it is at rest density \[1/m^2\].
+/// Sum of `|c_ij x_ij|^2` over the neighbours of a particle in a cubic lattice, with particle masses such that it has rest
+/// density \[1/m^2\].
 #[must_use]
 pub fn lattice_diagonal(smoothing: &Wendland, spacing: f32) -> f32 {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));

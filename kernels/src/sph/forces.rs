@@ -6,11 +6,11 @@
 //!         + 10 mu_c / rho_i sum_j V_j (v_j - v_i) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
 //! ```
 //!
-//! All sums are equal and opposite for the two particles of a pair, and the first and the last act along the line between
-//! them, which keeps angular momentum as well.
+//! All sums are equal and opposite for the two particles of a pair. The first and the last act along the line between them,
+//! which conserves angular momentum as well.
 //!
-//! The fourth number of a row is the compression that is allowed for the roughness of the pressure beyond that of water at
-//! rest, over pairs that both have a pressure; `sph::factors` says why:
+//! The fourth lane of the result is the compression that the pressure stabilisation permits (see `sph::factors`). It is that
+//! beyond water at rest, over pairs in which both have a pressure:
 //!
 //! ```text
 //! w_i = e sum_j c_ij (q_j - q_i),   q = P - g . x,   P = rho_0 p / rho^2,   c_ij = V_0 (-dW/dr) / r
@@ -65,7 +65,7 @@ fn chunk<S: Simd>(
     let gravity = vector::splat(simd, params.gravity.to_array());
     let weight = times(gravity, lanes::splat(simd, 1.0 / fluid.rest_density));
     let roughness_scale = pressure_scale * fluid.roughness;
-    // Where pressure is solved for, particles keep their volume, and the row of the velocity carries something else.
+    // With a pressure solve particles keep their volume, and the fourth lane of the velocity has another quantity.
     let is_known = fluid.incompressible.is_some();
     let rest_volume = lanes::splat(simd, fluid.rest_volume());
     for row in (0..acceleration.len()).step_by(LANES) {

@@ -1,4 +1,4 @@
-//! Friction at a surface that the fluid does not slide along; `wall_friction` has the derivation.
+//! Friction at a no-slip surface; `wall_friction` has the derivation.
 
 use crate::{
     lanes::{self, Simd, f32x8, prelude::*},
@@ -6,10 +6,10 @@ use crate::{
     vector::{Vec3x8, dot, minus, times},
 };
 
-/// Least distance over H.
+/// Smallest distance over H.
 const NEAREST: f32 = 0.125;
 
-/// f(y) \[1/s\], whatever the length of the step; by rounding it may be a little below zero at the end of its range.
+/// f(y) \[1/s\], without the limit by the step; by rounding it may be slightly below zero at the end of its range.
 #[inline(always)]
 pub(super) fn friction_rate<S: Simd>(simd: S, fluid: &FluidParams, distance: f32x8<S>) -> f32x8<S> {
     let radius = fluid.smoothing.support_radius;
@@ -23,7 +23,7 @@ pub(super) fn friction_rate<S: Simd>(simd: S, fluid: &FluidParams, distance: f32
     integral * kinematic / q
 }
 
-/// What is left of vectors along a surface.
+/// Components of vectors along a surface.
 #[inline(always)]
 pub(super) fn along<S: Simd>(vector: Vec3x8<S>, normal: Vec3x8<S>) -> Vec3x8<S> {
     minus(vector, times(normal, dot(vector, normal)))

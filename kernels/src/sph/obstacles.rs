@@ -1,4 +1,4 @@
-//! Walls and bodies near particles: the share of the volume around a particle that they have, and what they receive.
+//! Walls and bodies near particles: their boundary volume fraction, and the reactions on them.
 
 use glam::DVec3;
 
@@ -12,12 +12,12 @@ use crate::{
     vector::{Vec3x8, times},
 };
 
-/// The bodies where they will be at the end of the step.
+/// The bodies at the end of the step.
 pub(super) fn at_end(bodies: &[Body], step: f32) -> Vec<Body> {
     bodies.iter().map(|body| body.at_end(step)).collect()
 }
 
-/// Bodies whose bounding ball comes within `range` of the box of the points.
+/// Bodies whose bounding sphere comes within `range` of the box of the points.
 pub(crate) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usize> {
     if bodies.is_empty() {
         return Vec::new();
@@ -35,10 +35,10 @@ pub(crate) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usiz
     (0..bodies.len()).filter(|body| is_near(&bodies[*body])).collect()
 }
 
-/// Depth `1 - y / R` beyond which share and slope do not grow: a particle that a body has swallowed is pushed out, not shot.
+/// Depth `1 - y / R` beyond which fraction and slope do not grow: a particle inside a body is pushed out at a limited speed.
 const DEEPEST: f32 = 1.25;
 
-/// The share of a surface as a function of the distance from it.
+/// The volume fraction of a surface as a function of the distance from it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
     pub(super) range: f32,
@@ -52,7 +52,8 @@ impl Profile {
         Some(Self { range, share })
     }
 
-    /// Share, and its slope into the surface, at a distance; deep under the surface as a quarter of the range below it.
+    /// Volume fraction, and its slope into the surface, at a distance. Deep inside as at a quarter of the range below the
+    /// surface.
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, distance: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         let depth = lanes::splat(simd, 1.0) - distance * (1.0 / self.range);
@@ -64,7 +65,7 @@ impl Profile {
         (fifth * depth * self.share, fifth * (6.0 * self.share / self.range))
     }
 
-    /// Gradient and share of the walls of the container.
+    /// Gradient and volume fraction of the walls of the container.
     #[inline(always)]
     pub(super) fn walls<S: Simd>(self, simd: S, params: &Params, point: Vec3x8<S>) -> [f32x8<S>; 4] {
         let zero = lanes::splat(simd, 0.0);
@@ -79,7 +80,7 @@ impl Profile {
         sum
     }
 
-    /// Gradient and share of a body.
+    /// Gradient and volume fraction of a body.
     #[inline(always)]
     pub(super) fn body<S: Simd>(self, simd: S, body: &Body, point: Vec3x8<S>) -> [f32x8<S>; 4] {
         let placed = Placed::new(simd, body);
@@ -89,7 +90,8 @@ impl Profile {
         [x, y, z, share]
     }
 
-    /// Adds to a wrench what particles of the given pressures give to a body: `m h P grad lambda` each, at the particle.
+    /// Adds to a wrench the impulses of particles of the given pressures on a body: `m h P grad lambda` each, at the
+    /// particle.
     #[inline(always)]
     pub(super) fn react<S: Simd>(
         self,
@@ -128,18 +130,18 @@ pub(super) fn give<S: Simd>(
     }
 }
 
-/// Range over which walls count, and their share at the surface, for a lattice of given spacing that begins half a
-/// spacing from the wall, and the mass of whose particles is such that it is at rest density far from walls.
+/// Range of walls, and their volume fraction at the surface. The lattice of given spacing begins half a spacing from the
+/// wall, and has rest density far from walls.
 ///
-/// With the half-space integral of the kernel in place of this profile, a particle of the first layer would feel the slope
-/// of what its neighbours lack twice, by its own pressure and by theirs, and the wall only once: it would sink into the
-/// wall. So the slope is twice that of what the lattice lacks, and the value the same.
+/// The half-space integral of the smoothing function does not suffice. A pair of particles pushes by both of its pressures,
+/// a wall only by that of the particle. The first layer would sink into the wall. The profile therefore has twice the slope
+/// of the missing lattice, and its value.
 #[must_use]
 pub fn boundary_profile(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
     let reach = (radius / d).ceil() as i32 + 1;
     let full = Wendland::lattice_sum(radius, d);
-    // What lies at and beyond the wall, and how it falls off with the distance.
+    // Sum over the lattice at and beyond the wall, and its slope with the distance.
     let (mut missing, mut slope) = (0.0, 0.0);
     for layer in 1..=reach {
         let y = f64::from(layer) * d;
@@ -154,17 +156,17 @@ pub fn boundary_profile(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     (range as f32, share as f32)
 }
 
-/// What a particle's pressure has to be multiplied by to be the stress that pairs and walls carry, far from walls and in
-/// the first layer beside one: a third of the trace of `sum_j c_ij x_ij x_ij` in a lattice.
+/// Factors from the pressure of a particle to the stress that pairs and walls transmit: far from walls, and in the first
+/// layer beside one. They are a third of the trace of `sum_j c_ij x_ij x_ij` in a lattice.
 ///
-/// The sums of few neighbours are not the integrals that they stand for, and no pairs reach through a wall, so that the
-/// solve holds water with pressures that are a little higher there.
+/// Sums over few neighbours differ from the integrals that they stand for, and no pairs cross a wall. The pressures of the
+/// solve are therefore slightly higher there.
 #[must_use]
 pub fn pressure_moments(smoothing: &Wendland, spacing: f32) -> (f64, f64) {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
     let reach = (radius / d).ceil() as i32;
     let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
-    // Along x, by all pairs and by those that do not reach through a wall across y.
+    // Along x, by all pairs and by those that do not cross a wall across y.
     let (mut full, mut beside) = (0.0, 0.0);
     for (x, y, z) in (-reach..=reach)
         .flat_map(|x| (-reach..=reach).flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))

@@ -1,12 +1,13 @@
-//! End of a round of position based fluids \[MM13\]: particles are moved to where the density is right, and have moved at that speed.
+//! End of an iteration of position based fluids \[MM13\]: moves the particles towards rest density, and their velocities
+//! accordingly.
 //!
 //! ```text
 //! x*_i += h^2 a_i,   v_i += h a_i
 //! ```
 //!
-//! with `h^2 a` the displacement of \[MM13, eq. 12\]: `a` comes from `sph::pressure_acceleration`, with the multipliers of a single relaxed
-//! Jacobi step from zero (`sph::pressure_update`). The next round begins where this one ends, with a new density: no linear system is solved,
-//! and no pressure is remembered.
+//! with the displacement `h^2 a` of \[MM13, eq. 12\]: `a` comes from `sph::pressure_acceleration`, with the multipliers of a
+//! single relaxed Jacobi step from zero (`sph::pressure_update`). The next iteration begins at the new positions, with a new
+//! density. No linear system is solved, and no pressure is stored.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -1,20 +1,20 @@
-//! Where particles would be at the end of the step without a change of their pressure.
+//! Predicted positions of the particles: at the end of the step without a change of their pressure.
 //!
 //! ```text
 //! x*_i = x_i + h v_i, kept inside the walls
 //! ```
 //!
-//! and the compression that the solve for the pressure has to allow them. For the roughness of the pressure that is `w`
-//! (`sph::factors`), but what is allowed at once would be a spring without a damper: where steps are shorter than the time that
-//! sound takes for a spacing, water that is pressed together gives back all it took, and what pushes single particles about has
-//! nothing to set against it. So what is allowed is a state s of the particle that follows w as in a material of Kelvin and
-//! Voigt, with a delay of `8 sqrt(e)`, some times that in which the shortest waves would not swing any more:
+//! and the compression that the pressure solve has to permit. The stabilisation asks for `w` (`sph::factors`). Permitted at
+//! once, that is an undamped spring. In steps shorter than the time in which sound crosses a spacing, compressed water then
+//! returns all energy, and nothing damps single particles. The permitted compression is therefore a state s of the particle.
+//! It follows w as the strain of a Kelvin-Voigt material, with a delay of `8 sqrt(e)`, several times that of critical
+//! damping of the shortest waves:
 //!
 //! ```text
 //! s_next = s + b (w - s),   b = min(1, max(h / (h + 8 sqrt(e)), 0.2 h^2 / e))
 //! ```
 //!
-//! of which the solve knows `s + b (w - s)` from here and changes `b w` itself. At rest s is w, at any step.
+//! The solve uses `s + b (w - s)` and changes `b w` itself. At rest `s = w` for any step.
 
 use crate::{
     column::FAR_ROW,
@@ -66,7 +66,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// Share of the way to w that what is allowed goes in a step.
+/// Share of the difference to w by which the permitted compression changes in a step.
 fn prompt_share(fluid: &FluidParams, step: f32) -> f32 {
     let prompt = fluid.prompt_roughness(step);
     if prompt < fluid.roughness { prompt / fluid.roughness } else { 1.0 }

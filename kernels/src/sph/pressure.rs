@@ -1,14 +1,14 @@
-//! Pressure by an equation of state, not below zero \[MCG03, eq. 12; M94\].
+//! Pressure by an equation of state, at least zero \[MCG03, eq. 12; M94\].
 //!
 //! ```text
 //! linear:  p = c^2 (rho - rho_0)
 //! Tait:    p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)
 //! ```
 //!
-//! Negative pressure at a free surface would make particles clump; there the density is too low only because
-//! half of the neighbours are missing.
+//! Negative pressure at a free surface would make particles clump. The density there is low only because half of the
+//! neighbours are missing.
 //!
-//! Leaves p / rho^2 beside the position and m / rho beside the velocity, where neighbours read them.
+//! Writes p / rho^2 beside the position and m / rho beside the velocity, where neighbours read them.
 
 use crate::{
     columns::{Columns, Fluid, lane},

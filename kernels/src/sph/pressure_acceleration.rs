@@ -1,10 +1,11 @@
-//! One round of a pressure solve: acceleration by what the pressure has changed since the beginning of the step.
+//! Iteration of the pressure solve: acceleration by the change of the pressure since the beginning of the step.
 //!
 //! ```text
 //! a_i = dP_i B_i + sum_j c_ij dP_j x_ij
 //! ```
 //!
-//! and, for the residual, `w_i = a_i . x_i - b e / h^2 dP_i`. Equal and opposite for the two particles of a pair, after any number of rounds.
+//! and, for the residual, `w_i = a_i . x_i - b e / h^2 dP_i`. Equal and opposite for the two particles of a pair, after any
+//! number of iterations.
 
 use crate::{
     columns::{Columns, Fluid},

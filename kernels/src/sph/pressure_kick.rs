@@ -1,4 +1,4 @@
-//! After a pressure solve: velocity by the change of the pressure, and the pressure for the next step.
+//! After the pressure solve: velocity by the change of the pressure, and the pressure for the next step.
 //!
 //! ```text
 //! v_i += h a_i

@@ -1,13 +1,12 @@
-//! One round of a pressure solve: the compression that is left, and how far to go in the next round.
+//! Iteration of the pressure solve: the remaining compression, and the length of the next step along the gradient.
 //!
 //! ```text
 //! r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i + y_i) + b e sum_j c_ij (dP_j - dP_i)
 //! ```
 //!
-//! with what sponges yield, `couple::solid_yield`.
+//! with the compliance y of sponges, `couple::solid_yield`.
 //!
-//! The length of the next step is that of Barzilai and Borwein \[BB88\] in the norm of the diagonal, see
-//! `pressure_solve`.
+//! The step length is that of Barzilai and Borwein \[BB88\] in the norm of the diagonal, see `pressure_solve`.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -66,7 +65,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     pressure_solve.finish_round(count, incompressible);
 }
 
-/// The compression that is left.
+/// The remaining compression.
 #[inline(always)]
 fn chunk<S: Simd>(
     (simd, space): (S, impl Space<S>),

@@ -1,4 +1,4 @@
-//! Where a pressure solve stands: spectral projected gradient, in the norm of the diagonal \[BB88; BMR00\].
+//! State of the pressure solve: spectral projected gradient, in the norm of the diagonal \[BB88; BMR00\].
 //!
 //! ```text
 //! s = P_new - P_old,   y = r_old - r_new
@@ -6,31 +6,29 @@
 //! error = mean of (r > 0 ? r : min(-r, P M))
 //! ```
 //!
-//! The error has two sides: pressure that is too high is one as well, as far as there is pressure that could be less.
-//! Without that side a solve that begins with the pressure of the step before would never notice that it is too high, and
-//! the fluid would gain energy.
+//! The error has two sides: pressure that is too high counts as well, as far as it can fall. Without that side a
+//! warm-started solve would never reduce a pressure that is too high, and the fluid would gain energy.
 //!
-//! The tolerance falls with the speed of the fluid. What is left of an error in one step becomes a velocity, and errors
-//! that are longer than a few spacings are hardly damped below the tolerance: a pool would ring for ever at a speed in
-//! proportion to it.
+//! The tolerance falls with the speed of the fluid. The error that a step leaves becomes a velocity, and waves longer than a
+//! few spacings are hardly damped. With a fixed tolerance a pool would oscillate for ever at a speed in proportion to it.
 
 use crate::columns::lane;
 use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::Incompressible};
 
-/// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
+/// Length of the first step: slightly more than the stability limit of relaxed Jacobi iteration.
 const FIRST_LENGTH: f32 = 0.6;
-/// Mean error over the mean displacement of a step, in spacings, above which the fluid would not come to rest: what is
-/// left of an error becomes a velocity.
+/// Largest mean error over the mean displacement of a step, in spacings, at which the fluid comes to rest: the remaining
+/// error becomes a velocity.
 const ERROR_PER_DISPLACEMENT: f32 = 0.02;
-/// Least tolerance: rounding to f32 leaves no less.
+/// Smallest tolerance: the limit of rounding in f32.
 const LEAST_TOLERANCE: f32 = 1.0e-6;
-/// Range of the length of a step.
+/// Range of the step length.
 const LENGTHS: (f64, f64) = (0.2, 20.0);
 
 /// Sums over the rows of a chunk.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sums {
-    /// Error of the density.
+    /// Density error.
     error: f32,
     /// s.Ms
     change: f32,
@@ -38,12 +36,12 @@ pub struct Sums {
     mixed: f32,
     /// y.(y / M)
     response: f32,
-    /// Square of the pressure over rest density.
+    /// Square of the kinematic pressure.
     pressure: f32,
 }
 
 impl Sums {
-    /// Takes over the compression that is left, and sums up.
+    /// Stores the remaining compression, and sums up.
     pub(super) fn of(rows: &mut [[f32; 4]], left: &[f32]) -> Self {
         let mut sums = Self::default();
         for (row, left) in rows.iter_mut().zip(left) {
@@ -62,7 +60,7 @@ impl Sums {
     }
 }
 
-/// Where a pressure solve stands.
+/// State of the pressure solve.
 #[derive(Clone, Debug, Default)]
 pub struct PressureSolve {
     rounds: u32,
@@ -76,7 +74,7 @@ pub struct PressureSolve {
 }
 
 impl PressureSolve {
-    /// Rounds of this step.
+    /// Iterations of this step.
     #[must_use]
     pub fn rounds(&self) -> u32 {
         self.rounds
@@ -88,7 +86,7 @@ impl PressureSolve {
         self.is_converged
     }
 
-    /// Rounds, whether converged, length of the next step, error, pressure and tolerance.
+    /// Iterations, whether converged, next step length, error, pressure and tolerance.
     #[cfg(test)]
     pub(crate) fn numbers(&self) -> [f64; 6] {
         [
@@ -101,24 +99,24 @@ impl PressureSolve {
         ]
     }
 
-    /// Mean error of the density after the last round, of either sign \[1\].
+    /// Mean density error after the last iteration, of either sign \[1\].
     #[must_use]
     pub fn error(&self) -> f32 {
         self.error
     }
 
-    /// Root of the mean square of the pressure over rest density \[m^2/s^2\].
+    /// Root mean square of the kinematic pressure \[m^2/s^2\].
     #[must_use]
     pub fn pressure(&self) -> f32 {
         self.pressure
     }
 
-    /// Length of the next step along the gradient.
+    /// Next step length along the gradient.
     pub(crate) fn length(&self) -> f32 {
         self.length
     }
 
-    /// What a device keeps of it: length, tolerance, error, pressure (bits of f32), rounds, whether converged.
+    /// Words of the state on a device: step length, tolerance, error, pressure (bits of f32), iterations, whether converged.
     #[cfg(feature = "gpu")]
     pub(crate) fn words(&self) -> [u32; 8] {
         let [length, tolerance, error, pressure] =
@@ -126,7 +124,7 @@ impl PressureSolve {
         [length, tolerance, error, pressure, self.rounds, u32::from(self.is_converged), 0, 0]
     }
 
-    /// Takes over what a device keeps of it; words that are missing change nothing.
+    /// Takes the state from the words of a device; missing words change nothing.
     #[cfg(feature = "gpu")]
     pub(crate) fn take_words(&mut self, words: &[u32]) {
         if let [length, tolerance, error, pressure, rounds, is_converged, ..] = *words {
@@ -142,14 +140,14 @@ impl PressureSolve {
         per_chunk(&mut self.displacements, rows)
     }
 
-    /// Before the first round, once the displacements of `count` particles in the step are known.
+    /// Before the first iteration, with the displacements of `count` particles in the step.
     pub(super) fn begin(&mut self, count: usize, spacing: f32, solve: &Incompressible) {
         let squares: f64 = self.displacements.iter().map(|sum| f64::from(*sum)).sum();
         let displacement = (squares / count.max(1) as f64).sqrt() / f64::from(spacing);
         self.begin_with(displacement as f32, solve);
     }
 
-    /// Before the first round, with the root of the mean square of the displacements in spacings.
+    /// Before the first iteration, with the root mean square of the displacements in spacings.
     pub(crate) fn begin_with(&mut self, displacement: f32, solve: &Incompressible) {
         let tolerance = (displacement * ERROR_PER_DISPLACEMENT).max(LEAST_TOLERANCE);
         self.tolerance = tolerance.min(solve.tolerance);
@@ -162,7 +160,7 @@ impl PressureSolve {
         per_chunk(&mut self.sums, rows)
     }
 
-    /// After a round over `count` particles.
+    /// After an iteration over `count` particles.
     pub(super) fn finish_round(&mut self, count: usize, solve: &Incompressible) {
         let mut total = [0.0; 5];
         for Sums { error, change, mixed, response, pressure } in &self.sums {
@@ -173,7 +171,7 @@ impl PressureSolve {
         self.finish_with(total, count, solve);
     }
 
-    /// After a round over `count` particles, with the sums over all of them.
+    /// After an iteration over `count` particles, with the sums over all of them.
     pub(crate) fn finish_with(
         &mut self,
         [error, change, mixed, response, pressure]: [f64; 5],

@@ -1,13 +1,13 @@
-//! One round of a pressure solve: a step along the projected gradient.
+//! Iteration of the pressure solve: a step along the projected gradient.
 //!
 //! ```text
 //! P_i <- min(max(0, P_i + alpha r_i / M_i), c^2)
 //! ```
 //!
-//! Water that has nowhere to go gives way at a pressure of `rho_0 c^2`, with c ten times the fastest speed that is expected:
-//! the pressure that keeps its density would be infinite.
+//! Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest expected speed: the pressure that keeps
+//! its density would be infinite.
 //!
-//! with `alpha` from `sph::pressure_residual`. Leaves the change since the beginning of the step beside the predicted
+//! with `alpha` from `sph::pressure_residual`. Writes the change since the beginning of the step beside the predicted
 //! position, where neighbours read it.
 
 use crate::{
@@ -26,7 +26,7 @@ declare! {
     twin: [pass(NAME, Fluid)],
 }
 
-/// Speed of sound over the fastest speed that is expected.
+/// Speed of sound over the fastest expected speed.
 const SPEEDS: f32 = 10.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -85,7 +85,7 @@ impl Task<'_> {
         }
     }
 
-    /// Bodies whose bounding ball comes near the box of the points.
+    /// Bodies whose bounding sphere comes near the box of the points.
     #[inline(always)]
     fn near_bodies(&self, points: &[[f32; 4]]) -> Vec<usize> {
         if self.bodies.is_empty() {

@@ -4,7 +4,7 @@
 //! n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1
 //! ```
 //!
-//! Not an exchange between pairs: momentum is kept only on average.
+//! These are no pair forces: momentum is conserved only on average.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -1,10 +1,10 @@
-//! Velocities with which no particle goes through a body in the step (`sweep.rs`).
+//! Limits velocities so that no particle passes a body in the step (`sweep.rs`).
 //!
 //! ```text
 //! v <- v + dq / h,   impulse of the body = -m dq / h
 //! ```
 //!
-//! Pressure keeps particles half a spacing away from what they had time to see coming; this is for what is faster.
+//! Pressure keeps particles half a spacing away from bodies at moderate speeds; this kernel is for faster motion.
 
 use crate::{
     body::{Body, Wrench},
@@ -93,7 +93,7 @@ impl Task<'_> {
                 let mut stored = [[0.0; 4]; LANES];
                 let [vx, vy, vz] = plus(v, change);
                 lanes::store_rows(&mut stored, 0, [vx, vy, vz, w]);
-                // Padding rows lie where a plane may be solid, and must not move.
+                // Padding rows may lie inside a plane, and must not move.
                 let lanes = used.saturating_sub(row).min(LANES);
                 velocity[row..row + lanes].copy_from_slice(&stored[..lanes]);
                 let centre = splat(simd, pair[1].state.position.to_array());

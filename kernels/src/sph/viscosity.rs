@@ -5,8 +5,8 @@
 //!        + 10 mu_c V / rho_0 sum_j (v_i - v_j) . x_ij / (r_ij^2 + 0.0025 H^2) x_ij (-dW/dr) / r_ij
 //! ```
 //!
-//! These are the viscous accelerations of `sph::forces` at rest density, `V = m / rho_0`, with the opposite sign: symmetric, never negative, equal and opposite for the two
-//! particles of a pair.
+//! These are the viscous accelerations of `sph::forces` at rest density, `V = m / rho_0`, with the opposite sign. The matrix
+//! is symmetric positive semidefinite, and the two particles of a pair have opposite contributions.
 
 use crate::{
     lanes::{self, LANES, Simd, f32x8},
@@ -16,7 +16,7 @@ use crate::{
     vector::{Vec3x8, plus, times},
 };
 
-/// `D` with its factors at hand.
+/// `D` with its precomputed factors.
 pub(super) struct Pairs<'a, S: Simd, P: Space<S>> {
     simd: S,
     space: P,
@@ -28,7 +28,7 @@ pub(super) struct Pairs<'a, S: Simd, P: Space<S>> {
 }
 
 impl<'a, S: Simd, P: Space<S>> Pairs<'a, S, P> {
-    /// Over particles at `position`; does nothing where viscosity is explicit.
+    /// Over particles at `position`; zero where viscosity is explicit.
     #[inline(always)]
     pub(super) fn new((simd, space): (S, P), params: &Params, position: &'a [[f32; 4]]) -> Self {
         let fluid = &params.fluid;

@@ -1,5 +1,5 @@
-//! Before the first round of a solve for the implicit viscosity: the residual of the velocities after the kick, and the friction
-//! of walls and bodies.
+//! Before the first iteration of the implicit viscosity: the residual of the velocities after the kick, and the friction of
+//! walls and bodies.
 //!
 //! ```text
 //! (1 + h D) v = v*,   D_i(v) = D_i(pairs) + F_i v_i - g_i
@@ -7,8 +7,8 @@
 //! r_i = p_i = -h D_i(v*),   y_i = 0
 //! ```
 //!
-//! over the surfaces `s` that the fluid does not slide along, with `f` from `sph::wall_friction`, but without its bound by the length of the
-//! step, and the pairs of `viscosity`. `viscosity_solve` says how it goes on.
+//! over the no-slip surfaces `s`, with `f` from `sph::wall_friction`, but without its limit by the step, and the pairs of
+//! `viscosity`. `viscosity_solve` has the iteration.
 
 use crate::{
     body::{Body, Placed},
@@ -65,7 +65,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         with_space!(cpu, params, simd, space =>
             task.chunk((simd, space), first, lists, friction, between, residual, direction));
     });
-    // Lists are filled up with padding rows: those must stay zero.
+    // Padding rows fill up the lists: they must stay zero.
     residual[count..].fill([0.0; 4]);
     direction[count..].fill([0.0; 4]);
     change.fill([0.0; 4]);

@@ -1,12 +1,12 @@
-//! After the last round of a solve for the implicit viscosity: the velocities.
+//! After the last iteration of the implicit viscosity: the velocities.
 //!
 //! ```text
 //! v = v* + y + r
 //! ```
 //!
-//! `v* + y + r = v* - h D(v* + y)` is one step of Richardson's iteration: with it, the particles have lost exactly what each other
-//! and the bodies got (`sph::viscosity_reaction`), whatever is left of the residual. It is left out where the rounds did not
-//! suffice, because only a residual below the tolerance is known to be harmless.
+//! `v* + y + r = v* - h D(v* + y)` is one step of Richardson's iteration. With it the particles lose exactly what other
+//! particles and bodies receive (`sph::viscosity_reaction`), whatever the residual. It is left out where the solve did not
+//! converge, because only a residual below the tolerance is known to be harmless.
 
 use crate::{
     columns::{Columns, Fluid},

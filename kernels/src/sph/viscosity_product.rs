@@ -1,4 +1,4 @@
-//! One round of a solve for the implicit viscosity: the product of its matrix with the direction, and how far to go along it.
+//! Iteration of the implicit viscosity: the product of its matrix with the direction, and the step length along it.
 //!
 //! ```text
 //! q_i = p_i + h (D_i(p) + F_i p_i)
@@ -83,7 +83,7 @@ fn chunk<S: Simd>(
     }
 }
 
-/// The sums of a chunk that choose the length of the step and the next direction.
+/// The sums of a chunk for the step length and the next direction.
 fn add_up(product: &[[f32; 4]], direction: &[[f32; 4]], residual: &[[f32; 4]]) -> Sums {
     let mut sums = Sums::default();
     for ((product, direction), residual) in product.iter().zip(direction).zip(residual) {

@@ -1,10 +1,10 @@
-//! What bodies that the fluid does not slide along take from it, where viscosity is implicit.
+//! Reaction of no-slip bodies where viscosity is implicit.
 //!
 //! ```text
 //! impulse = m h sum_i f(y) (v*_i + y_i - v_body)_t
 //! ```
 //!
-//! with `f` from `sph::wall_friction`, whatever the length of the step, and `y` from `viscosity_solve`.
+//! with `f` from `sph::wall_friction`, without its limit by the step, and `y` from `viscosity_solve`.
 
 use crate::{
     body::{Body, Placed, Wrench},

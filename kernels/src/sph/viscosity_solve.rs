@@ -1,4 +1,4 @@
-//! Where the solve for the implicit viscosity stands: conjugate gradients \[HS52\].
+//! State of the solve for the implicit viscosity: conjugate gradients \[HS52\].
 //!
 //! ```text
 //! A = 1 + h D,   A y = -h D v*,   v <- v* + y,   p_0 = r_0 = -h D v*
@@ -7,22 +7,22 @@
 //! beta = -r.Ap / p.Ap,  p <- r + beta p
 //! ```
 //!
-//! with `D` from `sph::viscosity_begin`. The solve looks for the change of the velocity: what is rounded away is in proportion to
-//! that change, and not to the velocity.
+//! with `D` from `sph::viscosity_begin`. The unknown is the change of the velocity: rounding errors are then in proportion
+//! to the change, not to the velocity.
 //!
-//! There is no preconditioner: the diagonal of `D` is nearly the same for all particles inside, and at a surface it is
-//! smaller, which harms nothing. Without one, every change is a sum of products with `D`, and the momentum of the pairs is kept
-//! after any number of rounds.
+//! There is no preconditioner: the diagonal of `D` varies little inside the fluid, and is smaller at a surface, which does
+//! no harm. Without one, every change is a sum of products with `D`, and momentum is conserved after any number of
+//! iterations.
 //!
-//! The solve stops when the residual is below the tolerance times the change, both as roots of mean squares: as every
-//! eigenvalue of `A` is at least one, the error of the velocity is no larger than the residual.
+//! The solve stops when the residual is below the tolerance times the change, both as root mean squares. Every eigenvalue of
+//! `A` is at least one, so that the error of the velocity is at most the residual.
 
 use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::ImplicitViscosity};
 
 /// Sums over the rows of a chunk: `p.Ap, r.p, r.Ap, Ap.Ap` of a product, `r.r, y.y` of an update.
 pub(super) type Sums = [f64; 4];
 
-/// Where a solve for the viscosity stands.
+/// State of the solve for the viscosity.
 #[derive(Clone, Debug, Default)]
 pub struct ViscositySolve {
     rounds: u32,
@@ -36,13 +36,13 @@ pub struct ViscositySolve {
 }
 
 impl ViscositySolve {
-    /// Rounds of this step.
+    /// Iterations of this step.
     #[must_use]
     pub fn rounds(&self) -> u32 {
         self.rounds
     }
 
-    /// Whether no further round is needed, or allowed.
+    /// Whether no further iteration is needed, or allowed.
     #[must_use]
     pub fn is_converged(&self) -> bool {
         self.is_converged
@@ -54,19 +54,19 @@ impl ViscositySolve {
         self.is_solved
     }
 
-    /// Root of the mean square of what is left of the equation after the last round \[m/s\].
+    /// Root mean square of the residual after the last iteration \[m/s\].
     #[must_use]
     pub fn residual(&self) -> f32 {
         self.residual
     }
 
-    /// Root of the mean square of the change of the velocity by viscosity \[m/s\].
+    /// Root mean square of the change of the velocity by viscosity \[m/s\].
     #[must_use]
     pub fn change(&self) -> f32 {
         self.change
     }
 
-    /// Length of the step along the present direction.
+    /// Step length along the present direction.
     pub(crate) fn length(&self) -> f32 {
         self.length
     }
@@ -76,7 +76,7 @@ impl ViscositySolve {
         self.share
     }
 
-    /// Rounds, whether it has ended, whether by the tolerance, length, share, residual and change.
+    /// Iterations, whether it has ended, whether by the tolerance, step length, share, residual and change.
     #[cfg(test)]
     pub(crate) fn numbers(&self) -> [f64; 7] {
         [
@@ -90,8 +90,8 @@ impl ViscositySolve {
         ]
     }
 
-    /// What a device keeps of it: length, share, residual, change (bits of f32), rounds, whether it has ended, whether by the
-    /// tolerance.
+    /// Words of the state on a device: step length, share, residual, change (bits of f32), iterations, whether it has ended,
+    /// whether by the tolerance.
     #[cfg(feature = "gpu")]
     pub(crate) fn words(&self) -> [u32; 8] {
         let [length, share, residual, change] =
@@ -100,7 +100,7 @@ impl ViscositySolve {
         [length, share, residual, change, self.rounds, converged, solved, 0]
     }
 
-    /// Takes over what a device keeps of it; words that are missing change nothing.
+    /// Takes the state from the words of a device; missing words change nothing.
     #[cfg(feature = "gpu")]
     pub(crate) fn take_words(&mut self, words: &[u32]) {
         if let [length, share, residual, change, rounds, converged, solved, ..] = *words {
@@ -110,7 +110,7 @@ impl ViscositySolve {
         }
     }
 
-    /// Before the first round.
+    /// Before the first iteration.
     pub(crate) fn begin(&mut self) {
         let sums = std::mem::take(&mut self.sums);
         *self = Self { sums, ..Self::default() };
@@ -132,15 +132,15 @@ impl ViscositySolve {
         total
     }
 
-    /// After the product of a round.
+    /// After the product of an iteration.
     pub(super) fn choose(&mut self) {
         self.choose_with(self.total());
     }
 
-    /// After the product of a round, with the sums over all rows.
+    /// After the product of an iteration, with the sums over all rows.
     pub(crate) fn choose_with(&mut self, [curvature, slope, residual_product, product_square]: Sums) {
         (self.length, self.share) = (0.0, 0.0);
-        // There is no direction where nothing moves.
+        // Without motion there is no direction.
         if curvature > 0.0 {
             let length = slope / curvature;
             self.length = length as f32;
@@ -148,13 +148,13 @@ impl ViscositySolve {
         }
     }
 
-    /// After the update of a round over `count` particles.
+    /// After the update of an iteration over `count` particles.
     pub(super) fn finish_round(&mut self, count: usize, implicit: &ImplicitViscosity) {
         let [residual, change, ..] = self.total();
         self.finish_with([residual, change], count, implicit);
     }
 
-    /// After the update of a round over `count` particles, with the sums over all of them.
+    /// After the update of an iteration over `count` particles, with the sums over all of them.
     pub(crate) fn finish_with(
         &mut self,
         [residual, change]: [f64; 2],
@@ -180,7 +180,7 @@ impl ColumnData for ViscositySolve {
             .for_each(|value| visit(value.to_bits()));
     }
     fn poison(&mut self) {
-        // Whether the residual counts is all that is read of it in the end.
+        // In the end only the flag of the tolerance is read.
         (self.rounds, self.is_solved) = (u32::MAX, !self.is_solved);
         (self.length, self.share) = (f32::NAN, f32::NAN);
         (self.residual, self.change) = (f32::NAN, f32::NAN);

@@ -1,4 +1,4 @@
-//! One round of a solve for the implicit viscosity: a step along the direction, and the next direction.
+//! Iteration of the implicit viscosity: a step along the direction, and the next direction.
 //!
 //! ```text
 //! y <- y + alpha p,   r <- r - alpha q,   p <- r + beta p

@@ -1,17 +1,17 @@
-//! Friction of the fluid at walls and bodies that it does not slide along \[MFZ97\].
+//! Friction of the fluid at no-slip walls and bodies \[MFZ97\].
 //!
 //! ```text
 //! a_i -= f(y) (v_i - v_wall)_t,   impulse of a body = m h sum_i f(y) (v_i - v_wall)_t
 //! ```
 //!
-//! The viscosity of `sph::forces` with fluid inside the wall, whose velocity goes on in a straight line through that of the
-//! surface. Its kernel over the half-space at a distance y gives, with q = y / H,
+//! This is the viscosity of `sph::forces` with fluid inside the wall, whose velocity continues linearly through that of the
+//! surface. Integrated over the half-space at a distance y, with q = y / H,
 //!
 //! ```text
 //! f(y) = mu / rho_0 int_{z > y} lap W z / y dV = 90 mu / (rho_0 H y) (1/40 - q^2 / 12 + q^4 / 8 - q^5 / 15)
 //! ```
 //!
-//! but no more than stops the particle in the step, and no more than at an eighth of H.
+//! limited to what stops the particle in the step, and to the value at an eighth of H.
 
 use crate::{
     body::{Body, Placed, Wrench},

@@ -83,7 +83,7 @@ fn what_is_at_rest_stays_at_rest() {
     step(&mut scene, 1);
     let moved = before.iter().zip(places(&scene)).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
     assert!(moved < 1e-5 * EDGES[1], "{moved:.1e} m");
-    // The control: a stretch by a thousandth is answered.
+    // Negative control: a stretch by a thousandth is answered.
     for row in &mut scene.columns.nodes.position {
         (0..3).for_each(|axis| row[axis] *= 1.001);
     }
@@ -156,7 +156,7 @@ fn a_sweep_never_raises_the_energy() {
         last = now;
     }
     assert!(last < 0.1 * first, "{first} J, then {last} J");
-    // The control: one node that is moved away raises it.
+    // Negative control: one node that is moved away raises it.
     scene.columns.nodes.predicted[3][0] += 0.001;
     assert!(energy(&scene) > last * (1.0 + 1e-6));
 }
@@ -191,7 +191,7 @@ fn one_sweep_keeps_momentum_and_angular_momentum() {
         let found = drift(damping, 50, true);
         // Fifty roundings of places of centimetres to f32, over steps of 4 ms.
         assert!(found[0] < 2e-5 && found[1] < 2e-4, "damping {damping}: {found:?}");
-        // The control: what is corrected is worth it.
+        // Negative control: what is corrected is worth it.
         let without = drift(damping, 50, false);
         assert!(without[0] > 1e-2 && without[1] > 1e-2, "damping {damping}: {without:?}");
     }

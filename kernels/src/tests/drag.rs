@@ -68,7 +68,7 @@ fn drag_keeps_momentum_and_loses_energy() {
             last = energy;
         }
     }
-    // The control: a node that is not told of its impulse shows.
+    // Negative control: a node that is not told of its impulse shows.
     let mut scene = wet(1.0);
     let before = motion(&scene);
     let node = scene.columns.rows.nodes / 2;

@@ -72,7 +72,7 @@ fn pressure_and_viscosity_keep_momentum() {
     let gravity = scene.params.gravity.as_dvec3();
     let balance = fluid_balance(&scene, gravity);
     assert!(balance.error() < 1e-6, "{:.1e}", balance.error());
-    // The control: one particle in a thousand that feels double shows.
+    // Negative control: one particle in a thousand that feels double shows.
     let row = &mut scene.columns.fluid.acceleration[500];
     (0..3).for_each(|axis| row[axis] *= 2.0);
     assert!(fluid_balance(&scene, gravity).error() > 1e-5);
@@ -112,7 +112,7 @@ fn suction_and_its_reaction_balance() {
     let balance = suction_balance(1.0);
     assert!(balance.error() < 1e-6, "{:.1e}", balance.error());
     assert!(balance.moment_error() < 1e-6, "{:.1e}", balance.moment_error());
-    // The control: a reaction that is one per cent too weak shows.
+    // Negative control: a reaction that is one per cent too weak shows.
     assert!(suction_balance(0.99).error() > 1e-5);
 }
 
@@ -126,7 +126,7 @@ fn repulsion_pushes_bodies_back() {
     let step = f64::from(scene.params.step);
     (forces.impulse, forces.moment) = (forces.impulse * step, forces.moment * step);
     (forces.magnitude, forces.moment_magnitude) = (forces.magnitude * step, forces.moment_magnitude * step);
-    // The control: without the bodies the sum is far from zero.
+    // Negative control: without the bodies the sum is far from zero.
     assert!(forces.error() > 1e-2 && forces.moment_error() > 1e-2);
     forces.add_wrenches(&scene, &scene.columns.bodies.fluid_wrenches.0);
     assert!(forces.error() < 1e-6, "{:.1e}", forces.error());
@@ -153,7 +153,7 @@ fn contact_pushes_bodies_back() {
                 balance.add(impulse, vector(new));
             }
         }
-        // The control: without the bodies the sum is far from zero.
+        // Negative control: without the bodies the sum is far from zero.
         assert!(balance.error() > 1e-2 && balance.moment_error() > 1e-2);
         balance.add_wrenches(&scene, &scene.columns.bodies.node_wrenches.0);
         // Displacements of a millimetre or less are differences of positions of decimetres.

@@ -170,7 +170,7 @@ fn weights_that_are_forgotten_on_one_side_are_noticed() {
         let errors = errors(kernel, &before.params, &before.columns, &faulty.columns, &oracle);
         let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
         assert!(worst > 10.0 * kernel.bound, "{name} does not notice: {worst:.1e}");
-        // The control: forgotten on both sides, nothing is.
+        // Negative control: forgotten on both sides, nothing is.
         let plain = without_weights(&before);
         let oracle = expected(kernel, &plain);
         let errors =

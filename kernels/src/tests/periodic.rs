@@ -52,7 +52,7 @@ fn a_lattice_that_fills_a_box_that_repeats_has_no_end() {
     let (spread, acceleration) = unevenness(&lattice(FILLED));
     // Rounding of places: 1.2e-6 of the density, and 3.7e-5 of what the pressure does on one side.
     assert!(spread < 4e-6 && acceleration < 1e-4, "{spread:.1e} {acceleration:.1e}");
-    // The control: along one axis it ends.
+    // Negative control: along one axis it ends.
     let (spread, acceleration) = unevenness(&lattice(Options { periodic: [true, true, false], ..FILLED }));
     assert!(spread > 0.1 && acceleration > 0.1, "{spread:.1e} {acceleration:.1e}");
 }
@@ -76,7 +76,7 @@ fn pairs_across_the_sides_of_the_box_keep_momentum() {
         scene.run(&best(), &[name]);
         let acceleration = &mut scene.columns.fluid.acceleration;
         assert!(imbalance(&acceleration[..count]) < 1e-6, "{name}");
-        // The control: one particle of a thousand that feels double.
+        // Negative control: one particle of a thousand that feels double.
         (0..3).for_each(|axis| acceleration[500][axis] *= 2.0);
         assert!(imbalance(&acceleration[..count]) > 1e-5, "{name}");
     }
@@ -131,7 +131,7 @@ fn no_place_of_a_box_that_repeats_is_special() {
         let options = Options { incompressible, ..FILLED };
         let (farthest, slip) = change(options, offset, 0.0);
         assert!(farthest < 1e-4 && slip < 1e-4, "{farthest:.1e} {slip:.1e}");
-        // The control: a particle that is a hundredth of a spacing elsewhere.
+        // Negative control: a particle that is a hundredth of a spacing elsewhere.
         let (farthest, slip) = change(options, offset, 5e-5);
         assert!(farthest > 1e-3 && slip > 1e-3, "{farthest:.1e} {slip:.1e}");
     }

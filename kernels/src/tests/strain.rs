@@ -49,7 +49,7 @@ fn a_lattice_at_rest_stays_put() {
     let mut scene = free();
     let distance = moved(&mut scene);
     assert!(distance < 1e-5 * EDGE, "{:.1e} edges", distance / EDGE);
-    // The control: a stretch by a thousandth is answered.
+    // Negative control: a stretch by a thousandth is answered.
     map(&mut scene, |x| x * 1.001);
     assert!(moved(&mut scene) > 1e-5 * EDGE);
 }

@@ -70,7 +70,7 @@ fn pairs_keep_momentum_after_any_number_of_rounds() {
         let mut motion = solve(&mut scene);
         let error = gained(&scene, &motion, DVec3::ZERO);
         assert!(error < 2e-6, "{rounds} rounds: {error:.1e}");
-        // The control: one particle of a thousand that is ten per cent faster.
+        // Negative control: one particle of a thousand that is ten per cent faster.
         motion[1][500] *= 1.1;
         assert!(gained(&scene, &motion, DVec3::ZERO) > 5e-6);
     }
@@ -87,7 +87,7 @@ fn bodies_take_what_the_fluid_loses() {
         let given = given(&scene, &before);
         let error = gained(&scene, &motion, given);
         assert!(error < 2e-6, "tolerance {tolerance}: {error:.1e}");
-        // The control: bodies that take a thousandth less, which a tolerance would have excused.
+        // Negative control: bodies that take a thousandth less, which a tolerance would have excused.
         assert!(gained(&scene, &motion, 0.999 * given) > 1e-5);
     }
 }

@@ -41,7 +41,7 @@ fn a_swollen_lattice_is_at_rest() {
         let moved = moved
             .map(|(a, b)| (0..3).map(|k| f64::from(a[k] - b[k]).powi(2)).sum::<f64>().sqrt())
             .fold(0.0, f64::max);
-        // The control: what does not swell draws itself together.
+        // Negative control: what does not swell draws itself together.
         assert_eq!(moved < 1e-7, swelling > 0.0, "{moved:.1e} m with a swelling of {swelling}");
     }
 }
@@ -119,7 +119,7 @@ fn a_cycle_of_wetting_loses_energy_and_never_gains_any() {
     // Swaying within the band gives back what it takes.
     let (swaying, scale) = work_of_a_cycle(300.0, 0.0002);
     assert!(swaying.abs() < 0.02 * scale, "{swaying:.2e} J of {scale:.2e}");
-    // The control: a sponge that lets go of water more easily than it takes it is a pump.
+    // Negative control: a sponge that lets go of water more easily than it takes it is a pump.
     let (gained, scale) = work_of_a_cycle(-100.0, way);
     assert!(gained > 0.02 * scale, "{gained:.2e} J of {scale:.2e}");
 }

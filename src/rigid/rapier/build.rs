@@ -1,4 +1,4 @@
-//! What rapier3d is told about bodies and walls.
+//! Bodies and walls as rapier3d takes them.
 
 use super::super::hull::check_hull;
 use super::super::mass::principal_moments;
@@ -7,7 +7,7 @@ use glam::Vec3;
 use rapier3d::parry::mass_properties::MassProperties as RapierMass;
 use rapier3d::prelude::{FrictionModel, IntegrationParameters, Real, SharedShape, SpringCoefficients};
 
-/// Speed limit that rapier3d would enforce silently; a body that fast is caught as diverged instead.
+/// Speed limit that rapier3d would apply silently; a body that fast is reported as diverged instead.
 const NO_SPEED_LIMIT: Real = Real::MAX;
 
 /// Fastest push out of a penetration \[m/s\], rapier3d's default at the scale of a metre.
@@ -36,7 +36,7 @@ pub(super) fn parameters(bodies: &[BodySetup]) -> IntegrationParameters {
     }
 }
 
-/// Roughly the smallest extent \[m\].
+/// Approximate smallest extent \[m\].
 fn thickness(shape: &Shape) -> f32 {
     match shape {
         Shape::Plane => f32::INFINITY,

@@ -12,23 +12,23 @@ use rapier3d::prelude::{
 };
 use std::fmt;
 
-/// Most rapier3d steps in one step.
+/// Largest number of rapier3d steps in one step.
 const MOST_PASSES: f32 = 32.0;
 
-/// How far along its path a body looks for contacts \[m\], at most one step's way.
+/// Distance along its path in which a body looks for contacts \[m\], at most the path of one step.
 ///
-/// The sweep of rapier3d knows no half-spaces: without this a ball of 60 m/s sank 0.5 m into the floor.
+/// The swept test of rapier3d ignores half-spaces: without this a ball of 60 m/s sank 0.5 m into the floor.
 const LOOK_AHEAD: Real = 1e3;
 
 /// Bodies moved by rapier3d: dynamic, fixed and kinematic.
 ///
-/// One step is one rapier3d step of four solver sub-steps, in which a free body follows `v += g h; x += v h`
-/// with `h = dt / 4`. Where a body would move by more than the thickness of the thinnest dynamic body, the
-/// step is cut into equal rapier3d steps, 32 at most, so that fast bodies stop at a wall instead of inside it.
+/// One step is one rapier3d step of four solver sub-steps, in which a free body follows `v += g h; x += v h` with
+/// `h = dt / 4`. Where a body would move by more than the thickness of the thinnest dynamic body, the step is divided into
+/// equal rapier3d steps, 32 at most. Fast bodies then stop at a wall instead of inside it.
 ///
-/// Gyroscopic forces are on, rapier3d's sleep and contact recycling are off, speed and spin have no limit. Lengths are
-/// scaled to the thinnest dynamic body: rapier3d's defaults (contacts predicted 2 cm ahead) are made for bodies
-/// of a metre.
+/// Gyroscopic forces are on. Sleep and contact recycling of rapier3d are off. Speed and spin have no limit. Lengths are
+/// scaled to the thinnest dynamic body, because the defaults of rapier3d (contacts predicted 2 cm ahead) suit bodies of a
+/// metre.
 pub struct RapierEngine {
     gravity: Vec3,
     names: Vec<String>,
@@ -37,7 +37,7 @@ pub struct RapierEngine {
     /// For fixed and kinematic bodies.
     scripts: Vec<Option<Script>>,
     states: Vec<BodyState>,
-    /// Velocity and angular velocity that a body that is held goes on with.
+    /// Velocity and angular velocity that a held body continues with.
     held: Vec<Option<[Vec3; 2]>>,
     time: f64,
     parameters: IntegrationParameters,
@@ -58,7 +58,7 @@ impl RapierEngine {
     ///
     /// # Errors
     /// A value out of its range, a key that does not fit the kind of the body, an unusable hull, a container
-    /// without inside, or a dynamic body that starts with its centre outside it.
+    /// without interior, or a dynamic body that starts with its centre outside it.
     pub fn new(
         gravity: Vec3,
         container: Option<(Vec3, Vec3)>,
@@ -108,7 +108,7 @@ impl RapierEngine {
                 if !bound.is_finite() {
                     continue;
                 }
-                // One times the body's coefficient is the body's own.
+                // The product with a coefficient of one is the body's own coefficient.
                 let wall = ColliderBuilder::new(SharedShape::halfspace(normal))
                     .translation(axis * bound)
                     .friction(1.0)
@@ -129,7 +129,7 @@ impl RapierEngine {
                 .linvel(state.linear_velocity)
                 .angvel(state.angular_velocity)
                 .gyroscopic_forces_enabled(true)
-                // The default clips the spin, which would break the balance of angular momentum.
+                // The default limits the spin, which would break the conservation of angular momentum.
                 .allow_fast_rotation(true)
                 .soft_ccd_prediction(LOOK_AHEAD)
                 .ccd_enabled(true),
@@ -182,10 +182,10 @@ impl RapierEngine {
         }
     }
 
-    /// Number of rapier3d steps that keep every way below the thickness of the thinnest dynamic body.
+    /// Number of rapier3d steps that keep every path below the thickness of the thinnest dynamic body.
     ///
-    /// Contacts are predicted along the way, but a body that reaches several walls in one step needs more
-    /// than one look at them.
+    /// Contacts are predicted along the path, but a body that reaches several walls in one step needs more than one
+    /// prediction.
     fn passes(&self, dt: f32) -> f32 {
         if self.colliders.len() < 2 {
             return 1.0;
@@ -312,7 +312,7 @@ impl RigidEngine for RapierEngine {
                 [Vec3::ZERO; 2]
             }
         };
-        // What rapier3d calls sleep is decided by its own islands, which know neither fluid nor sponges.
+        // rapier3d's sleep follows its own islands, which include neither fluid nor sponges.
         let kind = if is_held { RigidBodyType::KinematicPositionBased } else { RigidBodyType::Dynamic };
         body.set_body_type(kind, true);
         [state.linear_velocity, state.angular_velocity] = velocities;
@@ -343,7 +343,7 @@ impl Clone for RapierEngine {
             bodies: self.bodies.clone(),
             colliders: self.colliders.clone(),
             continuous: self.continuous.clone(),
-            // A work space: rapier3d leaves it out of its own snapshots as well.
+            // Working memory: rapier3d leaves it out of its own snapshots as well.
             pipeline: PhysicsPipeline::new(),
         }
     }

@@ -43,7 +43,7 @@ fn free_fall_follows_the_discrete_formula() {
     let state = engine.state(0);
     assert!((f64::from(state.position.y) - height).abs() < 1e-6, "{} instead of {height}", state.position.y);
     assert!((f64::from(state.linear_velocity.y) - speed).abs() < 1e-5);
-    // One update per step instead of four would be off by far more than the tolerance.
+    // Negative control: one update per step instead of four is off by far more than the tolerance.
     assert!((1.0 - 0.5 * 9.81 * engine.time().powi(2) - height).abs() > 1e-3);
 }
 
@@ -79,7 +79,7 @@ fn an_angular_impulse_changes_the_spin_by_inverse_inertia() {
     let mut engine = engine(Vec3::ZERO, &bodies);
     let kick = DVec3::new(2e-6, -1e-6, 3e-6);
     let inverses: Vec<Mat3> = (0..bodies.len()).map(|index| engine.inverse_inertia(index)).collect();
-    // So short a step that the gyroscopic torque does not count.
+    // The step is so short that the gyroscopic torque does not matter.
     engine
         .step(1e-6, &[Wrench { angular_impulse: kick, ..Wrench::default() }; 4])
         .expect("the wrenches are finite");

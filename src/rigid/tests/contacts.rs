@@ -1,4 +1,4 @@
-//! Bodies that touch: walls, plates, piles, and the same bits every time.
+//! Contacts of bodies: walls, plates, piles, and the same bits every time.
 
 use super::*;
 use crate::rigid::{RapierEngine, convex_hull};
@@ -206,7 +206,7 @@ fn a_body_that_is_held_stays_and_goes_on_with_what_it_had() {
     assert_eq!((engine.state(1), engine.inverse_mass(1)), (held, mass.0));
     (0..2).for_each(|index| engine.hold(index, false));
     assert_eq!(engine.state(1), before);
-    // The control: it falls again, and comes to rest as one does that was let go at once.
+    // Negative control: it falls again, and comes to rest like one that was released at once.
     step(&mut engine, DT, 1);
     assert!(engine.state(1).position.y < before.position.y - 0.008);
     step(&mut engine, DT, 300);

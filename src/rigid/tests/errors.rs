@@ -1,9 +1,9 @@
-//! Every error has a case, and says which body and which key.
+//! Every error has a case, and names the body and the key.
 
 use super::*;
 use crate::rigid::{RigidError, ScriptedEngine};
 
-/// What the engines say to one body that is expected to be refused.
+/// Error of the engines for one body that must be refused.
 fn refusal(setup: &BodySetup) -> RigidError {
     let error = if setup.kind == BodyKind::Dynamic {
         dynamic_refusal(setup)

@@ -1,4 +1,4 @@
-//! Errors that only the engine with dynamic bodies has.
+//! Errors that only an engine with dynamic bodies has.
 
 use super::errors::{assert_bad_steps, assert_value};
 use super::*;

@@ -73,7 +73,7 @@ fn the_velocity_is_the_derivative_of_the_pose() {
     let turned = (after.rotation * before.rotation.inverse()).normalize();
     let spin = turned.xyz() * (2.0 / (2.0 * step));
     assert_close(now.angular_velocity, spin, 1e-3);
-    // The comparison notices a velocity that misses the last motion.
+    // Negative control: the comparison notices a velocity that misses the last motion.
     assert!((now.linear_velocity - Vec3::Y * 0.2).distance(slope) > 0.1);
 }
 

@@ -254,8 +254,8 @@ fn what_repeats_is_longer_than_pairs_reach() {
     fluid(&mut scene).surface_tension = 0.07;
     assert_eq!(scene.problems(), [], "5 cm are more than four times 1 cm");
     fluid(&mut scene).support = 2.75;
-    let text = "`domain.periodic[2]` = true: needs a box that is longer than 0.055 m there, \
-                twice as far as particles feel each other; this one is 0.05 m";
+    let text = "`domain.periodic[2]` = true: needs a box longer than 0.055 m along this axis, \
+    twice the radius of the neighbour search; it is 0.05 m";
     assert_eq!(only(&scene).to_string(), text);
     // Where there are walls, and with the equation of state, the radius is another one.
     assert_eq!(scene.clone().repeating([true, true, false]).problems().len(), 1);
@@ -286,7 +286,7 @@ fn what_repeats_holds_whole_spacings_of_water() {
 #[test]
 fn sponges_do_not_repeat() {
     let message = only(&full().repeating([false, false, true])).to_string();
-    assert!(message.contains("sponges do not repeat"), "{message}");
+    assert!(message.contains("no periodic images"), "{message}");
     assert_eq!(full().repeating([false; 3]).problems(), []);
     let open = Scene::default().repeating([true; 3]);
     assert_eq!(open.periodic(), [false; 3], "an open scene has no length that could repeat");

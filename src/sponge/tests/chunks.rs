@@ -1,7 +1,7 @@
 use super::*;
 use crate::sponge::{COLOR_COUNT, TetChunk, chunks, ellipsoid};
 
-/// What is wrong with the chunks of a colour, if anything.
+/// The fault of the chunks of a colour, if any.
 fn fault(lattice: &Lattice, color: usize, cut: &[TetChunk], target: u32) -> Option<&'static str> {
     let mut next = lattice.color_start[color];
     let mut free = [0; 4];

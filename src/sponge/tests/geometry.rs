@@ -60,7 +60,7 @@ fn a_dyadic_edge_leaves_no_rounding() {
         assert_eq!(rest_error(corners, edge, color / 2), 0.0);
         assert_eq!(volume(corners), edge.powi(3) / 2.0 / 6.0);
     }
-    // Of the nodes that have no pits: those on the faces and below them have more.
+    // Only nodes without pits: those on the faces and below them have more.
     let exact = |node: usize| f64::from(cube.node_tet_count[node]) * edge.powi(3) / 48.0;
     for node in 0..cube.node_count() {
         let ratio = f64::from(cube.node_volume[node]) / exact(node);
@@ -126,7 +126,7 @@ fn an_inner_cell_owns_its_own_volume() {
     }
 }
 
-/// Directed edges of triangles without their partner in the other direction, and the most times one edge is used.
+/// Directed edges of triangles without their partner in the other direction, and the largest number of uses of an edge.
 fn open_edges(triangles: &[[u32; 3]]) -> (usize, usize) {
     let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let mut directed: Vec<[u32; 2]> = edges.collect();

@@ -1,7 +1,7 @@
 use super::*;
 use crate::sponge::{Axis, cylinder, ellipsoid};
 
-/// Whether the tets look the same in the mirror that runs through the middle of the block across an axis.
+/// Whether the tets are symmetric about the middle plane of the block across an axis.
 fn symmetric(lattice: &Lattice, cells: [u32; 3], axis: usize) -> bool {
     let centroids = |mirrored: bool| {
         let mut all: Vec<[i64; 3]> = Vec::new();

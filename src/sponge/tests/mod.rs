@@ -1,4 +1,4 @@
-//! Tests of the lattice: counts are exact integers, every comparison has a control with a planted fault.
+//! Tests of the lattice: counts are exact integers, and every comparison has a negative control with a planted fault.
 
 mod chunks;
 mod counts;
@@ -63,7 +63,7 @@ fn corners(lattice: &Lattice, tet: [u32; 4]) -> [DVec3; 4] {
     tet.map(|node| place(lattice, node))
 }
 
-/// Volume of a tet, negative if it is inside out.
+/// Volume of a tet, negative if it is inverted.
 fn volume([p0, p1, p2, p3]: [DVec3; 4]) -> f64 {
     (p1 - p0).dot((p2 - p0).cross(p3 - p0)) / 6.0
 }

@@ -1,4 +1,4 @@
-//! What the pits of the faces add to tets and nodes.
+//! Additional volume of tets and nodes by pits.
 
 use super::*;
 use crate::sponge::{Axis, cylinder};
@@ -39,7 +39,7 @@ fn a_block_is_as_large_as_its_box() {
         let (weights, volumes) = sums(&built);
         assert!((weights / 12.0 / cells(size) - 1.0).abs() < 1e-7, "weights of {size:?}: {weights}");
         assert!((volumes / cells(size) - 1.0).abs() < 1e-7, "nodes of {size:?}: {volumes}");
-        // The controls: the tets alone, and one pit too few.
+        // Negative controls: the tets alone, and one pit too few.
         assert!(built.tet_count() as f64 / 12.0 / cells(size) < 0.9);
         assert!(((weights - 2.0) / 12.0 / cells(size) - 1.0).abs() > 1e-5);
     }
@@ -65,7 +65,7 @@ fn the_centre_of_the_nodes_is_that_of_the_box_and_their_inertia_near_it() {
             assert!(first.abs() < 1e-6, "{size:?} along {axis}: centre off by {first}");
             let n = f64::from(size[axis]);
             assert!(error.abs() < 1.0 / (n * n), "{size:?} along {axis}: inertia off by {error}");
-            // The control: tets alone have far too little.
+            // Negative control: tets alone have far too little.
             let of_tets =
                 |node: usize| f64::from(built.node_tet_count[node]) * f64::from(EDGE).powi(3) / 48.0;
             assert!(second(&built, size, axis, &of_tets).1 < -0.5 / n);
@@ -132,7 +132,7 @@ fn a_mask_ends_without_pits_and_its_flat_ends_have_theirs() {
 
 #[test]
 fn a_sponge_around_a_body_is_as_large_as_what_the_body_leaves() {
-    // A body that takes up the half of a block beyond a plane of A nodes, or of B nodes.
+    // A body that occupies the half of a block beyond a plane of A nodes, or of B nodes.
     for (plane, size) in [(4.0, 4.0 * 16.0), (3.5, 3.5 * 16.0)] {
         let has_room = move |place: Vec3| 8.0 * place.x <= plane + 1e-3;
         let room = &has_room as &dyn Fn(Vec3) -> bool;
@@ -140,7 +140,7 @@ fn a_sponge_around_a_body_is_as_large_as_what_the_body_leaves() {
         let (weights, volumes) = sums(&built);
         assert!((weights / 12.0 - volumes).abs() < 1e-5);
         assert!((volumes / size - 1.0).abs() < 0.02, "{plane}: {volumes} and not {size}");
-        // The control: the tets alone.
+        // Negative control: the tets alone.
         assert!(built.tet_count() as f64 / 12.0 / size < 0.8);
     }
 }
@@ -158,8 +158,8 @@ fn every_node_and_tet_has_its_share_whatever_the_shape() {
     }
 }
 
-/// Sum of the gradients of a node's shape functions over what its tets stand for, over the square of an edge: what a uniform stress
-/// does to it.
+/// Sum of the gradients of a node's shape functions over the volume that its tets stand for, over the square of an edge: the
+/// force of a uniform stress on it.
 fn pull(built: &Lattice, weight: impl Fn(usize) -> f64) -> Vec<DVec3> {
     let mut pulls = vec![DVec3::ZERO; built.node_count()];
     for (index, &tet) in built.tets.iter().enumerate() {
@@ -189,11 +189,11 @@ fn uniform_stress_leaves_all_in_balance_below_the_faces() {
             inside += 1;
         } else if depths[0] > 0.4 && depths[1] > 1.6 {
             assert!(weighed.length() < 1e-6, "{weighed} at {place}");
-            // The control: what pits lack is missing here.
+            // Negative control: without pits the force is incomplete.
             assert!(plain.length() > 0.3, "{plain} at {place}");
             below += 1;
         } else if depths[0] < 0.1 && depths[1] > 1.6 {
-            // A face takes what acts on it, all of it at its own nodes.
+            // A face takes its whole load, all of it at its own nodes.
             assert!((weighed.length() - 1.0).abs() < 1e-6, "{weighed} at {place}");
             assert!(plain.length() < 0.7);
         }

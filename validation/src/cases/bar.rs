@@ -1,4 +1,4 @@
-//! A bar of sponge along x, held at its ends: what the elastic cases share.
+//! A bar of sponge along x, held at its ends: common parts of the elastic cases.
 
 use sorb::{
     World,
@@ -48,7 +48,7 @@ impl Bar {
         Ok(self.material.applied(&scene, &setting.solvers)?)
     }
 
-    /// A grip on the nodes of a cross-section; it moves if it is given motions.
+    /// A grip on the nodes of a cross-section; it moves if it has motions.
     pub(super) fn grip(&self, name: &str, x: f64, motions: Vec<Motion>) -> Body {
         let size = self.size();
         let half = DVec3::new(0.1 * EDGE, 0.5 * size.y + EDGE, 0.5 * size.z + EDGE).as_vec3();
@@ -72,7 +72,7 @@ impl Bar {
 
 /// Positions of the nodes, mean over the last part of a run \[m\].
 ///
-/// What still swings about the equilibrium drops out of the mean but for its square.
+/// A remaining vibration about the equilibrium cancels in the mean to first order.
 pub(super) fn settled(
     setting: &Setting,
     world: &mut World,
@@ -91,7 +91,7 @@ pub(super) fn settled(
     Ok(sum.into_iter().map(|sum| sum / count).collect())
 }
 
-/// The equilibrium that the tets of a world should reach from about these positions, and how far these are from it.
+/// The equilibrium of the tets of a world, found from these positions, and the error of these positions.
 pub(super) fn against_elements(
     world: &World,
     setting: &Setting,
@@ -104,7 +104,7 @@ pub(super) fn against_elements(
         let more = hold(*rest);
         *held = [0, 1, 2].map(|axis| held[axis] || more[axis]);
     }
-    // What is held is where it is held; a wall holds a node where the node is at rest.
+    // Held nodes are at their held places; a wall holds a node at its place at rest.
     let mut guess = measured.to_vec();
     for ((guess, rest), row) in guess.iter_mut().zip(&model.rest).zip(world.node_positions()) {
         let more = hold(*rest);
@@ -118,7 +118,7 @@ pub(super) fn against_elements(
     Ok((model, reference, figure))
 }
 
-/// A number of cells at the setting's resolution, even, so that the bar has a node on its axis.
+/// An even number of cells at the setting's resolution, so that the bar has a node on its axis.
 pub(super) fn even(setting: &Setting, cells: u32) -> u32 {
     (setting.count(cells) / 2 * 2).max(2)
 }

@@ -1,4 +1,4 @@
-//! A bar that is held at one end sags and swings.
+//! A bar that is held at one end sags and vibrates.
 
 use sorb::glam::{DVec3, UVec3};
 
@@ -43,9 +43,9 @@ fn bar(setting: &Setting, gravity: f64) -> Bar {
 }
 
 fn sag(setting: &Setting) -> Result<Vec<Figure>, Failure> {
-    // Weak gravity, so that the sag is small against the length at any thickness.
+    // Weak gravity, so that the sag is small compared with the length at any thickness.
     let bar = bar(setting, -9.81 / f64::from(bar(setting, 0.0).cells.y));
-    // Where the bar comes to rest does not depend on damping; the mean of what still swings does.
+    // Damping does not change the equilibrium. It improves the mean over a remaining vibration.
     let scene = bar.scene("cantilever", setting)?.with_overrides(["sponges[0].damping=0.02"])?;
     let mut world = setting.world(&scene)?;
     let seconds = setting.pick(10.0, 5.0);
@@ -76,7 +76,7 @@ fn swing(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         let height = mean(end.iter().map(|node| f64::from(world.node_positions()[*node][1])));
         samples.push((world.clock().time, height));
     }
-    // It starts at the top of its swing, about the sag.
+    // It starts at the top of its vibration, whose middle is the sag.
     let level = mean(samples.iter().map(|sample| sample.1));
     let crossings = upward_crossings(&samples, level);
     let [first, .., last] = &crossings[..] else {

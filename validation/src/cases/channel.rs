@@ -1,4 +1,4 @@
-//! Flow between plates that the fluid does not slide along: Poiseuille and Couette.
+//! Flow between no-slip plates: Poiseuille and Couette.
 
 use sorb::{
     World,
@@ -12,15 +12,16 @@ use crate::{
     references::channel::{returning, sheared},
 };
 
-/// Two plates move along a channel without ends.
+/// Two plates move along a periodic channel.
 ///
-/// Where they move the same way, gravity drives as much back as they take along: in a frame that moves with them, a Poiseuille flow.
+/// Where they move the same way, gravity drives as much water back as they move. In a frame that moves with them this is a
+/// Poiseuille flow.
 pub(super) static CASE: Case = Case {
     name: "channel",
-    title: "two plates move along a channel without ends, the same way and opposite ways: velocity of the fluid",
+    title: "two plates move along a periodic channel, the same way and opposite ways: velocity of the fluid",
     source: "Poiseuille: u = U (1 - 6 y (1 - y)); Couette: u = U (2 y - 1)",
     subject: Subject::Water,
-    control: "the fluid slides along the plates",
+    control: "free slip at the plates",
     run,
 };
 
@@ -29,11 +30,11 @@ const PARTICLES: u32 = 40;
 /// Distance of the plates \[m\], and their thickness.
 const GAP: f64 = 0.02;
 const PLATE: f64 = 0.004;
-/// Room between the plates beside what the particles take in a lattice, over that: in a box that is full they jam.
+/// Free width between the plates over that of the lattice of particles: particles jam in a full box.
 const ROOM: f64 = 0.01;
-/// Length of what repeats, over the distance of the plates.
+/// Period along the channel, over the distance of the plates.
 const LENGTH: f64 = 1.0;
-/// Particles across the channel, along the axis in which nothing happens, and which repeats: pairs reach two spacings.
+/// Particles across the channel, along the periodic axis without motion: pairs reach two spacings.
 const LAYERS: f64 = 6.0;
 /// Speed of the plates \[m/s\].
 const SPEED: f64 = 0.02;
@@ -55,10 +56,10 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     ])
 }
 
-/// Error of the velocity along the channel, over the speed of the plates; `lower` is the way of the lower one.
+/// Error of the velocity along the channel, over the speed of the plates; `lower` is the direction of the lower one.
 fn error(setting: &Setting, spacing: f64, lower: f64, profile: fn(f64) -> f64) -> Result<f64, Failure> {
     let mut world = setting.world(&scene(setting, spacing, lower))?;
-    // In the time in which viscosity crosses the channel, what decays slowest falls to e^-9.9, a parabola against the parabola.
+    // In the time in which viscosity crosses the channel, the slowest mode decays by e^-9.9, which leaves the parabola.
     let end = 0.6 * GAP * GAP * DENSITY / VISCOSITY;
     let mut layers = vec![(0.0, 0.0); (GAP / spacing).round() as usize];
     while world.clock().time < end {
@@ -70,7 +71,7 @@ fn error(setting: &Setting, spacing: f64, lower: f64, profile: fn(f64) -> f64) -
     Ok(root_mean_square(layers.into_iter().map(|(sum, count)| sum / count)))
 }
 
-/// Adds up, by layers along the plates, how far particles are from the velocity of their place.
+/// Sums, by layers along the plates, the deviations of particles from the velocity of the profile.
 fn add_deviations(world: &World, profile: fn(f64) -> f64, layers: &mut [(f64, f64)]) {
     let rows = world.particle_positions().iter().zip(world.particle_velocities());
     for (x, v) in rows {
@@ -100,7 +101,8 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
         let body = Body::kinematic(name, shape, Vec3::Y * y as f32, vec![motion]);
         Body { no_slip: !setting.fault, ..body }
     };
-    // What drives a mean velocity of that of the plates back between plates at rest; nothing where they move opposite ways.
+    // Acceleration that drives a mean velocity of that of the plates back, between plates at rest; zero where they move
+    // opposite ways.
     let back = 6.0 * VISCOSITY / DENSITY * SPEED * (1.0 + lower) / (GAP * GAP);
     Scene {
         gravity: Vec3::NEG_X * back as f32,

@@ -1,4 +1,4 @@
-//! A soaked sponge is pushed down in a vessel, and settles as the water leaves it.
+//! A soaked sponge in a vessel is pushed down, and settles as the water leaves it.
 
 use sorb::{
     World,
@@ -17,14 +17,15 @@ use crate::{
 /// Consolidation.
 pub(super) static CASE: Case = Case {
     name: "consolidation",
-    title: "bars push the top of a soaked sponge in a vessel down and hold it, at two permeabilities",
+    title: "bars push down the top of a soaked sponge in a vessel and hold it, at two permeabilities",
     source: "dw/dt = (K M / mu) d2w/dz2 (Terzaghi; stress relaxation as by Mow et al. 1980)",
     subject: Subject::Coupling,
     control: "three times the permeability",
     run,
 };
 
-/// Width of the vessel \[m\], and cells across it at full resolution and in a quick run; the sponge is half as high again.
+/// Width of the vessel \[m\], and cells across it at full resolution and in a quick run; the height of the sponge is 1.5
+/// times the width.
 const WIDTH: f64 = 0.04;
 const ACROSS: (u32, u32) = (6, 4);
 /// Depth of the water above the sponge \[m\].
@@ -36,7 +37,7 @@ const GRAVITY: f64 = 9.81;
 const WATER: f64 = 1000.0;
 /// Time in which the water comes to rest \[s\].
 const FILLS: f64 = 4.0;
-/// Strain in the end, and the share of the duration over which the top moves.
+/// Final strain, and the share of the duration over which the top moves.
 const STRAIN: f64 = 0.04;
 const MOVES: f64 = 0.3;
 
@@ -172,10 +173,11 @@ impl Vessel {
         mean(near.map(|(_, now)| f64::from(now[1])))
     }
 
-    /// What the water bears beyond its own weight, mean over the second layer of cells away from the walls, and what
-    /// it should \[Pa\].
+    /// Pressure of the water above that of its own weight, mean over the second layer of cells away from the walls, and the
+    /// reference \[Pa\].
     ///
-    /// The solver's pressure is that of a unit of volume of water and material, and the material has its share.
+    /// The pressure of the solver is that of a unit of volume of water and material together, and the material bears its
+    /// share.
     fn pressure(&self, world: &World, time: f64) -> Result<(f64, f64), Failure> {
         let level = surface(world, self.half() - self.edge)?;
         let inner = self.half() - self.edge;
@@ -191,7 +193,7 @@ impl Vessel {
     }
 }
 
-/// Root mean square of measured less expected, over the largest that is expected.
+/// Root mean square of measured less reference, over the largest reference.
 fn error(curve: &[(f64, f64)]) -> f64 {
     let largest = curve.iter().map(|point| point.1).fold(0.0, f64::max);
     root_mean_square(curve.iter().map(|(measured, expected)| measured - expected)) / largest

@@ -1,4 +1,4 @@
-//! A column of water collapses, against the film of Martin and Moyce.
+//! A column of water collapses, compared with the film of Martin and Moyce.
 
 use sorb::{
     World,
@@ -34,7 +34,7 @@ const GRAVITY: f64 = 9.81;
 /// Longest time over which the gate may open, in units of `sqrt(a / 2 g)`.
 const GATE: f64 = 0.5;
 
-/// What is seen at one time.
+/// One sample in time.
 struct Sample {
     time: f64,
     /// Position of the front over the base.
@@ -53,7 +53,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         samples.push(Sample::of(&world, spacing));
         density = density.max(world.measures().mean_density_error);
     }
-    // The gate of the experiment takes its time to open, and that is not recorded.
+    // The gate of the experiment opened in a finite time, which is not recorded.
     let fronts: Vec<_> = samples.iter().map(|s| (s.time * (2.0 * GRAVITY / BASE).sqrt(), s.front)).collect();
     let shift = least((0.0, GATE), |shift| front_error(&fronts, shift));
     let heights: Vec<_> = samples
@@ -83,7 +83,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     ])
 }
 
-/// Root mean square error of the front against all times of the table, with the gate's delay.
+/// Root mean square error of the front at all times of the table, with the delay of the gate.
 fn front_error(fronts: &[(f64, f64)], shift: f64) -> f64 {
     root_mean_square(FRONT.iter().map(|(time, front)| interpolated(fronts, time - shift) - front))
 }
@@ -107,8 +107,8 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
 }
 
 impl Sample {
-    /// The front is that of the outermost row of particles across the channel, so that single drops do not count. The
-    /// height is that of the water two spacings from the wall: a film that hangs on the wall is no column.
+    /// The front is that of the outermost row of particles across the channel, so that single drops do not count. The height
+    /// is that of the water two spacings from the wall: a film on the wall is no column.
     fn of(world: &World, spacing: f64) -> Self {
         let mut along: Vec<_> = world.particle_positions().iter().map(|p| f64::from(p[0])).collect();
         along.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! A dam breaks onto a box, against the experiment at MARIN that SPHERIC compares with.
+//! A dam breaks onto a box, compared with the experiment at MARIN of SPHERIC.
 
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ use crate::{
 pub(super) static CASE: Case = Case {
     name: "dam_spheric",
     title: "a dam breaks onto a box: pressure on its face, heights of the water",
-    source: "Kleefsman et al. 2005 (SPHERIC 2), the numbers that the literature quotes",
+    source: "Kleefsman et al. 2005 (SPHERIC 2), values quoted in the literature",
     subject: Subject::Water,
     control: "gravity at two thirds",
     run,
@@ -29,29 +29,29 @@ pub(super) static CASE: Case = Case {
 const LAYERS: u32 = 28;
 /// Gravity that the reference assumes \[m/s^2\].
 const GRAVITY: f64 = 9.81;
-/// Samples of the pressure in a second, each of the step that ends there; steps are no longer, so that hardly one is missed.
+/// Samples of the pressure per second, each of the step that ends there. No step is longer, so that hardly one is missed.
 ///
-/// One run for each: an impact is chance by a fifth, whatever differs, so that figures are means of runs that differ in their steps.
+/// One run for each: impacts scatter by a fifth with any difference, so that figures are means of runs with different steps.
 const RATES: [f64; 4] = [1000.0, 1050.0, 1100.0, 1150.0];
-/// Time of the run \[s\]: the wave that comes back has passed H2.
+/// Duration of the run \[s\]: the returning wave has passed H2.
 const END: f64 = 2.4;
 /// Pressure that counts as arrival, over the peak of the experiment.
 const ARRIVED: f64 = 0.1;
 
-/// Time over which heights are averaged \[s\]: drops that fly past a gauge are no level.
+/// Time over which heights are averaged \[s\]: drops that pass a gauge are no level.
 const SWELL: f64 = 0.1;
 
-/// What is seen at one time.
+/// One sample in time.
 struct Sample {
     time: f64,
-    /// Pressure \[Pa\] within a support radius of the line through P2 across the face of the box: that of the particles there,
-    /// over as many as fit.
+    /// Pressure \[Pa\] within a support radius of the line through P2 across the face of the box: the sum over the particles
+    /// there, over the number that fits.
     pressure: f64,
     /// Heights at H2 and H4 \[m\].
     heights: [f64; 2],
 }
 
-/// What one run gives.
+/// Result of one run.
 struct Outcome {
     window: f64,
     /// Largest pressure over the window, and of single steps \[Pa\].
@@ -106,7 +106,7 @@ fn outcome(setting: &Setting, rate: f64) -> Result<Outcome, Failure> {
         setting.advance(&mut world)?;
         samples.push(Sample::of(&world, spacing));
     }
-    // As long as the front of a dam break (Ritter) needs for the length over which the pressure is averaged.
+    // The time in which the front of a dam break (Ritter) crosses the length over which the pressure is averaged.
     let window = 0.5 * support_radius(&world) / (GRAVITY * DEPTH).sqrt();
     let pressure = |sample: &Sample| around(&samples, sample.time, window, |s| s.pressure);
     let height = |sample: &Sample| around(&samples, sample.time, SWELL, |s| s.heights[0]);

@@ -1,4 +1,4 @@
-//! A drop without gravity: the pressure inside, and how it vibrates.
+//! A drop without gravity: pressure inside and period of oscillation.
 
 use sorb::{
     World,
@@ -15,7 +15,7 @@ use crate::{
 /// A drop of water.
 pub(super) static CASE: Case = Case {
     name: "drop",
-    title: "a drop without gravity: pressure in its middle, and period between long and flat",
+    title: "a drop without gravity: pressure in its middle, and period of its oscillation",
     source: "Laplace, 2 sigma / R; Rayleigh (1879), omega^2 = 8 sigma / (rho R^3)",
     subject: Subject::Water,
     control: "half the surface tension",
@@ -28,7 +28,7 @@ const PARTICLES: u32 = 20;
 const RADIUS: f64 = 0.01;
 const TENSION: f64 = 0.0728;
 const DENSITY: f64 = 1000.0;
-/// How much longer than a ball the drop is that vibrates, over its radius.
+/// Elongation of the oscillating drop along its axis, over the radius of the ball.
 const STRETCH: f64 = 0.1;
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
@@ -36,7 +36,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     Ok(vec![pressure(setting, spacing)?, vibration(setting, spacing)?])
 }
 
-/// Radius of a ball of as much water as the world has \[m\].
+/// Radius of a ball with the volume of the water \[m\].
 fn radius(world: &World, spacing: f64) -> f64 {
     let volume = world.particle_ids().len() as f64 * spacing.powi(3);
     (volume * 0.75 / std::f64::consts::PI).cbrt()
@@ -82,7 +82,7 @@ fn place(row: &[f32; 4]) -> Vec3 {
     Vec3::new(row[0], row[1], row[2])
 }
 
-/// An ellipsoid out of bars of particles along x; longer by `stretch` in that direction, and as large as a ball.
+/// An ellipsoid built from bars of particles along x, with the volume of a ball, longer by `stretch` along x.
 fn scene(setting: &Setting, spacing: f64, stretch: f64) -> Scene {
     let (long, wide) = (RADIUS * (1.0 + stretch), RADIUS / (1.0 + stretch).sqrt());
     let reach = (wide / spacing).ceil() as i32;

@@ -1,4 +1,4 @@
-//! Water and sponge in a duct: what the one-dimensional porous cases share.
+//! Water and sponge in a duct: common parts of the one-dimensional porous cases.
 
 use sorb::{
     World,
@@ -16,7 +16,7 @@ use crate::{
 
 /// Width of the duct \[m\].
 const WIDTH: f64 = 0.04;
-/// The sponge hardly gives way, and weighs enough for steps that the water sets.
+/// A stiff sponge, heavy enough that the water bounds the steps.
 pub(super) const STIFF: Material = Material { young: 5e5, poisson: 0.2, density: 2000.0 };
 
 /// Pores and water of the cases.
@@ -66,8 +66,8 @@ impl Duct {
 
     /// A vertical duct with the sponge across it.
     ///
-    /// The sponge is two cells wider than the duct on each side, which is how far a node reaches, and the walls hold the nodes
-    /// inside them: no water passes between sponge and wall. The container below is wider than the duct.
+    /// The sponge is two cells wider than the duct on each side, which is the reach of a node. The walls hold the nodes
+    /// inside them, so that no water passes between sponge and wall. The container below is wider than the duct.
     pub(super) fn scene(
         &self,
         setting: &Setting,
@@ -84,7 +84,7 @@ impl Duct {
             permeability: pores.permeability as f32,
             porosity: pores.porosity as f32,
             entry_pressure: pores.entry_pressure as f32,
-            // The reference has one capillary pressure, whatever the saturation.
+            // The reference has one capillary pressure at any saturation.
             saturation_gain: 0.0,
             ..Sponge::new("plug", DVec3::new(-half - 2.0 * edge, 0.0, -half - 2.0 * edge).as_vec3())
         };

@@ -15,13 +15,13 @@ use crate::{
 
 /// Floating slabs.
 ///
-/// Half as high as wide: a cube of even density floats upright only below 0.21 and above 0.79 of the density of water.
+/// Half as high as wide: a homogeneous cube floats upright only below 0.21 and above 0.79 of the density of water.
 pub(super) static CASE: Case = Case {
     name: "floating",
     title: "a square slab half as high as wide floats, at five densities",
     source: "draft = L_y rho_b / rho; heave 2 pi sqrt((m + m_a) / (rho g A)), m_a by DNV-RP-C205",
     subject: Subject::Water,
-    control: "the slab half as heavy again",
+    control: "a slab 1.5 times as heavy",
     run,
 };
 
@@ -68,13 +68,13 @@ fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, F
         spacing,
         0.5,
     )];
-    // The lightest slab is less deep than a spacing, and the heaviest one goes under.
+    // The lightest slab has a draft below a spacing, and the heaviest one submerges.
     if !(0.2..0.8).contains(&density) {
         return Ok(figures);
     }
     let settled = mean(heave.iter().rev().take(30).map(|sample| sample.1));
     let crossings = upward_crossings(&heave, settled);
-    // The first fall is not part of a swing: the water beneath settles as well.
+    // The first fall is no part of an oscillation: the water below settles as well.
     let period = match crossings[..] {
         [first, second, ..] => second - first,
         _ => f64::NAN,
@@ -89,7 +89,7 @@ fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, F
     Ok(figures)
 }
 
-/// The slab starts a fifth of its height higher than it floats.
+/// The slab starts a fifth of its height above its draft.
 fn scene(setting: &Setting, density: f64, spacing: f64) -> Scene {
     let half = (0.5 * TANK.0) as f32;
     let minimum = Vec3::new(-half, 0.0, -half);

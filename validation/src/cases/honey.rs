@@ -1,4 +1,4 @@
-//! Two plates start to move in a thick fluid, at steps that explicit viscosity could not take.
+//! Two plates start to move in a viscous fluid, at steps that explicit viscosity could not take.
 
 use sorb::{
     glam::Vec3,
@@ -14,11 +14,11 @@ use crate::{
 /// Shear that spreads from two plates.
 pub(super) static CASE: Case = Case {
     name: "honey",
-    title: "two plates start to move opposite ways in a fluid as thick as honey, at steps 10 and 50 times as long as explicit \
+    title: "two plates start to move opposite ways in a fluid as viscous as honey, at steps 10 and 50 times as long as explicit \
             viscosity allows: velocity half way",
-    source: "Couette flow as it starts: u = U (z + sum 2 (-1)^n / (n pi) sin(n pi z) exp(-n^2 pi^2 nu t / a^2))",
+    source: "starting Couette flow: u = U (z + sum 2 (-1)^n / (n pi) sin(n pi z) exp(-n^2 pi^2 nu t / a^2))",
     subject: Subject::Water,
-    control: "a solve of two rounds",
+    control: "a solve of two iterations",
     run,
 };
 
@@ -29,15 +29,15 @@ const GAP: f64 = 0.02;
 const PLATE: f64 = 0.004;
 /// Half of the length of the channel over the distance of the plates.
 const HALF_LENGTH: f64 = 2.0;
-/// Particles across the channel, along the axis in which nothing happens.
+/// Particles across the channel, along the axis without motion.
 const LAYERS: f64 = 4.0;
-/// Room beside them, over what they take.
+/// Free width beside them, over theirs.
 const ROOM: f64 = 1.0 / 16.0;
 /// Speed of the plates \[m/s\].
 const SPEED: f64 = 0.02;
-/// Time at which the plates start \[s\], twice that in which viscosity crosses half of the gap: before, particles find their places.
+/// Time at which the plates start \[s\], twice that in which viscosity crosses half of the gap: until then particles settle.
 const REST: f64 = 0.02;
-/// Ten thousand times as thick as water.
+/// Ten thousand times that of water.
 const VISCOSITY: f64 = 10.0;
 const DENSITY: f64 = 1000.0;
 
@@ -64,8 +64,8 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     ])
 }
 
-/// Error of the velocity along the channel in its middle at some times, over the speed of the plates, at steps of so many times those
-/// that explicit viscosity may take.
+/// Error of the velocity along the channel in its middle at some times, over the speed of the plates. `factor` is the step
+/// over the longest one of explicit viscosity.
 fn error(setting: &Setting, spacing: f64, factor: f64, times: &[f64]) -> Result<f64, Failure> {
     let support = f64::from(Fluid::default().support) * spacing;
     let kinematic = VISCOSITY / DENSITY;
@@ -113,8 +113,8 @@ fn scene(setting: &Setting, spacing: f64, step: f64) -> Scene {
         let body = Body::kinematic(name, shape, Vec3::Y * y as f32, vec![motion]);
         Body { no_slip: true, ..body }
     };
-    // With room beside it: a box that is full to the brim has no pressure that is right, and into room at its end thick fluid creeps
-    // for longer than all this takes.
+    // With free width beside it. In a full box the pressure has no level, and a viscous fluid creeps into room at its end
+    // for longer than the run.
     Scene {
         gravity: Vec3::ZERO,
         time: Time { frame_rate: (1.0 / step).min(1e4) as f32, maximum_step: step as f32, ..Time::default() },

@@ -66,7 +66,7 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
 
 /// Root mean square error of the pressure over that at the floor, of the particles and of layers a spacing thick.
 ///
-/// What the second lacks of the first is noise between neighbours.
+/// The difference between the two is noise between neighbours.
 fn pressure_errors(world: &World, spacing: f64) -> (f64, f64) {
     let rest_density = world.scene().fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
     let weight = f64::from(rest_density) * GRAVITY;

@@ -1,4 +1,4 @@
-//! A dry sponge drinks, without gravity and out of a bath.
+//! A dry sponge absorbs water, without gravity and from a bath.
 
 use sorb::{
     World,
@@ -16,21 +16,21 @@ use crate::{
 
 /// At constant pressure.
 ///
-/// Water has no tension here, so that the reservoir does not follow by itself what leaves it: a weak acceleration pushes
-/// it after. What stands in the duct presses on the front with its weight, which hardly changes as water moves.
+/// Without tension the reservoir does not follow the water that leaves it: a weak acceleration pushes it. The weight of the
+/// water in the duct adds to the pressure at the front, and hardly changes as water moves.
 pub(super) static WASHBURN: Case = Case {
     name: "washburn",
-    title: "a dry sponge in a duct drinks under constant pressure",
+    title: "a dry sponge in a duct absorbs water under constant pressure",
     source: "h = sqrt(2 K p t / (phi mu)), p = p_e and the push (Lucas, Washburn)",
     subject: Subject::Coupling,
     control: "a third of the entry pressure",
     run: washburn,
 };
 
-/// Out of a bath.
+/// From a bath.
 pub(super) static BATH: Case = Case {
     name: "imbibition",
-    title: "a dry sponge hangs into a bath and drinks, at three permeabilities",
+    title: "a dry sponge hangs into a bath and absorbs water, at three permeabilities",
     source: "phi dz/dt = (K rho g / mu) (H - x) / x with the level of a finite bath; H = p_e / (rho g)",
     subject: Subject::Coupling,
     control: "a third of the entry pressure",

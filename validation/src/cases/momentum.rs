@@ -1,4 +1,4 @@
-//! Water, sponge and a ball meet where nothing acts from outside.
+//! Water, sponge and a ball collide without external forces.
 
 use sorb::{
     World,
@@ -11,8 +11,8 @@ use crate::case::{Case, Failure, Figure, Setting, Subject};
 /// Conservation of momentum.
 pub(super) static CASE: Case = Case {
     name: "momentum",
-    title: "a jet hits a sponge and a ball hits both, nothing acts from outside",
-    source: "momentum is kept",
+    title: "a jet hits a sponge and a ball hits both, without external forces",
+    source: "conservation of momentum",
     subject: Subject::Coupling,
     control: "gravity of 0.1 m/s^2",
     run,
@@ -23,7 +23,7 @@ const ARM: f64 = 0.03;
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut world = setting.world(&scene(setting))?;
-    // The first step fixes what the forces of the state are.
+    // The first step sets the forces of the state.
     world.step()?;
     let first = world.measures();
     let (mut linear, mut angular, mut exchanged) = (0.0_f64, 0.0_f64, 0.0);

@@ -1,4 +1,4 @@
-//! The patch test: where the surface moves affinely, the inside must follow.
+//! The patch test: if the surface moves affinely, the interior must follow.
 
 use sorb::{
     World,
@@ -16,7 +16,7 @@ use crate::{
 /// Patch test.
 pub(super) static CASE: Case = Case {
     name: "patch",
-    title: "every node of the surface is moved affinely, and the inside follows",
+    title: "every node of the surface moves affinely, and the interior follows",
     source: "the affine map itself",
     subject: Subject::Sponge,
     control: "one node of the surface moved by a tenth of an edge",
@@ -83,7 +83,7 @@ fn scene(setting: &Setting, cells: u32) -> Result<Scene, Failure> {
     let lattice = World::new(&bare)?.lattice().clone();
     let mut scene = bare;
     let surface = lattice.node_surface.iter().zip(&lattice.position).filter(|(surface, _)| **surface);
-    // The fault is at a node that the inside hangs on: the one nearest to the centre.
+    // The fault is at a node that the interior is attached to: the one nearest to the centre.
     let distance = |row: &[f32; 4]| row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
     let nearest = surface.clone().map(|(_, row)| distance(row)).fold(f32::INFINITY, f32::min);
     let mut fault = Some(setting.planted(0.0, 0.1 * EDGE));

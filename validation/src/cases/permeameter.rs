@@ -1,4 +1,4 @@
-//! Water sinks through a plug of sponge: Darcy's law with a falling head, and the drag of fast water.
+//! Water seeps through a plug of sponge: Darcy's law with a falling head, and the drag of fast water.
 
 use super::duct::{Duct, pores};
 use crate::{
@@ -20,7 +20,7 @@ pub(super) static CASE: Case = Case {
 /// Length of the plug \[m\], and cells across it at full resolution and in a quick run.
 ///
 /// A face of the plug is as wide as the smoothing of its nodes. Water in the lower half of the lower face seeps without
-/// pressure, as if the plug ended there: too much flows, by a share that the cells set.
+/// pressure, as if the plug ended there. The flow is too large by a share that falls with the number of cells.
 const LENGTH: f64 = 0.04;
 const ACROSS: (u32, u32) = (10, 4);
 /// Height of the water above the plug, and space below it \[m\].
@@ -29,9 +29,9 @@ const BELOW: f64 = 0.05;
 /// Gravity \[m/s^2\].
 const GRAVITY: f64 = 9.81;
 
-/// Permeability \[m^2\] and coefficient at which most of the drag is that of fast water.
+/// Permeability \[m^2\] and Forchheimer coefficient at which most of the drag is inertial.
 const FAST: (f64, f64) = (1e-8, 0.5);
-/// Heads at which its drag is measured, over that at first, and how far around them.
+/// Heads at which its drag is measured, over the initial one, and the range around them.
 const HEADS: [f64; 3] = [0.7, 0.5, 0.3];
 const AROUND: f64 = 0.1;
 
@@ -47,7 +47,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     Ok(figures)
 }
 
-/// Permeability that the head shows as it falls, without drag of fast water.
+/// Permeability by the falling head, without inertial drag.
 fn slow(setting: &Setting, duct: &Duct, permeability: f64) -> Result<f64, Failure> {
     let pores = pores(permeability, 0.0);
     // From four fifths of the head to a quarter of it, so that the start does not matter.
@@ -102,7 +102,7 @@ fn heads(
     scene.sponges[0].forchheimer = forchheimer as f32;
     scene.time.frame_rate = 200.0;
     let mut world = setting.world(&scene)?;
-    // Three times as long as without drag of fast water, or with at the mean head.
+    // Three times as long as without inertial drag, or with it at the mean head.
     let flow = Forchheimer { pores: *pores, coefficient: forchheimer }.flow(GRAVITY, duct.top(), 0.5 * HEAD);
     let limit = 3.0 * (HEAD + duct.top()) / flow;
     let particle = duct.spacing.powi(3) / duct.area();

@@ -1,4 +1,4 @@
-//! Scenes that are left alone come to rest.
+//! Undisturbed scenes come to rest.
 
 use sorb::scene::{Scene, preset, presets};
 
@@ -7,14 +7,14 @@ use crate::case::{Case, Failure, Figure, Setting, Subject};
 /// The scenes that come with the library.
 pub(super) static CASE: Case = Case {
     name: "rest",
-    title: "every scene that comes with the library is left alone for ten seconds",
-    source: "what nothing moves comes to rest",
+    title: "every scene of the library is left undisturbed for ten seconds",
+    source: "rest",
     subject: Subject::Coupling,
-    control: "left alone for a third of a second only",
+    control: "only a third of a second",
     run,
 };
 
-/// Largest speed in the end \[m/s\].
+/// Largest final speed \[m/s\].
 const STILL: f64 = 1e-3;
 /// Factor on the resolution of the scenes.
 const RESOLUTION: f64 = 0.5;

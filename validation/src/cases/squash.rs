@@ -1,4 +1,4 @@
-//! A cube that is pressed to 0.7 of its height between smooth plates.
+//! A cube that is compressed to 0.7 of its height between smooth plates.
 
 use sorb::{
     World,
@@ -16,16 +16,16 @@ use crate::{
 /// Compression far beyond small strain.
 pub(super) static CASE: Case = Case {
     name: "squash",
-    title: "a cube of foam is pressed to 0.7 of its height between smooth plates",
+    title: "a cube of foam is compressed to 0.7 of its height between smooth plates",
     source: "the uniform state of least energy; b = c^-nu, Poisson's ratio of the true strains",
     subject: Subject::Sponge,
-    control: "Poisson's ratio 0.4 for 0.05",
+    control: "Poisson's ratio 0.4 instead of 0.05",
     run,
 };
 
-/// A foam: its struts bend out of the way, so that it hardly bulges.
+/// A foam: its struts buckle, so that it hardly bulges.
 const FOAM: Material = Material { young: 2e4, poisson: 0.05, density: 50.0 };
-/// Height over that at rest; further down the cube buckles.
+/// Height over that at rest; below it the cube buckles.
 const PRESSED: f64 = 0.7;
 /// Time in which the plates close \[s\].
 const MOVES: f64 = 0.5;
@@ -48,7 +48,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     ])
 }
 
-/// Without gravity: nothing but the plates acts on the cube, and they do not hold it sideways.
+/// Without gravity: only the plates act on the cube, and they do not hold it sideways.
 fn scene(cells: u32) -> Scene {
     let half = 0.5 * f64::from(cells) * EDGE;
     let sponge = Sponge {
@@ -73,7 +73,7 @@ fn scene(cells: u32) -> Scene {
     scene.with_sponge(sponge).with_body(plate("low", -1.0)).with_body(plate("high", 1.0))
 }
 
-/// Mean stretch across, of all nodes: the slope of places over places at rest.
+/// Mean transverse stretch of all nodes: the slope of positions over positions at rest.
 fn width(world: &World, places: &[DVec3]) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
     for (rest, place) in world.lattice().position.iter().zip(places) {
@@ -84,7 +84,7 @@ fn width(world: &World, places: &[DVec3]) -> f64 {
     product / square
 }
 
-/// The stretch across at which nothing pulls, found by halves.
+/// The transverse stretch without transverse stress, by bisection.
 fn least_width(energy: &Energy) -> f64 {
     let stress =
         |width: f64| energy.gradient(&DMat3::from_diagonal(DVec3::new(width, PRESSED, width))).x_axis.x;

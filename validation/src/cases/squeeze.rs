@@ -1,4 +1,4 @@
-//! A soaked sponge is pressed to half its height and let go, at four permeabilities.
+//! A soaked sponge is pressed to half its height and released, at four permeabilities.
 
 use sorb::{
     Measures, World,
@@ -11,10 +11,10 @@ use crate::case::{Case, Failure, Figure, Setting, Subject};
 /// Squeeze and release.
 pub(super) static CASE: Case = Case {
     name: "squeeze",
-    title: "a soaked sponge is pressed to half its height and let go, at four permeabilities",
-    source: "a sponge holds no more water than it has pores, and loses what is over",
+    title: "a soaked sponge is pressed to half its height and released, at four permeabilities",
+    source: "a sponge holds at most its pore volume, and loses the excess",
     subject: Subject::Coupling,
-    control: "pores of 0.99 of the volume for 0.9",
+    control: "porosity 0.99 instead of 0.9",
     run,
 };
 

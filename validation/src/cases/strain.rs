@@ -22,17 +22,17 @@ pub(super) static UNIAXIAL: Case = Case {
     title: "a bar is stretched by 5 %, its sides free",
     source: "converged elements on the same tets; F = E A e",
     subject: Subject::Sponge,
-    control: "Poisson's ratio 0.4 for 0.2",
+    control: "Poisson's ratio 0.4 instead of 0.2",
     run: |setting| run(setting, Kind::Uniaxial),
 };
 
 /// Compression between walls.
 pub(super) static CONFINED: Case = Case {
     name: "confined",
-    title: "a bar is pressed by 5 % between smooth walls",
+    title: "a bar is compressed by 5 % between smooth walls",
     source: "converged elements on the same tets; F = M A e, M = lambda + 2 mu",
     subject: Subject::Sponge,
-    control: "Poisson's ratio 0.4 for 0.2",
+    control: "Poisson's ratio 0.4 instead of 0.2",
     run: |setting| run(setting, Kind::Confined),
 };
 
@@ -86,7 +86,7 @@ fn run(setting: &Setting, kind: Kind) -> Result<Vec<Figure>, Failure> {
         Kind::Confined => ("force", "N", FOAM.confined() * area * STRAIN),
         Kind::Torsion => ("torque", "N m", torque(&FOAM, size.y, TURN / size.x)),
     };
-    // The load on the grip by the material that the simulator was given.
+    // The load on the grip by the material of the simulator.
     let given = model.with_energy(Energy::of(&material, &setting.solvers));
     let (expected, found) = (load(&model, &reference), load(&given, &measured));
     Ok(vec![
@@ -120,7 +120,7 @@ fn scene(bar: &Bar, setting: &Setting, kind: Kind) -> Result<Scene, Failure> {
     Ok(scene)
 }
 
-/// What the strained tets ask of the right grip \[N\] or \[N m\].
+/// Load of the strained tets on the right grip \[N\] or \[N m\].
 fn load(bar: &Bar, world: &World, model: &Model, positions: &[DVec3], kind: Kind) -> f64 {
     let forces = model.forces(positions);
     let axis = 0.5 * bar.size();

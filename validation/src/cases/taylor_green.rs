@@ -1,4 +1,4 @@
-//! A vortex in a box decays: what of its decay is viscosity.
+//! Decay of a vortex in a box, compared with that by viscosity.
 
 use sorb::{
     World,
@@ -15,34 +15,34 @@ use crate::{
 /// Taylor and Green's vortex.
 pub(super) static CASE: Case = Case {
     name: "taylor_green",
-    title: "a vortex between walls without friction decays, at a Reynolds number of 100",
-    source: "u falls as exp(-2 nu (pi / L)^2 t) (Taylor and Green 1937)",
+    title: "a vortex between free-slip walls decays, at a Reynolds number of 100",
+    source: "u decays as exp(-2 nu (pi / L)^2 t) (Taylor and Green 1937)",
     subject: Subject::Water,
     control: "a viscosity twice as high",
     run,
 };
 
-/// Side of the square \[m\] and largest speed at first \[m/s\].
+/// Side of the square \[m\] and largest initial speed \[m/s\].
 const SIDE: f64 = 0.1;
 const SPEED: f64 = 0.1;
 /// Side times speed over viscosity.
 const REYNOLDS: f64 = 100.0;
 /// Particles along the side.
 const PARTICLES: u32 = 50;
-/// Layers of particles along the axis in which nothing happens, and which repeats.
+/// Layers of particles along the periodic axis without motion.
 const LAYERS: u32 = 8;
-/// Room beside the layers, over what they take: particles that flow lie less densely than in a lattice. In a box that is full no
-/// pressure is high enough, and the particles jam.
+/// Free width beside the layers, over theirs: flowing particles are less dense than a lattice. In a full box no pressure is
+/// high enough, and the particles jam.
 const ROOM: f64 = 0.07;
-/// Times of the fit, in units of the side over the speed. Before, the lattice that it begins with breaks.
+/// Times of the fit, in units of the side over the speed. Before that, the initial lattice breaks up.
 const FIT: [f64; 2] = [0.5, 2.5];
 
-/// What is seen at one time.
+/// One sample in time.
 struct Sample {
     time: f64,
-    /// Logarithm of the largest speed over that at first.
+    /// Logarithm of the largest speed over the initial one.
     speed: f64,
-    /// Logarithm of the kinetic energy over that at first.
+    /// Logarithm of the kinetic energy over the initial one.
     energy: f64,
 }
 
@@ -99,7 +99,7 @@ fn scene(
         viscosity: setting.planted(1.0, 2.0) * vortex.viscosity as f32 * rest_density,
         viscosity_form,
         artificial_viscosity,
-        // Ten times the largest speed, which the scene does not know.
+        // Ten times the largest speed, which the scene cannot derive.
         sound_speed: Some(10.0 * SPEED as f32),
         blocks: vec![FluidBlock::new(Vec3::ZERO, corner)],
         ..Fluid::default()

@@ -1,4 +1,4 @@
-//! What a sponge does as it becomes wet: it swells, softens, lets water through the worse the less it holds, and keeps water back.
+//! Properties that depend on wetness: swelling, softening, relative permeability, receding capillary pressure.
 
 use sorb::{
     World,
@@ -18,8 +18,8 @@ use crate::{
 /// Swelling.
 pub(super) static SWELLING: Case = Case {
     name: "swelling",
-    title: "a sponge that water carries swells",
-    source: "edges at rest are longer by the swelling of wet material; the volume of the material stays",
+    title: "a sponge that floats in water swells",
+    source: "edges at rest are longer by the swelling; the volume of the material is constant",
     subject: Subject::Coupling,
     control: "half of the swelling",
     run: swelling,
@@ -28,8 +28,8 @@ pub(super) static SWELLING: Case = Case {
 /// Softening.
 pub(super) static SOFTENING: Case = Case {
     name: "softening",
-    title: "a sponge that hangs in still water sags by its weight, softened and not",
-    source: "Young's modulus of wet material is less by the softening, and the sag is inverse to it",
+    title: "a sponge that hangs in still water sags by its weight, with and without softening",
+    source: "the sag is inverse to Young's modulus, which is 1 - softening of that of dry material",
     subject: Subject::Coupling,
     control: "three fifths of the softening",
     run: softening,
@@ -38,7 +38,7 @@ pub(super) static SOFTENING: Case = Case {
 /// Relative permeability.
 pub(super) static DRAINAGE: Case = Case {
     name: "drainage",
-    title: "water that fills a part of the pores seeps down, at three exponents",
+    title: "water that fills a part of the pores seeps down, at three exponents of the relative permeability",
     source: "v = K S^n rho g / (mu phi S) (Darcy, with the relative permeability of Brooks and Corey)",
     subject: Subject::Coupling,
     control: "an exponent that is one less",
@@ -49,9 +49,9 @@ pub(super) static DRAINAGE: Case = Case {
 pub(super) static RECEDING: Case = Case {
     name: "receding",
     title: "a soaked sponge that hangs into a bath drains",
-    source: "the column that is left is p_r / (rho g) high",
+    source: "the remaining column has the height p_r / (rho g)",
     subject: Subject::Coupling,
-    control: "no capillary pressure but the entry pressure",
+    control: "no receding pressure",
     run: receding,
 };
 
@@ -82,7 +82,7 @@ fn run_for(setting: &Setting, world: &mut World, seconds: f64) -> Result<(), Fai
     Ok(())
 }
 
-/// Nothing carries it but the water, as which it weighs as much: its length is its own.
+/// Only the water carries the sponge, which has the density of water: nothing else changes its length.
 fn swelling(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let cells = setting.count(4);
     let (edge, porosity) = (0.04 / f64::from(cells), 0.9);
@@ -128,7 +128,7 @@ fn swelling(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     ])
 }
 
-/// Share of the stiffness that wet material lacks.
+/// Share of the stiffness that wet material loses.
 const SOFTENING_OF_WET: f32 = 0.5;
 /// Mass of the hanging sponge over its volume \[kg/m^3\], and its Young's modulus \[Pa\].
 const HANGING: (f32, f32) = (500.0, 1e4);
@@ -139,7 +139,7 @@ fn softening(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let stiff = sag(setting, young, 0.0)?;
     let softer = sag(setting, young, planted)?;
     let made_softer = sag(setting, young * (1.0 - SOFTENING_OF_WET), 0.0)?;
-    // The water carries what the material displaces.
+    // Less the buoyancy of the material.
     let load = (f64::from(density) - 0.1 * 1000.0) * GRAVITY;
     let expected = 0.5 * load * HANGING_LENGTH * HANGING_LENGTH / f64::from(young);
     Ok(vec![
@@ -152,7 +152,7 @@ fn softening(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 /// Length of the sponge below its hanger \[m\].
 const HANGING_LENGTH: f64 = 0.07;
 
-/// How far the lower end of a sponge in still water sinks \[m\].
+/// Displacement of the lower end of a sponge in still water \[m\].
 fn sag(setting: &Setting, young: f32, softening: f32) -> Result<f64, Failure> {
     let across = setting.count(3);
     let edge = 0.03 / f64::from(across);
@@ -171,7 +171,7 @@ fn sag(setting: &Setting, young: f32, softening: f32) -> Result<f64, Failure> {
         ..Sponge::new("sponge", Vec3::new(-0.015, bottom, -0.015))
     };
     let top = f64::from(bottom) + edge * f64::from(along);
-    // Water goes past the hanger and covers it: what is near the surface of the water is not quite full.
+    // Water passes the hanger and covers it: a sponge near the surface of the water is not quite full.
     let shape = ShapeKind::Cuboid { half_extents: DVec3::new(0.016, 0.1 * edge, 0.016).as_vec3() };
     let hanger = Body { grip: true, ..Body::fixed("hanger", shape, Vec3::Y * top as f32) };
     let scene = in_still_water(sponge, half, top + 0.03).with_body(hanger);
@@ -193,9 +193,9 @@ fn drainage(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     Ok(figures)
 }
 
-/// Part of the pores that is filled at first.
+/// Initial saturation.
 const FILLED: f32 = 0.6;
-/// Time after which water seeps at its own speed, and for which it is looked at \[s\].
+/// Time after which water seeps at its steady speed, and duration of the measurement \[s\].
 const SEEPING: (f64, f64) = (0.04, 0.2);
 
 /// Mean speed of the water in the middle of a sponge that fills a duct.
@@ -248,7 +248,7 @@ fn seeping(setting: &Setting, exponent: u32) -> Result<Figure, Failure> {
     let start = height(&world);
     run_for(setting, &mut world, SEEPING.0 + SEEPING.1)?;
     let speed = (start - height(&world)) / SEEPING.1;
-    // As full as whole numbers of particles make it.
+    // The saturation of whole numbers of particles.
     let rest = world.lattice().rest_volume(0).unwrap_or(f64::NAN);
     let filled = world.measures().water_mass / (pores.density * pores.porosity * rest);
     let full = pores.permeability * pores.density * GRAVITY / (pores.viscosity * pores.porosity);

@@ -60,7 +60,7 @@ impl Freedoms {
 pub(super) struct Factors(Llt<usize, f64>);
 
 impl Factors {
-    /// Stiffness at given positions plus `shift` times the identity; none if that is not positive definite.
+    /// Stiffness at given positions plus `shift` times the identity; none if it is not positive definite.
     pub(super) fn new(
         model: &Model,
         freedoms: &Freedoms,

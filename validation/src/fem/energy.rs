@@ -8,8 +8,8 @@ use crate::solver::{Material, Solvers};
 /// Energy per volume at rest as a function of the deformation gradient F with columns `f_k`, `J = det F`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Energy {
-    /// The constraints of strain based dynamics: half of `M_s` times `sum (|f_k| - 1)^2`, `M_t` times
-    /// `sum (f_k . f_l)^2` and `M_v` times `(J - 1)^2`. The frame is that of the lattice, up to the order and sign of the axes.
+    /// The constraints of strain based dynamics: half of `M_s` times `sum (|f_k| - 1)^2`, `M_t` times `sum (f_k . f_l)^2`
+    /// and `M_v` times `(J - 1)^2`. The frame is that of the lattice, up to order and sign of the axes.
     Strain {
         /// `M_s` \[Pa\].
         stretch: f64,
@@ -18,7 +18,7 @@ pub enum Energy {
         /// `M_v` \[Pa\].
         volume: f64,
     },
-    /// Compressible Neo-Hookean, `mu / 2 (F : F - 3) - mu ln J + l / 2 (J - 1)^2` \[BW08\], where J is no less than a fifth.
+    /// Compressible Neo-Hookean, `mu / 2 (F : F - 3) - mu ln J + l / 2 (J - 1)^2` \[BW08\], where J is at least a fifth.
     Logarithmic {
         /// mu, the shear modulus \[Pa\].
         shear: f64,
@@ -35,12 +35,12 @@ pub enum Energy {
 }
 
 impl Energy {
-    /// The energy that a solver has for a material; equal ones in the limit of small strain.
+    /// The energy of a solver for a material; all are equal in the limit of small strain.
     #[must_use]
     pub fn of(material: &Material, solvers: &Solvers) -> Self {
         let (shear, first) = material.lame();
         match solvers.sponge_name().as_str() {
-            // No less than what scenes allow.
+            // At least the minimum of scenes.
             "sbd" => Self::Strain { stretch: 2.0 * shear, shear, volume: first.max(10.0) },
             "xpbd_neo_hookean" => Self::NeoHookean { shear, volume: first + shear },
             _ => Self::Logarithmic { shear, first },
@@ -238,7 +238,7 @@ mod tests {
         for other in [of("vbd"), of("xpbd_neo_hookean")] {
             let difference = stress(&paper, 1e-6) - stress(&other, 1e-6);
             assert!(size(difference) < 1e-4 * size(stress(&paper, 1e-6)), "{other:?}");
-            // The control: at large strain they differ.
+            // Negative control: at large strain they differ.
             let difference = stress(&paper, 0.3) - stress(&other, 0.3);
             assert!(size(difference) > 0.05 * size(stress(&paper, 0.3)), "{other:?}");
         }

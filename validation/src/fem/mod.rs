@@ -1,8 +1,8 @@
-//! Finite elements on the simulator's own tets, in f64, solved to convergence: what the elastic solvers should reach.
+//! Finite elements on the simulator's own tets, in f64, solved to convergence: the reference of the elastic solvers.
 //!
-//! Linear tets with an energy density of the deformation gradient, lumped masses, and degrees of freedom that are held.
-//! [`Model::equilibrium`] is Newton's method with a sparse Cholesky factorisation (faer) and a line search on the
-//! energy; [`Model::lowest_frequency`] an inverse iteration with the same factors.
+//! Linear tets with an energy density of the deformation gradient, lumped masses, and held degrees of freedom.
+//! [`Model::equilibrium`] is Newton's method with a sparse Cholesky factorisation (faer) and a line search on the energy.
+//! [`Model::lowest_frequency`] is an inverse iteration with the same factors.
 
 mod assembly;
 mod energy;
@@ -31,7 +31,7 @@ pub struct Model {
     pub energy: Energy,
     /// Acceleration that acts on all nodes \[m/s^2\].
     pub gravity: DVec3,
-    /// Which coordinates of a node are held where they are.
+    /// Which coordinates of a node are held.
     pub held: Vec<[bool; 3]>,
     /// Gradients of the shape functions of every tet at rest \[1/m\].
     shapes: Vec<[DVec3; 4]>,
@@ -40,7 +40,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// The sponges of a world as they lie at rest; nodes that bodies grip are held.
+    /// The sponges of a world at rest; nodes in grips are held.
     ///
     /// All sponges must have the same material.
     #[must_use]
@@ -59,7 +59,7 @@ impl Model {
         let held = world.node_positions().iter().map(|row| [row[3] == 0.0; 3]).collect();
         let gravity = world.scene().gravity.as_dvec3();
         let mut model = Self::new(rest, tets, mass, energy, gravity, held);
-        // The constraints of strain based dynamics know the tets alone.
+        // The constraints of strain based dynamics use no tet weights.
         if !matches!(energy, Energy::Strain { .. }) {
             for (volume, weight) in model.volumes.iter_mut().zip(&lattice.tet_weight) {
                 *volume *= f64::from(*weight);
@@ -108,7 +108,7 @@ impl Model {
         sum
     }
 
-    /// Energy of strain and height at given positions \[J\].
+    /// Elastic and potential energy at given positions \[J\].
     #[must_use]
     pub fn potential(&self, positions: &[DVec3]) -> f64 {
         let strain: f64 = (0..self.tets.len())
@@ -119,7 +119,7 @@ impl Model {
     }
 }
 
-/// Root mean square distance of nodes from where they should be, over that of their way there from rest.
+/// Root mean square distance of nodes from their reference positions, over that of their reference displacement.
 #[must_use]
 pub fn displacement_error(rest: &[DVec3], reference: &[DVec3], measured: &[DVec3]) -> f64 {
     let square =

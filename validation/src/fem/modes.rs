@@ -12,10 +12,10 @@ use crate::case::Failure;
 impl Model {
     /// Frequency of the lowest mode that moves along a direction, about given positions \[1/s\].
     ///
-    /// Inverse iteration from a start along that direction: modes that symmetry keeps apart from it do not appear.
+    /// Inverse iteration from a start along that direction: modes that are orthogonal by symmetry do not appear.
     ///
     /// # Errors
-    /// The stiffness is not positive definite, as where nothing is held.
+    /// The stiffness is not positive definite, as without held nodes.
     pub fn lowest_frequency(&self, positions: &[DVec3], along: DVec3) -> Result<f64, Failure> {
         let freedoms = Freedoms::new(self);
         let factors = Factors::new(self, &freedoms, positions, 0.0)?
@@ -26,7 +26,7 @@ impl Model {
         for _ in 0..200 {
             let load: Vec<f64> = mode.iter().zip(&mass).map(|(x, m)| x * m).collect();
             let next = factors.solve(&load);
-            // Rayleigh's quotient with the new mode: its stiffness times itself is the load.
+            // Rayleigh quotient of the new mode: its stiffness times the mode is the load.
             let stiffness: f64 = next.iter().zip(&load).map(|(x, f)| x * f).sum();
             let inertia: f64 = next.iter().zip(&mass).map(|(x, m)| x * x * m).sum();
             let last = std::mem::replace(&mut square, stiffness / inertia);

@@ -9,15 +9,15 @@ use super::{
 };
 use crate::case::Failure;
 
-/// Most iterations.
+/// Largest number of iterations.
 const ITERATIONS: usize = 200;
-/// Force that is left over, relative to those of the first iteration, and to those on held coordinates: a guess may be as good
+/// Largest residual force, relative to those of the first iteration and to those on held coordinates: a guess may be as good
 /// as rounding allows.
 const TOLERANCE: f64 = 1e-10;
 
 impl Model {
-    /// Positions at which all free coordinates are in balance, from a guess whose held coordinates are where they are
-    /// held \[m\].
+    /// Positions at which all free coordinates are in equilibrium \[m\], from a guess whose held coordinates are at their
+    /// held places.
     ///
     /// # Errors
     /// Newton's method does not converge.
@@ -59,7 +59,7 @@ impl Model {
         Err(failure(format!("no equilibrium after {ITERATIONS} iterations")))
     }
 
-    /// Forces on the free coordinates that nothing balances \[N\].
+    /// Residual forces on the free coordinates \[N\].
     fn left_over(&self, freedoms: &Freedoms, positions: &[DVec3]) -> Vec<f64> {
         let mut forces = self.forces(positions);
         for (force, mass) in forces.iter_mut().zip(&self.mass) {

@@ -10,7 +10,7 @@ use super::{Point, front};
 const SIZE: (u32, u32) = (760, 460);
 /// Radius of a mark in pixels.
 const MARK: i32 = 5;
-/// Of the solvers, in the order in which they appear: legible on white, and to those who see no red or no green.
+/// Colours of the solvers, in the order in which they appear: legible on white, also with red-green colour blindness.
 const COLOURS: [RGBColor; 3] = [RGBColor(0, 90, 180), RGBColor(213, 94, 0), RGBColor(0, 130, 90)];
 const FONT: &str = "sans-serif";
 
@@ -26,8 +26,8 @@ pub enum DiagramError {
     Drawing(String),
 }
 
-/// The points of one case as SVG: error over run time, both logarithmic, a colour and a mark for every solver, and
-/// the front as a line, its points numbered as [`front`] has them.
+/// The points of one case as SVG: error over run time, both logarithmic, with a colour and a mark for every solver. The
+/// front is a line whose points have the numbers of [`front`].
 ///
 /// # Errors
 /// [`DiagramError::Nothing`] without a finite point.

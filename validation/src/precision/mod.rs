@@ -1,8 +1,7 @@
-//! Run time against error: what solvers, resolution, sub-steps and iterations cost and give.
+//! Run time against error of solvers, resolutions, steps and iterations.
 //!
-//! [`sweep`] runs the cases with everything that a user would turn to trade precision for time, [`mark_front`] finds
-//! the runs that no other beats in both, and [`recommended`] the fastest run within an error. [`table`], [`diagram`] and
-//! [`page`] show them.
+//! [`sweep`] runs the cases with the settings that trade precision for time. [`mark_front`] finds the Pareto front of run
+//! time and error, and [`recommended`] the fastest run within an error. [`table`], [`diagram`] and [`page`] show them.
 
 mod diagram;
 mod page;
@@ -21,15 +20,15 @@ use crate::{
     solver::{SolverKind, Solvers},
 };
 
-/// Errors that a user may allow, as shares of what is measured.
+/// Allowed errors, as shares of the measured quantity.
 pub const BUDGETS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
 
-/// Short runs are repeated until they have taken this long together \[s\], but no more than [`REPEATS`] times: the
-/// shortest time is the one that other work on the machine disturbed least.
+/// Short runs are repeated until they have taken this long together \[s\], at most [`REPEATS`] times. The shortest time is
+/// the one that other work on the machine disturbed least.
 const REPEATS_FOR: f64 = 2.0;
 const REPEATS: u32 = 3;
 
-/// What begins a change that is no key but a quality.
+/// Prefix of a change that is a quality instead of a key.
 const QUALITY: &str = "quality=";
 
 /// One run.
@@ -45,7 +44,7 @@ pub struct Point {
     pub changes: &'static str,
     /// Root of the mean square of the relative errors of the case's figures; not a number for a run that failed.
     pub error: f64,
-    /// Real time in the simulator \[s\]; that of references and measures does not count.
+    /// Real time in the simulator \[s\], without references and measures.
     pub seconds: f64,
     /// Whether no other run of the case is better in one and at least as good in the other.
     pub on_front: bool,
@@ -54,7 +53,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// What to add to `sorb run SCENE` for it.
+    /// Additional arguments of `sorb run SCENE` for it.
     #[must_use]
     pub fn arguments(&self) -> String {
         let mut words = Vec::new();
@@ -84,13 +83,13 @@ pub fn names() -> Vec<&'static str> {
     SWEEPS.iter().map(|sweep| sweep.case).collect()
 }
 
-/// What the error of a case is; empty for cases that [`sweep`] does not know.
+/// Meaning of the error of a case; empty for cases that [`sweep`] does not know.
 #[must_use]
 pub fn meaning(case: &str) -> &'static str {
     SWEEPS.iter().find(|sweep| sweep.case == case).map_or("", |sweep| sweep.error)
 }
 
-/// Number of runs that [`sweep`] makes.
+/// Number of runs of [`sweep`].
 #[must_use]
 pub fn count(names: &[String], setting: &Setting) -> usize {
     chosen(names).map(|sweep| sweep.runs(setting.quick).len()).sum()
@@ -100,7 +99,7 @@ fn chosen(names: &[String]) -> impl Iterator<Item = &'static Sweep> {
     SWEEPS.iter().filter(|sweep| names.is_empty() || names.iter().any(|name| name == sweep.case))
 }
 
-/// Runs all cases of these names, or all that there are; calls `done` after each run. The fronts are marked.
+/// Runs the named cases, or all of them; calls `done` after each run. The fronts are marked.
 #[must_use]
 pub fn sweep(names: &[String], setting: &Setting, mut done: impl FnMut(&Point)) -> Vec<Point> {
     let mut points = Vec::new();
@@ -178,7 +177,7 @@ fn solvers(names: &str) -> Solvers {
     Solvers { water: find(SolverKind::Water), sponge: find(SolverKind::Sponge) }
 }
 
-/// Marks the points that no other beats.
+/// Marks the Pareto front: points that no other point beats.
 pub fn mark_front(points: &mut [Point]) {
     let all: Vec<(f64, f64)> = points.iter().map(|point| (point.error, point.seconds)).collect();
     for point in points {
@@ -198,7 +197,7 @@ pub fn recommended(points: &[Point], budget: f64) -> Option<&Point> {
     within.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
-/// The front of a case from the fastest point on; the number of a point, from 1, is its label.
+/// The front of a case from the fastest point on; the label of a point is its number, from 1.
 #[must_use]
 pub fn front(points: &[Point]) -> Vec<&Point> {
     let mut front: Vec<_> = points.iter().filter(|point| point.on_front).collect();

@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 
 use super::{BUDGETS, DiagramError, Point, diagram, front, meaning, recommended};
 
-/// Where the figures come from.
+/// Origin of the figures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// Day of the runs, as `2026-01-31`.
     pub date: String,
-    /// Processor, cores and system, and what else it did.
+    /// Processor, cores and system, and other load.
     pub machine: String,
-    /// The command that makes them again.
+    /// The command that reproduces them.
     pub command: String,
 }
 
@@ -20,7 +20,7 @@ const STYLE: &str = "body{font:15px/1.5 sans-serif;max-width:60em;margin:2em aut
     text-align:left}td.number{text-align:right;font-variant-numeric:tabular-nums}tr.front{background:#eef4fb}\
     code{font-size:13px}svg{max-width:100%;height:auto}";
 
-/// The report as HTML, with nothing outside of it: recommendations, and diagram and table of every case.
+/// The report as self-contained HTML: recommendations, and diagram and table of every case.
 ///
 /// # Errors
 /// As [`diagram`]; a case without any error has no diagram, and says so.

@@ -1,11 +1,11 @@
-//! What is swept: everything that a user would turn to trade precision for time, less what changed nothing.
+//! Settings of the sweep: those that trade precision for time, without those that changed nothing.
 
-/// A case, and what to run of it.
+/// The runs of a case.
 pub(super) struct Sweep {
     pub(super) case: &'static str,
-    /// What its error is, in words.
+    /// Meaning of its error, in words.
     pub(super) error: &'static str,
-    /// Beginnings of the names of the figures that count, and what to divide their errors by.
+    /// Prefixes of the names of the figures that count, and the scales of their errors.
     pub(super) figures: &'static [(&'static str, f64)],
     /// Solvers, resolutions, and changes of keys (joined by blanks) to try with them.
     pub(super) variants: &'static [(&'static str, &'static [f64], &'static [&'static str])],
@@ -31,11 +31,11 @@ impl Sweep {
     }
 }
 
-/// The qualities, of which no change is one where scenes keep the defaults.
+/// The qualities; no change stands for the default keys.
 const QUALITIES: &[&str] = &["", "quality=fast", "quality=accurate"];
 
-/// Water in a sponge where runs are short: sweeps of the elastic solve, shorter steps, tolerance of the pressure solve,
-/// and reach of its kernel.
+/// Water in a sponge where runs are short: sweeps of the elastic solve, shorter steps, tolerance of the pressure solve, and
+/// support radius.
 const POROUS: &[&str] = &[
     "",
     "quality=fast",

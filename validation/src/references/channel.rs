@@ -1,7 +1,7 @@
-//! Slow flow between two plates that move, in a channel through which nothing flows on the whole.
+//! Slow flow between two moving plates, in a channel without net flow.
 
-/// Velocity over that of the plates, at a place between them, 0 to 1, where both move the same way: what they drag along comes back
-/// in the middle, a parabola without net flow \[Poiseuille\].
+/// Velocity over that of the plates, at a place between them, 0 to 1, where both move the same way. The return flow in the
+/// middle makes a parabola without net flow \[Poiseuille\].
 #[must_use]
 pub fn returning(place: f64) -> f64 {
     1.0 - 6.0 * place * (1.0 - place)

@@ -2,7 +2,7 @@
 
 use crate::norms::interpolated;
 
-/// A porous block and the water that it drinks.
+/// A porous block and the water that it absorbs.
 #[derive(Clone, Copy, Debug)]
 pub struct Pores {
     /// Permeability \[m^2\].
@@ -18,7 +18,7 @@ pub struct Pores {
 }
 
 impl Pores {
-    /// Way of the front after a time without gravity \[m\]: `sqrt(2 K p_e t / (phi mu))`.
+    /// Position of the front after a time without gravity \[m\]: `sqrt(2 K p_e t / (phi mu))`.
     #[must_use]
     pub fn front(&self, time: f64) -> f64 {
         (2.0 * self.permeability * self.entry_pressure * time / (self.porosity * self.viscosity))
@@ -26,20 +26,20 @@ impl Pores {
             .sqrt()
     }
 
-    /// When the front has come this far without gravity \[s\], the inverse of [`Self::front`].
+    /// Time at which the front reaches a position without gravity \[s\], the inverse of [`Self::front`].
     #[must_use]
     pub fn time(&self, front: f64) -> f64 {
         front * front * self.porosity * self.viscosity / (2.0 * self.permeability * self.entry_pressure)
     }
 
-    /// Height of the front above the level in the end \[m\]: `p_e / (rho g)`.
+    /// Final height of the front above the level \[m\]: `p_e / (rho g)`.
     #[must_use]
     pub fn rise(&self, gravity: f64) -> f64 {
         self.entry_pressure / (self.density * gravity)
     }
 
-    /// Time and height of the front above the level outside \[s, m\] in a bath whose level falls as the block drinks:
-    /// `phi dz/dt = (K rho g / mu) (H - x) / x` with `x = z - level`, and `A_out dlevel = -phi A dz`.
+    /// Time and height of the front above the level outside \[s, m\], in a bath whose level falls as the block absorbs
+    /// water: `phi dz/dt = (K rho g / mu) (H - x) / x` with `x = z - level`, and `A_out dlevel = -phi A dz`.
     ///
     /// `ratio` is `phi A / A_out`; the front starts at the level, after a thousandth of the rise.
     #[must_use]
@@ -64,11 +64,12 @@ impl Pores {
         curve
     }
 
-    /// Permeability that a falling head shows \[m^2\]: the column H, which is the head and the thickness L of the block, falls as
+    /// Permeability by a falling head \[m^2\]. The column H, the sum of the head and the thickness L of the block, decays as
     /// `exp(-a t)`.
     ///
-    /// Slow water has `a = K rho g / (mu L)`. Fast water presses as it is slowed down, and carries momentum out of the block:
-    /// `rho d(q H)/dt = rho g H - mu L q / K - rho q^2 / phi` with `q = a H` is `mu L a / K = rho (g + (2 - 1 / phi) a^2 H)`.
+    /// For slow water `a = K rho g / (mu L)`. Fast water adds its inertia as it slows down, and carries momentum out of the
+    /// block: `rho d(q H)/dt = rho g H - mu L q / K - rho q^2 / phi` with `q = a H` is
+    /// `mu L a / K = rho (g + (2 - 1 / phi) a^2 H)`.
     #[must_use]
     pub fn from_falling_head(&self, gravity: f64, thickness: f64, column: f64, decay: f64) -> f64 {
         let pressed = gravity + (2.0 - 1.0 / self.porosity) * decay * decay * column;
@@ -76,36 +77,35 @@ impl Pores {
     }
 }
 
-/// Drag of fast water in pores after Forchheimer: `-grad p = mu q / K + rho c q^2 / sqrt(K)`, q the volume through an
-/// area and time.
+/// Drag of fast water in pores after Forchheimer: `-grad p = mu q / K + rho c q^2 / sqrt(K)`, with the volume flux q.
 #[derive(Clone, Copy, Debug)]
 pub struct Forchheimer {
     /// The pores.
     pub pores: Pores,
-    /// Forchheimer's coefficient c \[1\].
+    /// Forchheimer coefficient c \[1\].
     pub coefficient: f64,
 }
 
 impl Forchheimer {
-    /// Pressure lost on a way, over the way and the flow \[Pa s/m^2\], at a flow \[m/s\].
+    /// Pressure gradient over the flux \[Pa s/m^2\], at a flux \[m/s\].
     #[must_use]
     pub fn drag(&self, flow: f64) -> f64 {
         let Pores { permeability, viscosity, density, .. } = self.pores;
         viscosity / permeability + density * self.coefficient * flow / permeability.sqrt()
     }
 
-    /// Flow through a block under a column of water of a height, both soaked \[m/s\].
+    /// Flux through a soaked block under a column of water of a height \[m/s\].
     #[must_use]
     pub fn flow(&self, gravity: f64, thickness: f64, head: f64) -> f64 {
         let gradient = self.pores.density * gravity * (head + thickness) / thickness;
         let linear = self.drag(0.0);
         let square = self.drag(1.0) - linear;
-        // The form of the root that holds without the square as well.
+        // A form of the root that also holds without the quadratic term.
         2.0 * gradient / (linear + (linear * linear + 4.0 * square * gradient).sqrt())
     }
 }
 
-/// Root mean square distance of a curve from a reference, over the largest value of the reference on the way; the curve
+/// Root mean square distance of a curve from a reference, over the largest value of the reference in its range. The curve
 /// may start `delay` later.
 #[must_use]
 pub fn curve_error(reference: &[(f64, f64)], curve: &[(f64, f64)], delay: f64) -> f64 {
@@ -162,7 +162,7 @@ mod tests {
             let slow = Forchheimer { coefficient: 0.0, ..fast }.flow(gravity, thickness, head);
             let decay = slow / (head + thickness);
             let found = pores.from_falling_head(gravity, thickness, head + thickness, decay) / 1e-8;
-            // The column presses as it slows down: a lower permeability lets it fall as fast.
+            // The inertia of the decelerating column adds pressure: a lower permeability then has the same decay.
             let inertia = (2.0 - 1.0 / 0.9) * decay * decay * (head + thickness) / gravity;
             assert!((found * (1.0 + inertia) - 1.0).abs() < 1e-12);
             assert!((0.02..0.1).contains(&inertia));

@@ -1,11 +1,11 @@
-//! Bodies that float.
+//! Floating bodies.
 
 use crate::norms::interpolated;
 
 /// Added mass of a square prism in heave over `rho L^3`, by draft over L.
 ///
-/// Half of what the prism and its image above the surface would move: a square plate in open water for no draft
-/// (`C_A = 0.579` of `pi L^3 / 4`), prisms of twice the draft else (`C_A = 0.68` of `L^2 b` at `b = L`, 0.36 at 2 L)
+/// Half of the added mass of the prism and its image above the surface. For zero draft this is a square plate in open water
+/// (`C_A = 0.579` of `pi L^3 / 4`), otherwise a prism of twice the draft (`C_A = 0.68` of `L^2 b` at `b = L`, 0.36 at 2 L)
 /// \[DNV-RP-C205, appendix D\]. Exact for fast heave in deep and wide water; a tank raises it by some per cent.
 const ADDED_MASS: [(f64, f64); 3] = [(0.0, 0.227), (0.5, 0.34), (1.0, 0.36)];
 

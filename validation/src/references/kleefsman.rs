@@ -1,12 +1,12 @@
 //! A dam breaks onto a box: the experiment at MARIN, as K. M. T. Kleefsman et al. describe it (J. Comput. Phys. 206 (2005)
 //! 363), test 2 of SPHERIC.
 //!
-//! The series of the experiment are not in this repository: here is what the literature quotes of them. Axes are
-//! those of the scenes: x along the tank, y up, z across.
+//! The series of the experiment are not in this repository. These are the values that the literature quotes. Axes are those
+//! of the scenes: x along the tank, y up, z across.
 
 /// Size of the tank \[m\].
 pub const TANK: [f64; 3] = [3.22, 1.0, 1.0];
-/// Where the water begins at first, along the tank \[m\]; it ends at the wall.
+/// Initial edge of the water along the tank \[m\]; it ends at the wall.
 pub const DAM: f64 = 1.992;
 /// Its depth \[m\].
 pub const DEPTH: f64 = 0.55;
@@ -20,11 +20,11 @@ pub const H2: f64 = 0.992;
 pub const H4: f64 = 2.638;
 /// Largest pressure at P2 \[Pa\].
 pub const PEAK: f64 = 8127.5;
-/// Earliest and latest time that is quoted for the water's arrival at the box \[s\].
+/// Earliest and latest quoted time of arrival at the box \[s\].
 pub const ARRIVAL: (f64, f64) = (0.40, 0.45);
-/// Lowest and highest value that is quoted for the largest height at H2 \[m\].
+/// Lowest and highest quoted value of the largest height at H2 \[m\].
 pub const HIGHEST: (f64, f64) = (0.30, 0.36);
-/// Height at H4 at first \[m\].
+/// Initial height at H4 \[m\].
 pub const FIRST: f64 = 0.551;
 
 #[cfg(test)]
@@ -38,8 +38,8 @@ mod tests {
         2.0 * (GRAVITY * depth).sqrt()
     }
 
-    /// Whether numbers like these can be: no front is faster than Ritter's, the peak lies between the pressure of the water at
-    /// rest and that of Ritter's front brought to rest, and nothing in the way of the wave is higher than the dam.
+    /// Whether such numbers are possible. No front is faster than Ritter's. The peak lies between the hydrostatic pressure
+    /// and the stagnation pressure of Ritter's front. Without obstacles no wave is higher than the dam.
     fn is_possible(depth: f64, peak: f64, arrival: f64, highest: f64) -> bool {
         let way = DAM - BOX[1][0];
         let stagnation = 500.0 * front(depth).powi(2);

@@ -1,12 +1,12 @@
 //! Shear that spreads from two plates into a fluid at rest.
 
-/// Terms of the series: more than double precision notices after a hundredth of the time in which viscosity crosses half of the gap.
+/// Terms of the series. They reach double precision from a hundredth of the time in which viscosity crosses half of the gap.
 const TERMS: u32 = 40;
 
-/// Velocity over that of the upper plate, at a place between the plates, 0 to 1, which move opposite ways from time 0 on: a sum of sines
-/// that decay \[Couette\].
+/// Velocity over that of the upper plate, at a place between the plates, 0 to 1, which move opposite ways from time 0 on: a
+/// sum of decaying sines \[Couette\].
 ///
-/// `time` is that since then, over the square of half of their distance over the kinematic viscosity.
+/// `time` is in units of the square of half of their distance over the kinematic viscosity.
 #[must_use]
 pub fn spreading(place: f64, time: f64) -> f64 {
     let z = 2.0 * place - 1.0;
@@ -30,7 +30,7 @@ mod tests {
         }
         assert!(spreading(0.75, 0.02) < 0.1 && spreading(0.75, 0.1) < 0.5);
         assert!((spreading(0.75, 3.0) - 0.5).abs() < 1e-9, "a straight line in the end");
-        // It is a solution: what it changes by in time is its second difference.
+        // It is a solution: its rate of change is its second difference.
         let (z, t) = (0.7, 0.1);
         let rate = (spreading(z, t + 1e-5) - spreading(z, t - 1e-5)) / 2e-5;
         let bend = (spreading(z + 1e-3, t) - 2.0 * spreading(z, t) + spreading(z - 1e-3, t)) / 1e-6;

@@ -1,8 +1,8 @@
 //! One cell of the decaying vortices of G. I. Taylor and A. E. Green (Proc. R. Soc. A 158 (1937) 499).
 //!
-//! In a square between walls without friction, `0 <= x, y <= L`, the velocity
-//! `U (sin(pi x / L) cos(pi y / L), -cos(pi x / L) sin(pi y / L)) exp(-2 nu (pi / L)^2 t)` solves the equations of Navier and
-//! Stokes: what it carries along is a gradient, which the pressure takes.
+//! In a square between free-slip walls, `0 <= x, y <= L`, the velocity
+//! `U (sin(pi x / L) cos(pi y / L), -cos(pi x / L) sin(pi y / L)) exp(-2 nu (pi / L)^2 t)` solves the Navier-Stokes
+//! equations: its advection is a gradient, which the pressure balances.
 
 use std::f64::consts::PI;
 

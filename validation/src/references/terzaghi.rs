@@ -1,11 +1,11 @@
-//! A soaked layer that is compressed, and settles as its water leaves (Terzaghi's consolidation, as stress relaxation).
+//! Consolidation of a soaked layer that is compressed (Terzaghi, as stress relaxation).
 
 use std::f64::consts::PI;
 
 /// A layer between a sealed floor and a drained top that is pushed down at a constant speed for a while, and then held.
 ///
-/// The way down `w` of a height `z` follows `dw/dt = c_v d2w/dz2`, `c_v = K M / mu`, and the water bears what the strain
-/// there lacks of that at the top: `u = M (dw/dz(H) - dw/dz(z))`. Small strain, constant permeability, no inertia.
+/// The displacement `w` at a height `z` follows `dw/dt = c_v d2w/dz2`, `c_v = K M / mu`. The pore pressure is the difference
+/// of the stress to that at the top: `u = M (dw/dz(H) - dw/dz(z))`. Small strain, constant permeability, no inertia.
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
     /// Height \[m\].
@@ -22,17 +22,17 @@ pub struct Layer {
     pub moves: f64,
 }
 
-/// Terms of the series: what is left out is a thousandth of the pressure.
+/// Terms of the series: the remainder is a thousandth of the pressure.
 const TERMS: u32 = 400;
 
 impl Layer {
-    /// Time over which the layer settles, `H^2 / c_v` \[s\].
+    /// Time scale of consolidation, `H^2 / c_v` \[s\].
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.height * self.height * self.viscosity / (self.permeability * self.modulus)
     }
 
-    /// Way down at a height above the floor \[m\].
+    /// Downward displacement at a height above the floor \[m\].
     #[must_use]
     pub fn sunk(&self, above_floor: f64, time: f64) -> f64 {
         let z = above_floor / self.height;
@@ -42,7 +42,7 @@ impl Layer {
         })
     }
 
-    /// What the water bears beyond its own weight at a height above the floor \[Pa\].
+    /// Pore pressure above the hydrostatic one at a height above the floor \[Pa\].
     #[must_use]
     pub fn pressure(&self, above_floor: f64, time: f64) -> f64 {
         let z = above_floor / self.height;
@@ -55,7 +55,7 @@ impl Layer {
         self.modulus * strain / self.height
     }
 
-    /// A response to the motion of the top, which is the response to a motion without end less that to its end.
+    /// Response to the motion of the top: that to an endless motion less that to its continuation after the end.
     fn since_start(&self, time: f64, ramp: impl Fn(f64) -> f64) -> f64 {
         let after = if time > self.moves { ramp(time - self.moves) } else { 0.0 };
         self.speed * (ramp(time.max(0.0)) - after)
@@ -79,7 +79,7 @@ mod tests {
     const LAYER: Layer =
         Layer { height: 0.05, modulus: 2e4, permeability: 3e-10, viscosity: 1e-3, speed: 0.01, moves: 0.1 };
 
-    /// `dw/dt = c_v d2w/dz2` by small explicit steps: the way at half height, and the pressure at the floor.
+    /// `dw/dt = c_v d2w/dz2` by small explicit steps: the displacement at half height, and the pressure at the floor.
     fn stepped(time: f64, diffusion: f64) -> (f64, f64) {
         const CELLS: usize = 100;
         let size = LAYER.height / CELLS as f64;
@@ -109,7 +109,7 @@ mod tests {
             let (found, borne) = (LAYER.sunk(0.025, time), LAYER.pressure(0.0, time));
             assert!((found - way).abs() < 2e-6, "{time}: {found}, {way}");
             assert!((borne - pressure).abs() < 4.0, "{time}: {borne}, {pressure}");
-            // Half the permeability is another problem.
+            // Negative control: half the permeability is another problem.
             let (_, slower) = stepped(time, 0.5 * diffusion);
             assert!((slower - borne).abs() > 20.0, "{time}: {borne}, {slower}");
         }

@@ -10,7 +10,7 @@ use crate::cpu::Cpu;
 const BINS: f32 = 4.0;
 /// Rows of a chunk of the counting sort.
 const COUNT_CHUNK: usize = 4096;
-/// Most bins that a dense grid may have, and most row counters over all chunks.
+/// Largest number of bins of a dense grid, and of row counters over all chunks.
 const BIN_LIMIT: u64 = 1 << 26;
 
 /// Rows of cells along x with narrow bins inside, over a box.
@@ -23,7 +23,7 @@ pub(super) struct Dense {
     size: [usize; 3],
     /// (row, bin) of every point.
     place: Vec<[u32; 2]>,
-    /// Points of a row, per chunk of points; then where the chunk's points of that row begin.
+    /// Points of a row, per chunk of points; then the first slot of that row for the chunk.
     counts: Vec<u32>,
     by_row: Vec<AtomicU32>,
     pub(super) row_start: Vec<u32>,
@@ -69,7 +69,7 @@ impl Dense {
     }
 
     fn coordinate(&self, axis: usize, value: f32) -> usize {
-        // A cast saturates: whatever lies outside is kept in the outermost cell, NaN in the first.
+        // A cast saturates: points outside are in the outermost cell, NaN in the first.
         (((value - self.origin[axis]) * self.scale[axis]) as usize).min(self.size[axis] - 1)
     }
 
@@ -84,7 +84,7 @@ impl Dense {
         self.bin_start = bin_start;
     }
 
-    /// Places of the points, and how many points of a row every chunk has.
+    /// Places of the points, and number of points per row in every chunk.
     fn count_rows(&mut self, cpu: &Cpu, points: &[[f32; 4]], rows: usize) {
         let chunks = points.len().div_ceil(COUNT_CHUNK);
         let mut place = std::mem::take(&mut self.place);
@@ -127,7 +127,7 @@ impl Dense {
             let end = place.len().min(begin + COUNT_CHUNK);
             for (point, place) in place[begin..end].iter().enumerate() {
                 let offset = &mut offsets[place[0] as usize];
-                // Every slot is written once; atomics only tell the compiler that threads do not collide.
+                // Every slot is written once; the atomics only tell the compiler that threads do not collide.
                 by_row[*offset as usize].store((begin + point) as u32, Relaxed);
                 *offset += 1;
             }

@@ -68,7 +68,7 @@ impl Hashed {
         }
     }
 
-    /// Sorts the cells by hash, and notes where every hash begins.
+    /// Sorts the cells by hash, and stores the first cell of every hash.
     fn hash_cells(&mut self, cpu: &Cpu) {
         let size = (self.keys.len() as u64 + 1).next_power_of_two();
         self.hashes.clear();
@@ -99,7 +99,7 @@ impl Hashed {
                     let key = morton([x, y, z]);
                     let [first, last] = self.table[(hash(key) % self.table.len() as u64) as usize];
                     for row in first..last {
-                        // Different cells may share a hash: a run of a few cells, told apart by their keys.
+                        // Different cells may share a hash: a short run of cells, distinguished by their keys.
                         if self.cell_keys[row as usize] == key {
                             spans.push(self.cells[row as usize]);
                         }
@@ -128,7 +128,7 @@ fn morton(cell: [u32; 3]) -> u64 {
     spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2
 }
 
-/// Multiplicative mix: the upper bits of the product depend on all bits of the key.
+/// Multiplicative hash: the upper bits of the product depend on all bits of the key.
 fn hash(key: u64) -> u64 {
     key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 24
 }

@@ -1,4 +1,4 @@
-//! Cells over points: which rows lie in which part of space.
+//! Cells over points: the rows in each part of space.
 //!
 //! Two schemes with one interface. A *bounded* domain gets a dense grid: rows of cells along x, and inside a
 //! row narrow bins, found by counting. An *unbounded* domain gets the scheme of Winchenbach and Kolb [WK20,
@@ -32,7 +32,7 @@ pub enum Domain {
 pub struct Cells {
     /// Source rows in the order of the cells.
     pub(crate) order: Vec<u32>,
-    /// Rows and identities on their way to the new order; kept so that a step allocates nothing.
+    /// Temporary rows and identities of the sort; kept so that a step allocates nothing.
     pub(crate) spare: (Vec<[f32; 4]>, Vec<u32>),
     scheme: Scheme,
     dense: Dense,

@@ -93,7 +93,7 @@ fn twins_leave_out_what_is_asleep_as_the_cpu_does() {
     }
 }
 
-/// The control: a device that does not know moves it.
+/// Negative control: a device that does not know moves it.
 #[test]
 fn a_twin_that_does_not_know_what_is_asleep_is_noticed() {
     let moved: Vec<&str> = kernels()

@@ -39,7 +39,7 @@ fn known_faults_are_still_there() {
     }
 }
 
-/// The control: what is right is not refused.
+/// Negative control: what is right is not refused.
 #[test]
 fn what_is_right_is_not_refused() {
     assert!(!is_refused(gpu(), ""));
