@@ -1,4 +1,4 @@
-//! How long a step may be, and what bounds it.
+//! Bounds of the step.
 
 use std::f32::consts::PI;
 
@@ -12,21 +12,21 @@ use crate::{
     scene::{Scene, Time},
 };
 
-/// Part of the time in which an elastic wave crosses a cell that a step of `xpbd_neo_hookean` may take: a cantilever without
-/// damping then sags by what it should within two per cent (`tests/sponge.rs`).
+/// Longest step of `xpbd_neo_hookean`, over the time in which an elastic wave crosses a cell: a cantilever without damping
+/// then sags correctly within two per cent (`tests/sponge.rs`).
 const NEO_HOOKEAN: f32 = 0.25;
 
-/// The same of `vbd`, which is stable at any step: four sweeps then take a cantilever through its lowest vibration within
-/// two per cent of the frequency. At twice that they need ten (docs/performance.md).
+/// The same of `vbd`, which is stable at any step. Four sweeps then give the lowest frequency of a cantilever within two per
+/// cent; at twice the step they need ten (docs/performance.md).
 const DESCENT: f32 = 2.0;
 
-/// The same in water, which makes a sponge twenty times as heavy and its waves four times as slow.
+/// The same in water, where a sponge is twenty times as heavy and its waves are four times as slow.
 const WET_DESCENT: f32 = 4.0;
 
-/// Step that no speed of a body makes shorter, over the shortest that is allowed.
+/// Shortest step by the speed of a body, over `time.minimum_step`.
 const SHORTEST_BY_BODY: f32 = 10.0;
 
-/// What limited a step.
+/// Bound that limited a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// `time.maximum_step`.
@@ -39,20 +39,20 @@ pub enum Bound {
     Pressure,
     /// Acceleration over a support radius.
     Acceleration,
-    /// Diffusion of velocity over a support radius; where viscosity is implicit fifty times that, and what stops a body that the fluid does
-    /// not slide along.
+    /// Diffusion of velocity over a support radius. With implicit viscosity fifty times that, and the time in which the
+    /// fluid stops a no-slip body.
     Viscosity,
     /// Capillary waves.
     SurfaceTension,
     /// Suction against the mass of a dry node.
     Suction,
-    /// Elastic waves of a dry sponge cross some part of the lattice constant, which depends on its solver.
+    /// Elastic waves of a dry sponge cross a part of the lattice constant, which depends on the solver.
     Elasticity,
     /// Nodes cross a quarter of the lattice constant.
     SpongeSpeed,
-    /// The surface of a body crosses the same as fluid and nodes may.
+    /// The surface of a body crosses the distance that fluid and nodes may.
     BodySpeed,
-    /// None: the scene is asleep, see [`Time::sleep_after`].
+    /// None: the whole scene sleeps, see [`Time::sleep_after`].
     Asleep,
 }
 
@@ -77,7 +77,7 @@ impl Bound {
     }
 }
 
-/// Time since the start, and what the last step found.
+/// Time since the start, and results of the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
     /// Simulated time \[s\].
@@ -90,7 +90,7 @@ pub struct Clock {
     pub(crate) fluid_speed: f32,
     /// Largest acceleration of a particle in the last step \[m/s^2\].
     pub(crate) fluid_acceleration: f32,
-    /// Root of the mean square of the pressure over rest density in the last step, where it is solved for \[m^2/s^2\].
+    /// Root mean square of the kinematic pressure in the last step, with a pressure solve \[m^2/s^2\].
     pub(crate) fluid_pressure: f32,
     /// Largest speed of a node after the last step \[m/s\].
     pub(crate) node_speed: f32,
@@ -102,20 +102,20 @@ pub struct Clock {
 /// (docs/pressure-solve.md).
 pub(crate) const PRESSURE_COURANT: f32 = 0.4;
 
-/// Step over the time in which the shortest capillary wave turns. At twice that particles at the surface of a drop do not come
-/// to rest.
+/// Step over the period of the shortest capillary wave. At twice that particles at the surface of a drop do not come to
+/// rest.
 const CAPILLARY_COURANT: f32 = 0.1;
 
-/// Step of implicit over that of explicit viscosity, and the Courant number beside it. The pressure is found after the viscosity, for
-/// particles that could move without their neighbours: thick fluid that falls on a floor in longer steps jumps up again, to three times
-/// the height it fell from (docs/viscosity.md).
+/// Step of implicit over that of explicit viscosity, and the Courant number beside it. The pressure is solved after the
+/// viscosity, as if particles could move without their neighbours. In longer steps a viscous fluid that falls on a floor
+/// jumps to three times its initial height (docs/viscosity.md).
 const IMPLICIT: f32 = 50.0;
 const IMPLICIT_COURANT: f32 = 0.1;
 
-/// Step over the time in which water that is sucked in crosses a spacing.
+/// Step over the time in which water under suction crosses a spacing.
 const SUCTION_COURANT: f32 = 0.8;
 
-/// What is asleep: steps go on without it, and it bounds none.
+/// Sleeping parts: steps leave them out, and they bound none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Dormant {
     pub(crate) fluid: bool,
@@ -125,7 +125,7 @@ pub(crate) struct Dormant {
     pub(crate) bodies: Vec<usize>,
 }
 
-/// Bounds that do not change from step to step.
+/// Constant bounds of the step.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps {
     pub(crate) time: Time,
@@ -149,7 +149,7 @@ impl Steps {
         let sponges = || sponges().filter(|(index, _)| !dormant.sponges.contains(index)).map(|(_, own)| own);
         if let Some(water) = scene.fluid.as_ref().filter(|_| has_fluid) {
             let h = fluid.smoothing.support_radius;
-            // Along the line between particles the central form is as stiff as five times the other.
+            // Along the line between particles this form is five times as stiff as the other.
             let viscosity = (fluid.viscosity + 5.0 * fluid.central_viscosity) / fluid.rest_density;
             bounds.push((0.125 * h * h / viscosity, Bound::Viscosity));
             if let Some(implicit) = &fluid.implicit_viscosity {
@@ -163,14 +163,14 @@ impl Steps {
             bounds.push((CAPILLARY_COURANT * capillary.sqrt(), Bound::SurfaceTension));
             for (sponge, scene) in sponges() {
                 if params.solid.is_some() {
-                    // Water enters at this speed; nodes bear the suction together with what they hold.
+                    // Water enters at this speed; nodes bear the suction together with the water that they hold.
                     let pressure = sponge.entry_pressure + sponge.wetting.receding;
                     let pressure = pressure * (1.0 + sponge.saturation_gain);
                     let speed = (2.0 * pressure / fluid.rest_density).sqrt();
                     bounds.push((SUCTION_COURANT * fluid.spacing / speed, Bound::Suction));
                     continue;
                 }
-                // The springs of one node add up to 14 p V / H^2 for a kernel that is full of water.
+                // The springs of one node sum to 14 p V / H^2 where its support is full of water.
                 let radius = params.coupling.support_radius;
                 let pressure = sponge.entry_pressure * (1.0 + sponge.saturation_gain) * sponge.reaction;
                 let frequency = (14.0 * pressure / (scene.density * radius * radius)).sqrt();
@@ -180,8 +180,8 @@ impl Steps {
         for (sponge, scene) in sponges() {
             let crossing = |modulus: f32| sponge.edge * (scene.density / modulus).sqrt();
             bounds.push(match sponge.solver {
-                // The solver is stable beyond, but one sweep a step is then far from converged: a ball that falls on a
-                // dry sponge gains energy, and turns tets inside out.
+                // The solver is stable beyond that, but one sweep per step is then far from converged: a ball that falls on
+                // a dry sponge gains energy, and inverts tets.
                 Solver::Sbd => {
                     let modulus = sponge.stretch_modulus.max(sponge.shear_modulus).max(sponge.volume_modulus);
                     (0.25 * crossing(modulus), Bound::Elasticity)
@@ -202,7 +202,7 @@ impl Steps {
         Self { time, constant, edge, has_fluid }
     }
 
-    /// Longest stable step after the last one, and what bounds it.
+    /// Longest stable step after the last one, and its bound.
     pub(crate) fn stable(&self, params: &Params, clock: &Clock) -> (f32, Bound) {
         let mut bounds = vec![self.constant];
         let fluid = &params.fluid;
@@ -210,7 +210,7 @@ impl Steps {
         if self.has_fluid {
             let sound_speed = if fluid.incompressible.is_some() { 0.0 } else { fluid.sound_speed };
             bounds.push((self.time.courant * h / (sound_speed + clock.fluid_speed), Bound::Courant));
-            // In a column at rest the largest pressure is the square root of three times the root of the mean square.
+            // In a column at rest the largest pressure is the square root of three times the root mean square.
             let pressure = 3.0_f32.sqrt() * clock.fluid_pressure;
             bounds.push((PRESSURE_COURANT * fluid.spacing / pressure.sqrt(), Bound::Pressure));
             bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
@@ -218,7 +218,7 @@ impl Steps {
         bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
         let reach = if self.has_fluid { self.time.courant * h } else { f32::INFINITY };
         let crossing = reach.min(0.25 * self.edge) / clock.body_speed;
-        // A script may move a body at any speed; what is faster than this is swept.
+        // A script may move a body at any speed; faster bodies are swept.
         bounds.push((crossing.max(SHORTEST_BY_BODY * self.time.minimum_step), Bound::BodySpeed));
         smallest(&bounds)
     }
@@ -229,11 +229,12 @@ impl Steps {
     }
 }
 
-/// Time in which a fluid stops a body that it does not slide along, infinite for one that is moved.
+/// Time in which a fluid stops a no-slip body, infinite for one that does not move freely.
 ///
-/// The solve for the implicit viscosity takes the velocities of bodies as given, and the bodies what it gives them afterwards: in
-/// longer steps they would overshoot. The drag is that of Stokes on a sphere, with what Basset adds as long as shear has spread
-/// over the time of a step only: `6 pi mu R (1 + R / sqrt(nu h))`, and `8 pi mu R^3 (1 + R / (3 sqrt(nu h)))` about its centre.
+/// The solve for the implicit viscosity prescribes the velocities of bodies, which receive its reaction afterwards: in
+/// longer steps they would overshoot. The drag is that of Stokes on a sphere, with Basset's term for shear that has spread
+/// over the time of a step only: `6 pi mu R (1 + R / sqrt(nu h))`, and `8 pi mu R^3 (1 + R / (3 sqrt(nu h)))` about its
+/// centre.
 fn stopping(params: &Params, body: &Body, engine: &dyn RigidEngine, index: usize) -> f32 {
     let fluid = &params.fluid;
     let (radius, viscosity) = (body.shape.bounding_radius(), fluid.wall_viscosity);
@@ -248,7 +249,7 @@ fn stopping(params: &Params, body: &Body, engine: &dyn RigidEngine, index: usize
     time(along, along * crossing).min(time(about, about * crossing / 3.0))
 }
 
-/// Cuts a step so that equal ones fill what is left of a frame: water at rest stays calmer than with a short last step.
+/// Shortens a step so that equal ones fill the rest of a frame: water at rest stays calmer than with a short last step.
 pub(crate) fn within((step, bound): (f32, Bound), left: f64) -> (f32, Bound) {
     let whole = f64::from(step);
     if whole >= left {
@@ -257,12 +258,12 @@ pub(crate) fn within((step, bound): (f32, Bound), left: f64) -> (f32, Bound) {
     if !left.is_finite() {
         return (step, bound);
     }
-    // A step that has been cut must not be cut to one more piece by rounding.
+    // Rounding must not add another step.
     let count = (left / whole * (1.0 - 1e-4)).ceil();
     ((left / count) as f32, bound)
 }
 
-/// The smallest bound; one that is not a number bounds nothing (a speed of zero over an acceleration of zero).
+/// The smallest bound; NaN bounds nothing (a speed of zero over an acceleration of zero).
 fn smallest(bounds: &[(f32, Bound)]) -> (f32, Bound) {
     let mut best = bounds[0];
     for bound in &bounds[1..] {
@@ -286,7 +287,7 @@ mod tests {
         assert_eq!(within(step, 0.6), (0.3, Bound::Courant));
         assert_eq!(within(step, 0.4), (0.4, Bound::Frame));
         assert_eq!(within(step, 0.1), (0.1, Bound::Frame));
-        // The rest is filled by as many steps, whatever rounding does to them.
+        // The rest is filled by the same number of steps, whatever the rounding.
         let mut left = 1.0 / 60.0;
         let mut steps = 0;
         while left > 1e-9 {
@@ -312,12 +313,12 @@ mod tests {
             world.steps.constant
         };
         let implicit = ["fluid.viscosity_integration=\"implicit\""];
-        // Stokes alone: a sphere is stopped from turning within m / (20 pi mu R).
+        // Stokes alone: the rotation of a sphere stops within m / (20 pi mu R).
         let (step, name) = bound("1000", 5000.0, &implicit);
         let expected = 5000.0 * 4.0 / 3.0 * 0.02_f32.powi(2) / (20.0 * 1000.0);
         assert!(name == Bound::Viscosity && step < expected && step > 0.5 * expected, "{step} {expected}");
         assert!(bound("1000", 500.0, &implicit).0 < 0.2 * step, "lighter");
-        // A heavy ball is stopped later than after fifty times what explicit viscosity allows.
+        // A heavy ball stops later than fifty times the bound of explicit viscosity.
         let explicit = bound("100", 5e4, &[]);
         let (long, name) = bound("100", 5e4, &implicit);
         assert!(explicit.1 == Bound::Viscosity && name == Bound::Viscosity);

@@ -1,11 +1,11 @@
-//! What bounds a step, as a device knows it.
+//! Bounds of a step on a device.
 
 use sorb_kernels::gpu::StepLimits;
 
 use crate::clock::{Bound, PRESSURE_COURANT, Steps};
 
 impl Bound {
-    /// All bounds, by the numbers that shaders know them by.
+    /// All bounds, in the order of their numbers in shaders.
     const ALL: [Self; 11] = [
         Self::Maximum,
         Self::Frame,
@@ -20,14 +20,14 @@ impl Bound {
         Self::BodySpeed,
     ];
 
-    /// The bound of a number; the first for numbers that no shader gives.
+    /// The bound of a number; the first for unknown numbers.
     pub(super) fn from_index(index: u32) -> Self {
         Self::ALL.get(index as usize).copied().unwrap_or(Self::Maximum)
     }
 }
 
 impl Steps {
-    /// What a device needs to choose steps itself.
+    /// Limits with which a device chooses steps itself.
     pub(super) fn limits(&self) -> StepLimits {
         StepLimits {
             courant: self.time.courant,

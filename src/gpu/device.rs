@@ -20,29 +20,29 @@ use crate::{
     schedule::{Awake, Place, Plan, Plans},
 };
 
-/// Scratch columns that measures and pictures look at.
+/// Scratch columns that measures and pictures read.
 const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
-/// Scratch columns that the clock of the host looks at.
+/// Scratch columns that the clock of the host reads.
 const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve, Column::NodeExtremes];
 
-/// Scratch columns that the host looks at after a step that it shares with a device.
+/// Scratch columns that the host reads after a step that it shares with a device.
 pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
     let observed = observed.iter().filter(|column| !column.is_on_host_only());
     LOOKED_AT.iter().chain(&EXTREMES).chain(observed).copied().collect()
 }
 
-/// What runs the kernels of a world on a device.
+/// Runs the kernels of a world on a device.
 #[derive(Debug)]
 pub(crate) struct Device {
     gpu: Arc<Gpu>,
     limits: StepLimits,
     shares: Shares,
-    /// Stages of the steps that there are while parts are asleep, in the order of [`Awake::ALL`]; none where the device does not have all
-    /// of a step.
+    /// Stages of the reduced steps while parts sleep, in the order of [`Awake::ALL`]; none where the device does not run the
+    /// whole step.
     lesser: Vec<Vec<Stage>>,
-    /// What the next steps go on with.
+    /// Awake parts of the next steps.
     awake: Awake,
-    /// What is read back when the host looks.
+    /// Columns that are read back for the host.
     looked_at: Vec<Column>,
     wants_times: bool,
     resident: Option<On>,
@@ -50,16 +50,16 @@ pub(crate) struct Device {
     is_ahead: bool,
     /// The present state, once the host has looked at it.
     mirror: OnceLock<Columns>,
-    /// What belongs to the state that the host has, if the device is ahead of it.
+    /// Clock and bodies of the state that the host has, if the device is ahead of it.
     kept: Option<Kept>,
 }
 
-/// What belongs to a state beside its columns.
+/// The state of a world beside its columns.
 #[derive(Clone, Debug)]
 pub(crate) struct Kept {
     pub(crate) clock: Clock,
     pub(crate) engine: Box<dyn RigidEngine>,
-    /// Length of the step before \[s\].
+    /// Length of the previous step \[s\].
     pub(crate) step: f32,
 }
 
@@ -67,9 +67,9 @@ pub(crate) struct Kept {
 #[derive(Debug)]
 struct On {
     resident: Resident,
-    /// One for every share that the device has, in order.
+    /// One for every share of the device, in order.
     programs: Vec<Program>,
-    /// One for every lesser plan that there was a step of.
+    /// One for every reduced plan that was used.
     lesser: Vec<Option<Program>>,
     profile: Option<Profile>,
 }
@@ -111,8 +111,8 @@ impl Device {
         }
     }
 
-    /// The same without what is on the device, for a copy of the host's columns. If those are of an earlier state, because
-    /// the device was lost, the copy knows.
+    /// The same without the data on the device, for a copy of the host's columns. If these are of an earlier state, because
+    /// the device was lost, the copy records that.
     pub(crate) fn another(&self) -> Self {
         let is_ahead = !self.is_looked_at();
         Self {
@@ -140,13 +140,13 @@ impl Device {
         self.resident.as_ref().map(|on| &on.resident)
     }
 
-    /// Whether all kernels of the step run here, so that the device can take many steps on its own.
+    /// Whether all kernels of the step run here, so that the device can take many steps by itself.
     pub(crate) fn has_all(&self) -> bool {
         self.shares.are_all_on_gpu()
     }
 
-    /// The present state: read back when it is first looked at. If that fails the device is lost, which the next step
-    /// says; until then this is the state that was read back before.
+    /// The present state, read back at the first access. If that fails the device is lost, which the next step reports;
+    /// until then this is the state that was read back before.
     pub(crate) fn view<'a>(&'a self, host: &'a Columns) -> &'a Columns {
         let Some(on) = self.resident.as_ref().filter(|_| self.is_ahead) else { return host };
         if let Some(mirror) = self.mirror.get() {
@@ -159,7 +159,7 @@ impl Device {
         }
     }
 
-    /// Asks for what the host looks at; none if there is nothing on the device.
+    /// Requests the columns that the host reads; none if there is nothing on the device.
     pub(crate) fn ask(&self) -> Result<Option<Pending>, GpuError> {
         self.resident.as_ref().map(|on| on.resident.ask(&self.looked_at)).transpose()
     }
@@ -169,13 +169,12 @@ impl Device {
         !self.is_ahead || self.mirror.get().is_some()
     }
 
-    /// Notes what belongs to the state that the next step leaves behind.
+    /// Stores clock and bodies of the state that the next step leaves behind.
     pub(crate) fn keep(&mut self, kept: Kept) {
         self.kept = Some(kept);
     }
 
-    /// Gives up what is on the device: the newest state that the host has becomes the present one. Some if that is an
-    /// earlier one.
+    /// Drops the data on the device: the newest state of the host becomes the present one. Some if that is an earlier one.
     pub(crate) fn give_up(&mut self, host: &mut Columns) -> Option<Kept> {
         let is_earlier = !self.is_looked_at();
         self.leave(host);
@@ -184,7 +183,7 @@ impl Device {
         self.kept.take().filter(|_| is_earlier)
     }
 
-    /// What the host has read back becomes its state: the newest that it has if the device is lost.
+    /// The read-back state becomes that of the host: the newest one if the device is lost.
     fn leave(&mut self, host: &mut Columns) {
         if let Some(mut mirror) = self.mirror.take() {
             std::mem::swap(&mut mirror.bodies, &mut host.bodies);
@@ -193,13 +192,13 @@ impl Device {
         self.is_ahead = true;
     }
 
-    /// Uploads a state, if the device has none yet.
+    /// Uploads a state, unless the device has one.
     fn ready(&mut self, host: &mut Columns, params: &Params) -> Result<(), GpuError> {
         if self.resident.is_some() {
             return Ok(());
         }
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
-        // What is looked at may be what nobody computes anew while a part sleeps.
+        // Some of the columns that are read back are not computed anew while a part sleeps.
         let lives = |column: &Column| {
             (column.life() != Life::Scratch || LOOKED_AT.contains(column)) && !column.is_on_host_only()
         };
@@ -219,8 +218,7 @@ impl Device {
         Ok(())
     }
 
-    /// Makes the next steps go on with what is awake alone; what is awake of the fluid may be outside of all sponges. The time has to be
-    /// set anew.
+    /// Restricts the next steps to awake parts; the awake fluid may be outside of all sponges. The time has to be set anew.
     pub(crate) fn set_asleep(&mut self, awake: Awake, asleep: &Asleep, steps: &Steps, is_outside: bool) {
         (self.limits, self.awake) = (steps.limits(), awake);
         if let Some(on) = &mut self.resident {
@@ -260,7 +258,7 @@ impl Device {
         resident.advance(program, steps, profile.as_mut())
     }
 
-    /// One step of given length that is shared with the CPU. What the other side made travels.
+    /// One step of given length, shared with the CPU. Columns are transferred to the side that reads them.
     pub(crate) fn step_with(
         &mut self,
         cpu: &Cpu,
@@ -295,14 +293,14 @@ impl Device {
         fetch(resident, host, params, &self.shares.fetched)
     }
 
-    /// Milliseconds of every call of a kernel since the last time this was asked.
+    /// Milliseconds of every call of a kernel since the last query, in order.
     pub(crate) fn times(&mut self) -> Vec<(&'static str, f32)> {
         let profile = self.resident.as_mut().and_then(|on| on.profile.as_mut());
         profile.map(Profile::take).unwrap_or_default()
     }
 }
 
-/// Reads columns back, and computes those that a device does not keep.
+/// Reads columns back, and computes those that a device does not store.
 fn fetch(
     resident: &Resident,
     host: &mut Columns,
@@ -314,7 +312,7 @@ fn fetch(
     Ok(())
 }
 
-/// Cells and lists of the CPU, which nobody keeps up to date while the device takes the steps: most of the memory.
+/// Cells and lists of the CPU, which are out of date while the device takes the steps: most of the memory.
 fn forget_lists(host: &mut Columns) {
     let Columns { fluid, controls, .. } = host;
     (fluid.cells, fluid.neighbors) = Default::default();

@@ -1,4 +1,4 @@
-//! Steps and frames of a world that lives on a device.
+//! Steps and frames of a world on a device.
 
 use std::{sync::Arc, time::Instant};
 
@@ -14,21 +14,21 @@ use crate::{
     world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies, sleep::Sleep},
 };
 
-/// Most steps of a submission: the host must be able to stop.
+/// Largest number of steps of a submission: the host must be able to stop.
 const BATCH: u32 = 256;
 
 impl World {
-    /// One step, as long as stability allows; none if no device has all of a step.
+    /// One step, as long as stability allows; none if no device runs the whole step.
     pub(crate) fn step_on_device(&mut self) -> Option<Result<StepReport, StepError>> {
         self.is_on_device().then(|| self.take_step())
     }
 
-    /// As many steps as fill a frame; none if no device has all of a step.
+    /// As many steps as fill a frame; none if no device runs the whole step.
     pub(crate) fn frame_on_device(&mut self) -> Option<Result<FrameReport, StepError>> {
         self.is_on_device().then(|| self.fill_frame())
     }
 
-    /// Whether a device takes the steps on its own.
+    /// Whether a device takes the steps by itself.
     fn is_on_device(&self) -> bool {
         self.stores.device.as_ref().is_some_and(Device::has_all)
     }
@@ -51,7 +51,7 @@ impl World {
         })
     }
 
-    /// All steps of a frame in one or two submissions, if there are no bodies to move in between, and nothing that sleeps to be woken.
+    /// All steps of a frame in one or two submissions, if no bodies move in between and no part sleeps.
     fn fill_frame(&mut self) -> Result<FrameReport, StepError> {
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let mut report = FrameReport {
@@ -72,7 +72,8 @@ impl World {
         Ok(report)
     }
 
-    /// Steps to the end of a frame, or until parts fall asleep or wake: then the device begins anew. Counts what bounds the steps.
+    /// Steps to the end of a frame, or until parts fall asleep or wake: then the device begins anew. Counts the bounds of
+    /// the steps.
     fn fill_on_device(
         &mut self,
         end: f64,
@@ -86,7 +87,7 @@ impl World {
             let answer = self.advance_on_device(self.steps_to(end), taken_before)?;
             let taken = answer.steps - taken_before;
             self.clock.steps = first + u64::from(answer.steps);
-            // The end is reached exactly: the last step is what is left.
+            // The end is reached exactly: the last step is the remainder.
             let is_over = answer.left <= 1e-9;
             self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
             self.take_over(&answer, taken)?;
@@ -102,11 +103,11 @@ impl World {
         }
     }
 
-    /// Steps that are likely to be left of a frame.
+    /// Expected number of steps to the end of a frame.
     fn steps_to(&self, end: f64) -> u32 {
-        // Bodies that never move need nobody.
+        // Fixed bodies need no host.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
-        // What is awake may come near what is not in any step.
+        // Awake parts may come near sleeping ones in any step.
         if is_moved || self.sleep.dormant() != Dormant::default() {
             return 1;
         }
@@ -120,7 +121,7 @@ impl World {
             left,
             fluid_speed: self.clock.fluid_speed,
             fluid_acceleration: self.clock.fluid_acceleration,
-            // Speeds of what sleeps bound nothing.
+            // Speeds of sleeping parts bound nothing.
             node_speed: if self.has_moving_nodes() { self.clock.node_speed } else { 0.0 },
             fluid_pressure: self.clock.fluid_pressure,
         };
@@ -131,7 +132,7 @@ impl World {
         }
     }
 
-    /// Takes steps, and the time they take; `before` have been taken since the time was set.
+    /// Takes steps, and measures their time; `before` is the number of steps since the time was set.
     fn advance_on_device(&mut self, steps: u32, before: u32) -> Result<Answer, StepError> {
         let clock = Instant::now();
         self.keep_state();
@@ -145,7 +146,7 @@ impl World {
         Ok(answer)
     }
 
-    /// Notes what belongs to the state that the host has, before the device goes on from it.
+    /// Stores clock and bodies of the state of the host, before the device continues from it.
     fn keep_state(&mut self) {
         if let Some(device) = self.stores.device.as_mut().filter(|device| device.is_looked_at()) {
             let (clock, engine) = (self.clock, self.engine.clone());
@@ -153,17 +154,17 @@ impl World {
         }
     }
 
-    /// Goes on elsewhere: on `gpu`, or on the CPU if that is none. For a world whose device was lost, and for one that is
-    /// to leave a device that works.
+    /// Continues on another device, or on the CPU without `gpu`. For a world whose device was lost, or that is to leave a
+    /// working device.
     ///
-    /// A device that works is read back, and nothing is lost. Of one that was lost, the newest state that the host has
-    /// looked at (by a view of rows, [`Self::digest`] and all else that reads the state) becomes the present one, with
-    /// its clock and its bodies; if it never looked, that is the beginning. The error of the loss is forgotten.
+    /// A working device is read back, and nothing is lost. If it was lost, the newest state that the host has read back
+    /// becomes the present one, with its clock and its bodies. Views of rows, [`Self::digest`] and all other reads of the
+    /// state count. Without any, that is the initial state. The error of the loss is cleared.
     ///
-    /// The kernels that the options placed on a GPU are placed there again; all of them if they placed none.
+    /// Kernels that the options placed on a GPU are placed there again; all of them if they placed none.
     ///
     /// # Errors
-    /// Kernels are asked for at places where they cannot be.
+    /// Kernels are requested at places where they cannot run.
     pub fn move_to(&mut self, gpu: Option<&Arc<Gpu>>) -> Result<(), WorldError> {
         // Reads back what the host does not have yet, if it can.
         self.stores.view();
@@ -179,7 +180,7 @@ impl World {
             self.params.step = kept.step;
         }
         if self.scene.time.sleep_after > 0.0 {
-            // Everything wakes, and what comes to rest is looked at anew.
+            // Everything wakes, and rest is detected anew.
             self.sleep = Sleep::new(&self.scene, &self.params);
             self.apply_sleep();
         }
@@ -199,16 +200,16 @@ impl World {
         self.place_by(&options)
     }
 
-    /// Whether there are nodes of sponges that are awake.
+    /// Whether any sponge is awake.
     fn has_moving_nodes(&self) -> bool {
         let sponges = self.scene.sponges.len();
         (0..sponges).any(|sponge| !self.is_sponge_asleep(sponge))
     }
 
-    /// Takes over what the device found, moves the bodies, and refuses what is not finite.
+    /// Takes the results of the device, moves the bodies, and refuses values that are not finite.
     fn take_over(&mut self, answer: &Answer, taken: u32) -> Result<(), StepError> {
         let (step, time) = (self.clock.steps, self.clock.time);
-        // What sleeps goes on as it was.
+        // Sleeping parts keep their values.
         if !self.is_fluid_asleep() {
             self.clock.fluid_speed = answer.fluid_speed;
             self.clock.fluid_acceleration = answer.fluid_acceleration;
@@ -234,7 +235,7 @@ impl World {
                 Err(StepError::Particle { id, step, time })
             }
             Outcome::Node(node) => Err(StepError::Node { node, step, time }),
-            // A step that was taken is a success; the next one says why it is not.
+            // A step that was taken is a success; the next one reports the error.
             Outcome::TooSmall(needed, bound) if taken == 0 => Err(StepError::TooSmall {
                 bound: Bound::from_index(bound),
                 needed,
@@ -247,7 +248,7 @@ impl World {
     }
 }
 
-/// Takes over the time of steps on a device: of all of them together, and of every call of a kernel \[ms\] as far as it was taken.
+/// Records the time of steps on a device: of all of them together, and of every timed call of a kernel \[ms\].
 fn record(runner: &mut Runner, seconds: f64, steps: u32, calls: &[(&'static str, f32)]) {
     for _ in 0..steps {
         runner.step.record_seconds(seconds / f64::from(steps));

@@ -1,4 +1,4 @@
-//! Measures of a state that is on a device, from sums that it takes itself.
+//! Measures of a state on a device, from sums that it computes.
 
 use sorb_kernels::gpu::{FluidSums, NodeSums, Sums};
 
@@ -6,16 +6,16 @@ use super::Device;
 use crate::{Measures, World};
 
 impl Device {
-    /// Adds sums over the state to measures; false if they are not to be had from the device, or the host has the state anyway.
+    /// Adds sums over the state to measures; false if the device cannot provide them, or the host has the state.
     pub(crate) fn add_sums(&self, world: &World, measures: &mut Measures) -> bool {
-        // Where pressure is solved for, the density that is measured is summed up anew.
+        // With a pressure solve the measured density is summed anew.
         if self.is_looked_at() || world.params.fluid.incompressible.is_some() {
             return false;
         }
         let lattice = world.lattice();
         let mass = |(volume, sponge): (&f32, &u32)| volume * world.scene.sponges[*sponge as usize].density;
         let masses: Vec<f32> = lattice.node_volume.iter().zip(&lattice.node_sponge).map(mass).collect();
-        // What fails here fails in the next step as well; until then there is the state that was read back before.
+        // A failure here occurs in the next step as well; until then the state that was read back before is used.
         let Some(sums) = self.resident().and_then(|resident| resident.sums(&masses).ok()) else {
             return false;
         };

@@ -1,4 +1,4 @@
-//! Worlds on a GPU: what is placed there, and how their steps run.
+//! Worlds on a GPU: placement of kernels, and how their steps run.
 
 mod bounds;
 mod device;

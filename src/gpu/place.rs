@@ -1,4 +1,4 @@
-//! Whether a world runs on a GPU, and why.
+//! Decides whether a world runs on a GPU, and why.
 
 use std::sync::Arc;
 
@@ -14,10 +14,10 @@ use crate::{
     world::{Options, World, WorldError},
 };
 
-/// Particles and nodes from which [`Offload::Auto`] takes a GPU; `docs/gpu.md` has the measurements.
+/// Particles and nodes from which [`Offload::Auto`] uses a GPU; `docs/gpu.md` has the measurements.
 const ROWS_FOR_GPU: usize = 5_000;
 
-/// What a placement depends on.
+/// Inputs of a placement.
 struct Request<'a> {
     plan: &'a Plan,
     rows: RowCounts,
@@ -26,7 +26,7 @@ struct Request<'a> {
 }
 
 impl World {
-    /// Places the step as the options say.
+    /// Places the step according to the options.
     ///
     /// # Errors
     /// As [`Self::place_by`].
@@ -59,7 +59,7 @@ impl World {
 type Placed = (Placement, Option<Arc<Gpu>>);
 
 impl Request<'_> {
-    /// Decides where the step runs, on the device that the host gives or one of its own.
+    /// Decides where the step runs, on the device of the host or a separate one.
     fn place(&self) -> Result<Placed, WorldError> {
         let offload = &self.options.offload;
         let on_gpu = self.plan.kernels_on_gpu(offload)?;
@@ -105,7 +105,7 @@ impl Request<'_> {
         (Placement { offload: self.options.offload.clone(), on_gpu, reason, transfers }, Some(gpu))
     }
 
-    /// What travels in every step.
+    /// Transfers of every step.
     fn transfers(&self, on_gpu: &[&'static str]) -> Vec<Transfer> {
         let shares = self.plan.shares_with(on_gpu, &looked_at(&self.options.observed));
         if shares.are_all_on_gpu() {
@@ -145,7 +145,7 @@ impl Request<'_> {
         }
     }
 
-    /// What travels where everything is on the device.
+    /// Transfers where the whole step runs on the device.
     fn few_transfers(&self) -> Vec<Transfer> {
         let (clock, bodies) = (CLOCK_BYTES, self.rows.bodies as u64);
         let transfer = |before: Option<&'static str>, to_device, what: &str, bytes| Transfer {

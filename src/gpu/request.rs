@@ -1,5 +1,4 @@
-//! What a host sees of a device: the device itself, its buffers, and a state that is asked for now and taken later, so that the host need
-//! not wait.
+//! Access of a host to a device: the device, its buffers, and a state that is requested now and taken later without waiting.
 
 use std::sync::Arc;
 
@@ -12,7 +11,7 @@ use sorb_kernels::{
 use super::Device;
 use crate::{Clock, World};
 
-/// The state of a world when it was asked for, on its way to the host.
+/// The state of a world at the time of a request, on its way to the host.
 #[derive(Debug)]
 pub struct StateRequest {
     clock: Clock,
@@ -21,9 +20,9 @@ pub struct StateRequest {
 }
 
 impl World {
-    /// Buffers of the positions and velocities of the particles on the GPU, where the last step left them: rows of four floats as those
-    /// of [`Self::particle_positions`]. For a renderer on the same device, which must not write them. None for a world on the CPU, and
-    /// before the first step.
+    /// Buffers of the positions and velocities of the particles on the GPU after the last step: rows of four floats like
+    /// those of [`Self::particle_positions`]. For a renderer on the same device, which must not write them. None for a world
+    /// on the CPU, and before the first step.
     #[must_use]
     pub fn particle_buffers(&self) -> Option<(&Buffer, &Buffer)> {
         self.resident().map(Resident::particle_buffers)
@@ -40,8 +39,8 @@ impl World {
         self.stores.device.as_ref().map(Device::gpu)
     }
 
-    /// Asks for the present state, and does not wait for it: the world can take steps meanwhile, and the state is taken
-    /// when it has arrived, for a picture say, a frame later. A world on the CPU has it at once.
+    /// Requests the present state without waiting. The world can take steps meanwhile, and the state is taken when it has
+    /// arrived, for example for a picture a frame later. A world on the CPU has it at once.
     ///
     /// The answer has what a [`State`] has views of.
     ///
@@ -75,7 +74,7 @@ impl StateRequest {
         &self.clock
     }
 
-    /// The state; waits for it if it has not arrived.
+    /// The state; waits until it has arrived.
     ///
     /// # Errors
     /// The device was lost.

@@ -1,4 +1,4 @@
-//! The shares of a step that CPU and device have, and what travels between them.
+//! The shares of CPU and device in a step, and the transfers between them.
 
 use sorb_kernels::{column::Life, columns::Column, kernel::Kernel, stage::Stage};
 
@@ -6,38 +6,38 @@ use crate::schedule::{
     Offload, Place, PlaceError, Plan, PlanLine, Verdict, offload::place_in, order::Part, plan::Work,
 };
 
-/// Kernels that go through the cells that `grid::sort_fluid` made, which do not travel: they run where the sort does.
+/// Kernels that use the cells of `grid::sort_fluid`, which are not transferred: they run where the sort does.
 const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
 
-/// Kernels that run one after the other at one place.
+/// Consecutive kernels at one place.
 #[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub(crate) place: Place,
     pub(crate) stages: Vec<Stage>,
-    /// The line of the plan of the first.
+    /// Index of the first one in the plan.
     pub(crate) line: usize,
     /// Columns that these kernels need and that only the other side has.
     pub(crate) needs: Vec<Column>,
-    /// Whether the particles are in the order of this step when it begins.
+    /// Whether the particles are in the order of this step at its beginning.
     pub(crate) is_sorted: bool,
 }
 
-/// A step, place by place.
+/// A step, divided by place.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shares {
-    /// In order, repetitions written out.
+    /// In order, with repetitions written out.
     pub(crate) segments: Vec<Segment>,
     /// Columns that the host fetches at the end of the step.
     pub(crate) fetched: Vec<Column>,
 }
 
 impl Shares {
-    /// Whether the device does all of it.
+    /// Whether the device runs all of it.
     pub(crate) fn are_all_on_gpu(&self) -> bool {
         !self.segments.is_empty() && self.segments.iter().all(|segment| segment.place == Place::Gpu)
     }
 
-    /// Kernels of the device, in order, repetitions written out.
+    /// Kernels of the device, in order, with repetitions written out.
     pub(crate) fn on_gpu(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
         let segments = self.segments.iter().filter(|segment| segment.place == Place::Gpu);
         segments.flat_map(Segment::kernels)
@@ -51,14 +51,14 @@ impl Segment {
     }
 }
 
-/// Values beside lists do not travel: each side computes them from lists and points.
+/// Values beside lists are not transferred: each side computes them from lists and points.
 const WEIGHTS: [(Column, Column, &[Column]); 3] = [
     (Column::FluidControlWeights, Column::FluidControls, POINTS),
     (Column::ControlFluidWeights, Column::ControlFluid, POINTS),
     (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted]),
 ];
 
-/// What weights of the coupling are functions of, beside lists.
+/// Inputs of the weights of the coupling, beside lists.
 const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
 
 /// Columns with an up-to-date copy, by place.
@@ -69,7 +69,7 @@ struct Fresh {
 }
 
 impl Fresh {
-    /// As a state is uploaded.
+    /// After the upload of a state.
     fn at_upload() -> Self {
         let lives = |column: &Column| column.life() != Life::Scratch;
         Self { host: Column::ALL.to_vec(), device: Column::ALL.iter().copied().filter(lives).collect() }
@@ -82,7 +82,7 @@ impl Fresh {
         }
     }
 
-    /// Columns that are to be sent to a place before it reads `column`; they are fresh there from then on.
+    /// Columns that must be transferred to a place before it reads `column`; they are up to date there from then on.
     fn bring(&mut self, column: Column, place: Place) -> Vec<Column> {
         let (here, _) = self.at(place);
         if here.contains(&column) {
@@ -114,8 +114,8 @@ impl Fresh {
     }
 }
 
-/// What a kernel reads and writes where it is placed. Particles are brought back from the order of the step as a
-/// whole, their identity with them.
+/// Columns that a kernel reads and writes at its place. Particles are brought back from the order of the step together, with
+/// their identity.
 fn moved(kernel: &Kernel) -> (Vec<Column>, Vec<Column>) {
     let (mut reads, mut writes) = (kernel.reads.to_vec(), kernel.writes.to_vec());
     if kernel.name == "sph::advect" {
@@ -184,20 +184,20 @@ impl Plan {
         }
     }
 
-    /// Groups that are repeated until they have converged, of lines that run.
+    /// Groups of active lines that are repeated until they have converged.
     fn rounds(&self) -> impl Iterator<Item = Vec<&PlanLine>> {
         self.groups()
             .filter(|group| group[0].until_converged)
             .map(|group| group.iter().filter(|line| line.verdict == Verdict::Runs).collect())
     }
 
-    /// The first kernel of the group that this one is repeated in until it has converged; else the kernel.
+    /// The first kernel of the group in which this one is repeated until convergence; otherwise the kernel.
     fn first_of_rounds(&self, name: &'static str) -> &'static str {
         let group = self.rounds().find(|group| group.iter().any(|line| line.name == name));
         group.map_or(name, |group| group[0].name)
     }
 
-    /// The shares of CPU and device, as the plan is placed; `looked_at` are columns that the host wants after a step.
+    /// The shares of CPU and device in the placed plan; `looked_at` are columns that the host reads after a step.
     pub(crate) fn shares(&self, looked_at: &[Column]) -> Shares {
         let on_gpu = self.placement().map_or(&[][..], |placement| &placement.on_gpu);
         self.shares_with(on_gpu, looked_at)
@@ -207,7 +207,7 @@ impl Plan {
     pub(crate) fn shares_with(&self, on_gpu: &[&str], looked_at: &[Column]) -> Shares {
         let parts = self.in_order();
         let mut fresh = Fresh::at_upload();
-        // What a step leaves on the device is there for the next one: only the second shows what travels in all others.
+        // Data of one step remain on the device for the next: only the second step shows the transfers of all others.
         shares_of(&parts, on_gpu, &mut fresh, looked_at);
         shares_of(&parts, on_gpu, &mut fresh, looked_at)
     }
@@ -252,7 +252,7 @@ fn shares_of(parts: &[Part], on_gpu: &[&str], fresh: &mut Fresh, looked_at: &[Co
         }
         segment.stages.push(stage.clone());
     }
-    // The host keeps the state, looks at it, and has phases of its own.
+    // The host stores the state, reads it, and has phases of its own.
     let state = |column: &Column| column.life() == Life::State || looked_at.contains(column);
     let mut wanted: Vec<Column> = Column::ALL.iter().copied().filter(state).collect();
     host.iter().for_each(|phase| wanted.extend(phase.reads));

@@ -1,4 +1,4 @@
-//! What steps go on with while parts of a scene are asleep.
+//! Reduced steps while parts of a scene sleep.
 
 use sorb_kernels::{columns::Column, contents::Contents};
 
@@ -7,7 +7,7 @@ use super::{
     step::Phase,
 };
 
-/// The parts that are awake, as far as phases depend on them.
+/// The awake parts, as far as phases depend on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Awake {
     /// The fluid.
@@ -32,12 +32,12 @@ impl Awake {
         Self { fluid: false, sponges: false, touch: false },
     ];
 
-    /// Place in [`Self::ALL`].
+    /// Index in [`Self::ALL`].
     pub(crate) fn index(self) -> usize {
         Self::ALL.iter().position(|other| *other == self).unwrap_or(0)
     }
 
-    /// What is awake of a scene.
+    /// The awake contents of a scene.
     pub(crate) fn of<'a>(self, all: &Contents<'a>) -> Contents<'a> {
         let mut awake = *all;
         if !self.fluid {
@@ -51,12 +51,12 @@ impl Awake {
     }
 }
 
-/// The plans of a scene: of the whole step, and of steps while parts are asleep, in the order of [`Awake::ALL`].
+/// The plans of a scene: of the whole step, and of the reduced steps while parts sleep, in the order of [`Awake::ALL`].
 #[derive(Clone, Debug)]
 pub(crate) struct Plans(pub(crate) Vec<Plan>);
 
 impl Plans {
-    /// Plans `step` for a scene, by all that may be awake.
+    /// Plans `step` for a scene, for every set of awake parts.
     ///
     /// # Errors
     /// As [`Plan::new`].
@@ -74,7 +74,7 @@ impl Plans {
         self.of(Awake::EVERYTHING)
     }
 
-    /// The plan of a step of what is awake.
+    /// The plan of a step with these awake parts.
     pub(crate) fn of(&self, awake: Awake) -> &Plan {
         &self.0[awake.index()]
     }

@@ -18,13 +18,13 @@ pub(super) static SEARCH: Block = Block {
     ],
 };
 
-/// Nodes as control particles of the fluid, what nodes of sponges may touch, and how much water is around them.
+/// Nodes as control particles of the fluid, pairs of nodes that may touch, and the saturation around the nodes.
 pub(super) static CONTROLS: Block = Block {
     name: "controls",
     phases: &[Run(&couple::controls::KERNEL), Run(&pbd::pairs::KERNEL), Run(&couple::saturation::KERNEL)],
 };
 
-/// How open the pores are, which particles are in them, and how sponges are drawn to the water that they suck in.
+/// Porosity, interior values of particles, and the suction on sponges.
 pub(super) static PORES: Block = Block {
     name: "pores",
     phases: &[
@@ -53,7 +53,7 @@ pub(super) static WALLS: Block = Block {
     phases: &[Run(&sph::boundary_pressure::KERNEL), Run(&sph::wall_friction::KERNEL)],
 };
 
-/// Velocities by the forces, and by a solve for the viscosity where that is implicit.
+/// Velocities by the forces, and by a solve for implicit viscosity.
 pub(super) static VISCOSITY: Block = Block {
     name: "viscosity",
     phases: &[
@@ -68,13 +68,13 @@ pub(super) static VISCOSITY: Block = Block {
     ],
 };
 
-/// What keeps the density where that is no matter of an equation of state.
+/// Keeps the density, where there is no equation of state.
 pub(super) static PRESSURE: Block = Block {
     name: "pressure",
     phases: &[Run(&sph::predict::KERNEL), KeepDensity { solve: SOLVE, projection: PROJECTION }],
 };
 
-/// The density by a solve for the pressure \[BK17\].
+/// The density by a pressure solve \[BK17\].
 static SOLVE: &[Phase] = &[
     Run(&sph::boundary::KERNEL),
     Run(&couple::solid_share::KERNEL),
@@ -88,13 +88,13 @@ static SOLVE: &[Phase] = &[
             Run(&sph::pressure_residual::KERNEL),
         ],
     },
-    // While the position still has the pressure of the step before beside it.
+    // While the position still has the pressure of the previous step beside it.
     Run(&couple::solid_reaction::KERNEL),
     Run(&sph::pressure_kick::KERNEL),
     Run(&sph::boundary_reaction::KERNEL),
 ];
 
-/// The density by moving particles \[MM13\]: every round begins at the positions that the one before has left.
+/// The density by moving particles \[MM13\]: every iteration begins at the positions of the previous one.
 static PROJECTION: &[Phase] = &[Repeat {
     times: Times::Projections,
     phases: &[
@@ -109,7 +109,7 @@ static PROJECTION: &[Phase] = &[Repeat {
     ],
 }];
 
-/// Sponges by any of the solvers, with what they touch.
+/// Sponges by any of the solvers, with their contacts.
 pub(super) static ELASTIC: Block = Block {
     name: "elastic",
     phases: &[
@@ -132,12 +132,12 @@ pub(super) static ELASTIC: Block = Block {
     ],
 };
 
-/// Sweeps of the drag before the last: for water that weighs 20 times as much as the sponge it fills, two leave the
-/// impulses of a uniform flow within 6 % and of a shear flow within 8 % of the converged ones. Momentum is exact and
-/// energy falls at any number.
+/// Sweeps of the drag before the last. For water that weighs 20 times as much as the sponge it fills, two leave the impulses
+/// of a uniform flow within 6 % and of a shear flow within 8 % of the converged ones. Momentum is exact and energy falls at
+/// any number.
 const FILTER_SWEEPS: u32 = 2;
 
-/// The drag between fluid and sponges, after all else.
+/// The drag between fluid and sponges, after everything else.
 pub(super) static DRAG: Block = Block {
     name: "drag",
     phases: &[
@@ -151,11 +151,10 @@ pub(super) static DRAG: Block = Block {
     ],
 };
 
-/// How often the momenta of sponges are balanced before the drag is settled: it answers to the rigid motion that a sponge is given, at
-/// places that lie around its nodes somehow.
+/// Number of momentum corrections of sponges before the drag is fixed: the drag responds to the rigid motion of a sponge.
 const BALANCES: u32 = 2;
 
-/// Sponges by vertex block descent, with the drag of the fluid and what they touch.
+/// Sponges by vertex block descent, with the drag of the fluid and their contacts.
 pub(super) static ELASTIC_WITH_DRAG: Block = Block {
     name: "elastic with drag",
     phases: &[
@@ -193,6 +192,6 @@ pub(super) static ELASTIC_WITH_DRAG: Block = Block {
     ],
 };
 
-/// Particles and bodies where they are at the end of the step.
+/// Particles and bodies at the end of the step.
 pub(super) static MOTION: Block =
     Block { name: "motion", phases: &[Run(&sph::sweep::KERNEL), Run(&sph::advect::KERNEL), Host(&RIGID)] };

@@ -1,10 +1,10 @@
-//! Where a step runs: what the host asks for, and what becomes of it.
+//! Placement of a step: the request of the host, and the result.
 
 use std::{fmt, str::FromStr};
 
 use sorb_kernels::{KERNELS, kernel::Kernel, kernel_named};
 
-/// What the host wants to run on a GPU.
+/// Kernels that the host wants to run on a GPU.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Offload {
     /// Nothing: everything on the CPU, with the same bits on every machine. The default.
@@ -12,13 +12,14 @@ pub enum Offload {
     Cpu,
     /// Everything; an error if there is no adapter.
     Gpu,
-    /// Everything, if there is a real adapter and enough rows to keep it busy; else nothing. The plan says why.
+    /// Everything, if there is a hardware adapter and enough rows to keep it busy; otherwise nothing. The plan gives the
+    /// reason.
     Auto,
-    /// This kernel and all after it in the step; those before it on the CPU, with what the other side made sent to and
-    /// fro in every step. To find the kernel that differs.
+    /// This kernel and all after it in the step; those before it on the CPU, with transfers in every step. To find the
+    /// kernel that differs.
     From(&'static str),
-    /// Kernel by kernel, the last entry of a name counts; kernels that are not named run on the CPU. What the other
-    /// side made is sent to and fro in every step.
+    /// Kernel by kernel. The last matching entry counts, and kernels without an entry run on the CPU, with transfers in
+    /// every step.
     Each(Vec<(&'static str, Place)>),
 }
 
@@ -40,7 +41,7 @@ pub(crate) fn place_in(list: &[(&'static str, Place)], kernel: &Kernel) -> Place
     entry.map_or(Place::Cpu, |(_, place)| *place)
 }
 
-/// A text that names no way to offload.
+/// A text that is no valid backend.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{0}` is no backend; there are: cpu, gpu, auto, from:KERNEL with a kernel such as sph::density, and \
@@ -66,7 +67,7 @@ impl FromStr for Offload {
     }
 }
 
-/// Entries `NAME=PLACE`, with a kernel, a family or `all` for a name.
+/// Entries `NAME=PLACE`, where a name is a kernel, a family or `all`.
 fn each(entries: &str) -> Option<Vec<(&'static str, Place)>> {
     let mut list = Vec::new();
     for entry in entries.split(',') {
@@ -123,33 +124,33 @@ impl fmt::Display for Place {
     }
 }
 
-/// Where a whole step runs, and why.
+/// Placement of a whole step, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
-    /// The requested number.
+    /// The request.
     pub offload: Offload,
     /// The kernels that run on the GPU; none if all run on the CPU.
     pub on_gpu: Vec<&'static str>,
     /// Name of the adapter, and why it is used or not.
     pub reason: String,
-    /// What is sent between host and device, in the order of a step.
+    /// Transfers between host and device, in the order of a step.
     pub transfers: Vec<Transfer>,
 }
 
-/// Something that is sent in every step.
+/// A transfer of every step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Transfer {
-    /// The phase that it is sent before; none for the end of the step.
+    /// The phase after the transfer; none for the end of the step.
     pub before: Option<&'static str>,
-    /// The line of the plan that this phase is, from 0.
+    /// The line of this phase in the plan, from 0.
     pub line: Option<usize>,
-    /// Whether it is sent to the device, else from it.
+    /// Whether the transfer is to the device, otherwise from it.
     pub to_device: bool,
-    /// What is sent: columns, or `clock`.
+    /// Its content: columns, or `clock`.
     pub what: String,
-    /// How much at a time \[B\]; lists as long as those of a fluid and a lattice at rest.
+    /// Size of one transfer \[B\]; lists have the length of those of a fluid and a lattice at rest.
     pub bytes: u64,
-    /// How often in a step: less than the phase is repeated if later rounds need less.
+    /// Number of transfers in a step: less than the repetitions if later ones need less.
     pub times: u32,
 }
 
@@ -172,19 +173,19 @@ impl Placement {
     }
 }
 
-/// Kernels are asked for at places where they cannot be.
+/// Kernels are requested at places where they cannot run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaceError {
-    /// A kernel that needs the cells of another is elsewhere.
+    /// A kernel that needs the cells of another is at another place.
     #[error(
         "backend `{kernel}={place}`: it goes through the cells of {sort}, which do not travel; both run at one place"
     )]
     BesideSort {
         /// The kernel.
         kernel: &'static str,
-        /// Where it is asked for.
+        /// The requested place.
         place: Place,
-        /// What it must be with.
+        /// The kernel that it must be with.
         sort: &'static str,
     },
     /// Kernels that are repeated until they have converged are at two places.
@@ -194,9 +195,9 @@ pub enum PlaceError {
     Apart {
         /// The kernel.
         kernel: &'static str,
-        /// Where it is asked for.
+        /// The requested place.
         place: Place,
-        /// What it must be with.
+        /// The kernel that it must be with.
         with: &'static str,
     },
     /// No kernel has this name.

@@ -1,4 +1,4 @@
-//! A plan as it runs: what is skipped left out, and repetitions written out.
+//! A plan in execution order: without skipped phases, with repetitions written out.
 
 use sorb_kernels::stage::Stage;
 
@@ -10,14 +10,14 @@ use super::{
 /// Something that runs in a step.
 #[derive(Clone, Debug)]
 pub(crate) enum Part {
-    /// Kernels, with the lines of the plan that they are.
+    /// Kernels, with the indices of their lines in the plan.
     Kernels(Stage, Vec<usize>),
     /// A phase of the host.
     Host(&'static HostPhase),
 }
 
 impl Plan {
-    /// What runs, in order. Repetitions are written out, but for rounds until convergence.
+    /// The active phases in order. Repetitions are written out, except iterations until convergence.
     pub(crate) fn in_order(&self) -> Vec<Part> {
         let mut parts = Vec::new();
         let mut first = 0;
@@ -40,7 +40,7 @@ impl Plan {
     }
 }
 
-/// Rounds until convergence; none without kernels.
+/// Iterations until convergence; none without kernels.
 fn rounds<'a>(maximum: u32, lines: impl Iterator<Item = (usize, &'a PlanLine)>) -> Option<Part> {
     let kernel = |(number, line): (usize, &PlanLine)| match line.work {
         Work::Kernel(kernel) => Some((kernel, number)),

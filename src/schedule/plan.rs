@@ -1,4 +1,4 @@
-//! The plan: the step without what this scene lacks or nobody reads, checked.
+//! The plan: the checked step, without phases that the scene does not need or whose results nobody reads.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use super::{
     step::{HostPhase, Phase, Times},
 };
 
-/// What becomes of a phase.
+/// Decision about a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It runs.
@@ -25,9 +25,9 @@ pub struct PlanLine {
     pub name: &'static str,
     /// Whether it runs.
     pub verdict: Verdict,
-    /// Repetitions, by the group that it is repeated in.
+    /// Group of the repetition, and number of repetitions.
     pub repeat: Option<(usize, u32)>,
-    /// Whether the repetitions end when the solve that they are rounds of has converged.
+    /// Whether the repetitions end when their solve has converged.
     pub until_converged: bool,
     pub(crate) work: Work,
 }
@@ -79,7 +79,7 @@ impl Plan {
         &self.lines
     }
 
-    /// Where the step runs; none if nobody asked for anything but the CPU.
+    /// Placement of the step; none if only the CPU was requested.
     #[must_use]
     pub fn placement(&self) -> Option<&Placement> {
         self.placement.as_ref()
@@ -124,7 +124,7 @@ impl Plan {
         }
     }
 
-    /// Walks backwards and skips what no state and no later phase depends on.
+    /// Goes backwards and skips phases on which neither the state nor a later phase depends.
     fn drop_dead(&mut self, observed: &[Column]) {
         let mut live: Vec<Column> =
             Column::ALL.iter().copied().filter(|column| column.life() == Life::State).collect();
@@ -133,7 +133,7 @@ impl Plan {
         let mut first = self.lines.len();
         for group in self.groups().rev() {
             first -= group.len();
-            // What a repetition writes, the next one may read before it: twice around finds all of it.
+            // A repetition may read what the previous one wrote: two passes find all of it.
             for _ in 0..if group[0].group().is_some() { 2 } else { 1 } {
                 for (line, runs) in group.iter().zip(&mut runs[first..]).rev() {
                     *runs = line.verdict == Verdict::Runs

@@ -1,4 +1,4 @@
-//! Runs a plan on the CPU, and takes the time of every phase.
+//! Runs a plan on the CPU, and measures the time of every phase.
 
 use std::time::Instant;
 
@@ -54,16 +54,16 @@ impl PhaseTime {
     }
 }
 
-/// Plans, flattened to what is left of them.
+/// Plans, reduced to their active phases.
 #[derive(Clone, Debug)]
 pub struct Runner {
-    /// Of every plan, in the order of [`Awake::ALL`]; of one alone for a runner of that.
+    /// One for every plan, in the order of [`Awake::ALL`]; a single one for a runner of one plan.
     sequences: Vec<Sequence>,
     pub(crate) times: Vec<PhaseTime>,
     pub(crate) step: PhaseTime,
 }
 
-/// What runs in a step, in order; with the places of the times of its kernels.
+/// The active phases of a step in order, with the indices of the times of its kernels.
 #[derive(Clone, Debug, Default)]
 struct Sequence {
     parts: Vec<(Part, Vec<usize>)>,
@@ -83,7 +83,7 @@ impl Runner {
         Self { sequences, times, step: PhaseTime::new("step") }
     }
 
-    /// Runs all phases of the plan of what is awake in order; `host` does the host phases.
+    /// Runs all phases of the plan for the awake parts in order; `host` runs the host phases.
     pub(crate) fn run(
         &mut self,
         awake: Awake,
@@ -93,7 +93,7 @@ impl Runner {
     ) {
         let Self { sequences, times, step } = self;
         let start = Instant::now();
-        // Waking the threads would be all the cost of an empty scene.
+        // Waking the threads would be the whole cost of an empty scene.
         if let Some(sequence) = sequences.get(awake.index()).filter(|sequence| !sequence.parts.is_empty()) {
             cpu.enter(|| sequence.run((cpu, params), columns, host, times));
         }
@@ -160,7 +160,7 @@ impl Sequence {
     }
 }
 
-/// The place of the time of a phase, which is added if there is none.
+/// Index of the time of a phase, which is added if it is missing.
 pub(crate) fn slot(times: &mut Vec<PhaseTime>, name: &'static str) -> usize {
     times.iter().position(|time| time.name == name).unwrap_or_else(|| {
         times.push(PhaseTime::new(name));

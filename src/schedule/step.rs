@@ -16,7 +16,7 @@ pub enum Phase {
         /// What is repeated.
         phases: &'static [Self],
     },
-    /// What keeps the density of the fluid, where that is no matter of an equation of state.
+    /// Keeps the density of the fluid, where there is no equation of state.
     KeepDensity {
         /// By a solve for the pressure.
         solve: &'static [Self],
@@ -80,7 +80,7 @@ impl Times {
     }
 }
 
-/// A phase that is not a kernel.
+/// A phase of the host.
 #[derive(Debug, PartialEq, Eq)]
 pub struct HostPhase {
     /// `family::name`.
@@ -89,11 +89,11 @@ pub struct HostPhase {
     pub needs: &'static [Need],
     /// What it changes.
     pub writes: &'static [Column],
-    /// What it uses of what was written before it, if anything was.
+    /// Columns that it reads, if they were written before it.
     pub reads: &'static [Column],
 }
 
-/// The rigid bodies take what fluid and sponges gave them, and move.
+/// The rigid bodies receive the wrenches of fluid and sponges, and move.
 pub static RIGID: HostPhase = HostPhase {
     name: "rigid::step",
     needs: &[Need::Bodies],
@@ -104,7 +104,7 @@ pub static RIGID: HostPhase = HostPhase {
 use super::blocks::*;
 use Phase::{Part, Run};
 
-/// The step of the paper. Reads and writes of the kernels check this order; they do not make it.
+/// The step of the paper. Reads and writes of the kernels check this order; they do not define it.
 pub static STEP: &[Phase] = &[
     Part(&SEARCH),
     Run(&sph::pressure::KERNEL),
@@ -120,8 +120,8 @@ pub static STEP: &[Phase] = &[
     Part(&MOTION),
 ];
 
-/// The step with sponges as porous media: pressure and suction first, then elasticity, drag and contact as one solve, so
-/// that the sponge bears what the water does to it, and drag does not weaken suction but not pressure (docs/porous.md).
+/// The step with sponges as porous media: pressure and suction first, then elasticity, drag and contact as one solve. The
+/// sponge then bears the loads of the water in the same step, and drag slows suction and pressure alike (docs/porous.md).
 pub static POROUS_STEP: &[Phase] = &[
     Part(&SEARCH),
     Part(&CONTROLS),
