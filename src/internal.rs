@@ -20,8 +20,8 @@ use crate::{
 
 /// All columns of a world. Rows of the fluid change their order from step to step.
 ///
-/// On a GPU this reads back the state and what measures need (density, interior, saturation), once after every step or frame that is
-/// looked at; other scratch columns are not kept.
+/// On a GPU this reads back the state and the columns of measures (density, interior, saturation), at most once after every
+/// step or frame; other scratch columns are not stored.
 #[must_use]
 pub fn columns(world: &World) -> &Columns {
     world.columns()
@@ -41,7 +41,7 @@ pub fn plan(step: &[Phase], contents: &Contents<'_>, observed: &[Column]) -> Res
     Plan::new(step, contents, observed)
 }
 
-/// The columns of a state that was asked for. Those that nobody looks at are empty.
+/// The columns of a requested state. Columns that are not read back are empty.
 #[cfg(feature = "gpu")]
 #[must_use]
 pub fn state_columns(state: &crate::gpu::State) -> &Columns {

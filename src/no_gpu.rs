@@ -1,4 +1,5 @@
-//! Worlds on a GPU need the feature `gpu`. What is here instead has no values, so that nothing else asks for the feature.
+//! Worlds on a GPU need the feature `gpu`. Without it these types have no values, so that no other code asks for the
+//! feature.
 
 use std::fmt;
 

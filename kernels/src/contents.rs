@@ -1,4 +1,4 @@
-//! What a scene contains, and why a phase is skipped.
+//! Contents of a scene, and why a phase is skipped.
 
 use crate::{
     body::Body,
@@ -7,21 +7,21 @@ use crate::{
     params::{Params, Solver, SpongeParams},
 };
 
-/// What a scene contains, as far as it is awake.
+/// The awake contents of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Contents<'a> {
     /// Parameters of the step.
     pub params: &'a Params,
-    /// Rows of the stores; none of particles that are asleep, and none of nodes if all sponges are.
+    /// Rows of the stores; none of sleeping particles, and none of nodes if all sponges sleep.
     pub rows: RowCounts,
     /// The rigid bodies.
     pub bodies: &'a [Body],
-    /// Whether sponges that are awake can touch each other or themselves.
+    /// Whether awake sponges can touch each other or themselves.
     pub touch: bool,
 }
 
 impl<'a> Contents<'a> {
-    /// All of a scene, awake.
+    /// All contents of a scene, awake.
     #[must_use]
     pub fn new(params: &'a Params, columns: &'a Columns) -> Self {
         Self { params, rows: columns.rows, bodies: &columns.bodies.states.0, touch: params.has_touch() }
@@ -40,14 +40,14 @@ impl<'a> Contents<'a> {
 }
 
 impl Need {
-    /// Why a phase with this need is skipped; none if the scene contains what is needed.
+    /// Why a phase with this need is skipped; none if the need is met.
     #[must_use]
     pub fn missing(self, contents: &Contents<'_>) -> Option<&'static str> {
         let (is_met, reason) = self.condition(contents);
         (!is_met).then_some(reason)
     }
 
-    /// Whether the scene contains what is needed, and what to say if it does not.
+    /// Whether the need is met, and the reason if it is not.
     fn condition(self, contents: &Contents<'_>) -> (bool, &'static str) {
         let Contents { params, rows, bodies, touch } = contents;
         let fluid = &params.fluid;

@@ -1,4 +1,4 @@
-//! Why a world could not be built, and why a step failed.
+//! Errors of building a world, and of steps.
 
 use sorb_kernels::cpu::CpuError;
 
@@ -8,7 +8,7 @@ use crate::{clock::Bound, rigid::RigidError, scene::SceneError, schedule::PlanEr
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WorldError {
-    /// The scene has values out of range, or that do not fit together.
+    /// The scene has values that are out of range or contradict each other.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The lattice of a sponge cannot be made.
@@ -20,7 +20,7 @@ pub enum WorldError {
     Hull {
         /// Name of the body.
         body: String,
-        /// What is wrong.
+        /// The defect.
         source: crate::rigid::HullError,
     },
     /// A body needs rapier3d.
@@ -29,7 +29,7 @@ pub enum WorldError {
         /// Name of the body.
         body: String,
     },
-    /// Sponges lie inside each other, where contact would have to take them apart.
+    /// Sponges lie inside each other, which contact could not separate.
     #[error("sponges `{first}` and `{second}` overlap by more than half an edge: move one of them")]
     Overlap {
         /// Name of a sponge.
@@ -47,12 +47,12 @@ pub enum WorldError {
     Velocity {
         /// Identity of the particle.
         id: u32,
-        /// What was given \[m/s\].
+        /// The given velocity \[m/s\].
         velocity: [f32; 3],
         /// Largest component in range \[m/s\].
         maximum: f32,
     },
-    /// What can be changed before the first step only.
+    /// A change that is possible before the first step only.
     #[error("velocities can be set before the first step only, and {steps} were taken")]
     Started {
         /// Steps taken.
@@ -61,21 +61,21 @@ pub enum WorldError {
     /// Threads or SIMD level.
     #[error(transparent)]
     Cpu(#[from] CpuError),
-    /// The step contradicts a kernel's declaration.
+    /// The step contradicts the declaration of a kernel.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A GPU was asked for, and the feature `gpu` is off.
+    /// A GPU was requested, and the feature `gpu` is off.
     #[error("backend `{0}`: built without the feature `gpu`")]
     NeedsGpu(crate::schedule::Offload),
-    /// Kernels are asked for at places where they cannot be.
+    /// Kernels are requested at places where they cannot run.
     #[error(transparent)]
     Place(#[from] crate::schedule::PlaceError),
-    /// A GPU was asked for, and there is none that can be used.
+    /// A GPU was requested, and no usable one exists.
     #[error(transparent)]
     Gpu(#[from] crate::gpu::GpuError),
 }
 
-/// Why a step failed. The world keeps the state it had after the step and refuses to go on.
+/// Why a step failed. The world keeps the state after the step and takes no further steps.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
@@ -99,15 +99,15 @@ pub enum StepError {
         /// Simulated time \[s\].
         time: f64,
     },
-    /// Stability asks for a step below `time.minimum_step`.
+    /// Stability requires a step below `time.minimum_step`.
     #[error(
         "step {step} at {time:.6} s: `{}` asks for a step of {needed:e} s, below time.minimum_step = {minimum:e} s",
         .bound.name()
     )]
     TooSmall {
-        /// What asks for it.
+        /// The bound that requires it.
         bound: Bound,
-        /// The step it asks for \[s\].
+        /// The required step \[s\].
         needed: f32,
         /// `time.minimum_step` \[s\].
         minimum: f32,
@@ -119,8 +119,8 @@ pub enum StepError {
     /// The engine of the bodies failed.
     #[error("rigid bodies: {0}")]
     Rigid(String),
-    /// The GPU failed. [`crate::World::move_to`] goes on elsewhere from the state that was looked at last; a clone that
-    /// was made before goes on as well: it uploads its state anew.
+    /// The GPU failed. [`crate::World::move_to`] continues from the state that was read back last. A clone that was made
+    /// before continues as well: it uploads its state anew.
     #[error(transparent)]
     Gpu(#[from] crate::gpu::GpuError),
 }

@@ -1,4 +1,4 @@
-//! States that are no longer finite stop a world, and the error names the culprit.
+//! States that are not finite stop a world, and the error names the row.
 
 use super::*;
 

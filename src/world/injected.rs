@@ -1,10 +1,10 @@
-//! States that no host can write, put into the columns: what is not finite, nodes and particles at one place, tets inside out, and
-//! steps far beyond what is stable.
+//! States that no host can write, put into the columns: values that are not finite, nodes and particles at one place,
+//! inverted tets, and steps far beyond stability.
 
 use super::*;
 use crate::scene::preset;
 
-/// A scene of the library in which everything touches, after some steps.
+/// A scene of the library in which everything interacts, after some steps.
 fn busy(name: &str) -> World {
     let scene = preset(name).and_then(|scene| scene.scaled(0.4));
     let mut scene = scene.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -18,7 +18,7 @@ fn busy(name: &str) -> World {
     world
 }
 
-/// Where a number is put: its name, and the way to it.
+/// A number of the state: its name, and access to it.
 type Place = (&'static str, fn(&mut Columns) -> &mut f32);
 
 /// All numbers of the state of the middle particle, the middle node and the first body.
@@ -45,10 +45,10 @@ const PLACES: &[Place] = &[
     ("bodies.states.angular_velocity", |columns| &mut columns.bodies.states.0[0].state.angular_velocity.y),
 ];
 
-/// What no step notices, and whether it is gone afterwards.
+/// Faults that no step notices, and that are gone afterwards.
 ///
-/// The engine owns the bodies: their column is written anew in every step, and contact with what is nowhere is none. The compression
-/// that a particle is allowed begins anew where it is no compression (`sph::predict`).
+/// The engine owns the bodies: their column is written anew in every step, and a body without a position has no contact. A
+/// permitted compression that is invalid begins anew (`sph::predict`).
 const SILENT: &[&str] = &[
     "fluid.velocity.w = NaN: gone",
     "fluid.velocity.w = inf: gone",
@@ -110,7 +110,7 @@ fn what_is_not_finite_is_an_error_in_the_step_and_the_last_one() {
     assert!(healthy.clone().step().is_ok());
 }
 
-/// Runs for some time, and says what is wrong on the way or in the end.
+/// Runs for some time, and returns the first fault on the way or at the end.
 fn survives(world: &mut World, seconds: f64) -> Result<(), String> {
     let end = world.clock().time + seconds;
     let particles = world.particle_ids().len();
@@ -160,10 +160,10 @@ fn moved(world: &mut World, to: impl Fn(Vec3) -> Vec3) {
     }
 }
 
-/// Where a deformation takes a node, from the centre of the sponge \[m\].
+/// Position of a node under a deformation, from the centre of the sponge \[m\].
 type Deformation = fn(Vec3) -> Vec3;
 
-/// Deformations that no material bears.
+/// Deformations beyond any material.
 const DEFORMATIONS: &[(&str, Deformation)] = &[
     ("all nodes at one place", |_| Vec3::ZERO),
     ("all nodes in a plane", |x| Vec3::new(x.x, 0.0, x.z)),
@@ -174,16 +174,16 @@ const DEFORMATIONS: &[(&str, Deformation)] = &[
     ("a third of its size", |x| 0.33 * x),
     ("a tenth of its size", |x| 0.1 * x),
     ("every node somewhere", |x| {
-        // No pattern that the lattice knows.
+        // A pattern that does not follow the lattice.
         let scramble = |value: f32| libm::sinf(12_345.6 * value) * 0.03;
         Vec3::new(scramble(x.y + 0.3 * x.z), scramble(x.z + 0.3 * x.x), scramble(x.x + 0.3 * x.y))
     }),
 ];
 
-/// What sponges do not recover from; known faults.
+/// Deformations from which sponges do not recover; known faults.
 ///
-/// Nothing says which way nodes at one place have to go; where there is a ball and water, they find one. A sponge of which every tet is
-/// inside out would have to pass through itself, and ends tangled.
+/// Nodes at one place have no preferred direction; a ball and water provide one. A sponge with every tet inverted would have
+/// to pass through itself, and ends tangled.
 const NOT_RECOVERED: &[(&str, &str)] = &[
     ("dry", "all nodes at one place"),
     ("dry", "mirrored: every tet is inside out"),
@@ -222,7 +222,7 @@ fn sponges_recover_unless_they_are_tangled() {
     assert_eq!(lost, NOT_RECOVERED);
 }
 
-/// Pairs of particles that are nearer than a thousandth of the spacing.
+/// Pairs of particles closer than a thousandth of the spacing.
 fn together(world: &World) -> usize {
     let (rows, limit) = (world.particle_positions(), 1e-3 * world.params.fluid.spacing);
     let near = |a: &[f32; 4], b: &[f32; 4]| (0..3).all(|axis| (a[axis] - b[axis]).abs() < limit);
@@ -270,7 +270,7 @@ fn steps_far_beyond_what_is_stable() {
                 world.clock.steps += 1;
                 world.clock.time += f64::from(long);
                 let result = world.run_phases(long).and_then(|()| world.check());
-                // Viscosity between particles is explicit, and a hundred times its bound is an error that names a row.
+                // Viscosity between particles is explicit: a hundred times its bound is an error that names a row.
                 if factor > 10.0 && result.is_err() {
                     refused = true;
                     break;
@@ -284,7 +284,7 @@ fn steps_far_beyond_what_is_stable() {
                 continue;
             }
             assert!(is_finite(&world), "{name} x{factor}");
-            // Afterwards the world goes on by itself, or says what it would need.
+            // Afterwards the world continues, or reports the step that it would need.
             let after = survives(&mut world, 0.5);
             println!("| {name} | {factor} | {fastest:.1} m/s | {most} outside | {after:?} |");
             let is_refused = after.as_ref().is_err_and(|text| text.contains("asks for a step of"));

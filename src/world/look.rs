@@ -1,4 +1,4 @@
-//! What is computed for a look at the state, and not for a step.
+//! Values that are computed for reading the state, not for a step.
 
 use sorb_kernels::{
     asleep::Asleep, columns::Columns, couple, grid, kernel::Kernel, params::Params, pbd, sph,
@@ -8,7 +8,7 @@ use super::World;
 use crate::schedule::{PlanLine, Verdict};
 
 impl World {
-    /// Runs the phases that measures depend on, so that they hold at time zero as well.
+    /// Runs the phases that measures depend on, so that they are valid at time zero as well.
     pub(super) fn look(&mut self) {
         let phases = [
             &grid::sort_fluid::KERNEL,
@@ -33,11 +33,11 @@ impl World {
         self.plan().lines().iter().any(runs)
     }
 
-    /// Columns with the density, and the share of walls and bodies, at the present positions: a solve for the pressure needs
-    /// neither of them there.
+    /// Columns with the density and the boundary volume fraction at the present positions: a pressure solve needs neither
+    /// there.
     pub(crate) fn summed_density(&self) -> Columns {
         let mut columns = self.stores.view().clone();
-        // Before the first step nothing has asked for compression.
+        // Before the first step no compression is permitted.
         columns.fluid.acceleration.resize(columns.fluid.position.len(), [0.0; 4]);
         let params = Params { step: 0.0, asleep: Asleep::default(), ..self.params.clone() };
         let phases = [

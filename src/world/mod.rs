@@ -1,4 +1,4 @@
-//! The world: the one object that a host builds, steps and looks at.
+//! The world: the one object that a host builds, steps and reads.
 
 mod error;
 #[cfg(all(test, feature = "serde"))]
@@ -39,7 +39,7 @@ pub use error::{StepError, WorldError};
 pub(crate) use moving::move_bodies;
 use moving::{column_pressure, fastest, fastest_body, wrenches};
 
-/// What to run on.
+/// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Number of threads, 1 to 1024; default: one per core. Has no effect on results.
@@ -48,17 +48,17 @@ pub struct Options {
     pub simd: Option<SimdLevel>,
     /// Columns to keep up to date although no phase reads them; [`internal`](crate::internal), without any promise.
     pub observed: Vec<Column>,
-    /// What to run on a GPU; by default nothing.
+    /// Kernels that run on a GPU; by default none.
     pub offload: Offload,
-    /// The GPU to run on; default: the best of the machine. Worlds can share one, and it can be made of a device of the
-    /// host. There is none without the feature `gpu`.
+    /// The GPU; default: the best of the machine. Worlds can share one, and it can use a device of the host. There is none
+    /// without the feature `gpu`.
     pub gpu: Option<Arc<Gpu>>,
-    /// Whether to take the time of every kernel on the GPU, which makes its steps a little longer. On the CPU it is
-    /// always taken.
+    /// Whether to measure the time of every kernel on the GPU, which makes its steps a little longer. On the CPU it is
+    /// always measured.
     pub gpu_times: bool,
 }
 
-/// What a step did.
+/// Result of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport {
     /// Length of the step \[s\].
@@ -71,7 +71,7 @@ pub struct StepReport {
     pub maximum_speed: f32,
 }
 
-/// What the steps of a frame did.
+/// Result of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameReport {
     /// Time after the frame \[s\].
@@ -80,7 +80,7 @@ pub struct FrameReport {
     pub steps: u32,
     /// Shortest step of the frame \[s\]; infinite if there was none.
     pub shortest_step: f32,
-    /// What limited most of the steps.
+    /// The bound of most of the steps.
     pub bound: Bound,
     /// Largest speed of particles and nodes in the frame \[m/s\].
     pub maximum_speed: f32,
@@ -91,7 +91,7 @@ const ROWS_FOR_THREADS: u64 = 1000;
 
 /// A scene in motion.
 ///
-/// A clone continues with the same bits: keep one to go back to it.
+/// A clone continues with the same bits: keep one to return to it.
 #[derive(Clone, Debug)]
 pub struct World {
     pub(crate) scene: Scene,
@@ -171,7 +171,7 @@ impl World {
         world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
         world.clock.body_speed = fastest_body(&bodies.states.0);
         if world.params.fluid.incompressible.is_some() {
-            // Nothing bears the weight along an axis without walls.
+            // Nothing carries the weight along an axis without walls.
             let held = Vec3::select(scene.periodic().into(), Vec3::ZERO, scene.gravity);
             world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], held);
         }
@@ -193,7 +193,7 @@ impl World {
     /// # Errors
     /// As [`Self::step`].
     pub fn advance_frame(&mut self) -> Result<FrameReport, StepError> {
-        // A frame that single steps have already filled takes none: it would not notice.
+        // A frame that single steps have already filled would not notice the failure.
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
@@ -210,10 +210,10 @@ impl World {
             maximum_speed: 0.0,
         };
         let mut bounds: Vec<(Bound, u32)> = Vec::new();
-        // The end is reached exactly: the last step is cut to what is left, and time is summed in f64.
+        // The end is reached exactly: the last step is shortened to the remainder, and time is summed in f64.
         while end - self.clock.time > 1e-9 {
             let step = self.step_within(end - self.clock.time)?;
-            // What is slept is no step.
+            // Sleep is no step.
             if step.bound != Bound::Asleep {
                 report.steps += 1;
                 report.shortest_step = report.shortest_step.min(step.step);
@@ -246,7 +246,7 @@ impl World {
         Ok(report)
     }
 
-    /// Remembers a failure: the world refuses to go on after it.
+    /// Stores a failure: the world takes no steps after it.
     fn remember<R>(&mut self, result: Result<R, StepError>) -> Result<R, StepError> {
         result.inspect_err(|error| self.failed = Some(error.clone()))
     }
@@ -261,7 +261,7 @@ impl World {
         let (step, bound) = within(stable, left);
         self.params.step = step;
         if let Err(error) = self.run_phases(step) {
-            // A particle or node that is not finite makes the wrenches so: it is named instead of the body.
+            // A particle or node that is not finite invalidates the wrenches: the error names it instead of the body.
             if matches!(error, StepError::Rigid(_)) {
                 self.check()?;
             }
@@ -299,7 +299,7 @@ impl World {
         rigid.map_err(|error| StepError::Rigid(error.to_string()))
     }
 
-    /// Takes over the extremes of the step, and refuses what is not finite.
+    /// Reads the extremes of the step, and refuses values that are not finite.
     fn check(&mut self) -> Result<(), StepError> {
         let columns = &self.stores.host;
         let (fluid, nodes) = (columns.fluid.extremes.total(), columns.nodes.extremes.total());

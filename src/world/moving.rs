@@ -1,4 +1,4 @@
-//! What moves: speeds of particles, nodes and bodies, and bodies by what fluid and sponges gave to them.
+//! Speeds of particles, nodes and bodies, and the motion of bodies by the wrenches of fluid and sponges.
 
 use glam::Vec3;
 use sorb_kernels::{
@@ -18,8 +18,8 @@ pub(super) fn fastest_body(bodies: &[Body]) -> f32 {
     bodies.iter().map(Body::fastest).fold(0.0, f32::max)
 }
 
-/// Root of the mean square of the pressure over density in a column at rest that is as deep as the fluid \[m^2/s^2\]: what a
-/// first step can meet, before any pressure was solved for.
+/// Root mean square of the kinematic pressure in a column at rest that is as deep as the fluid \[m^2/s^2\]: the estimate of
+/// the first step, before any pressure solve.
 pub(super) fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
     let depths = positions.iter().map(|p| gravity.dot(Vec3::new(p[0], p[1], p[2])));
     let (low, high) =
@@ -27,7 +27,7 @@ pub(super) fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
     (high - low).max(0.0) / 3.0_f32.sqrt()
 }
 
-/// What fluid and sponges gave to every body in this step.
+/// Wrenches of fluid and sponges on every body in this step.
 pub(super) fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
     let store = &columns.bodies;
     let count = store.states.0.len();
@@ -35,7 +35,7 @@ pub(super) fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
     (0..count).map(total).collect()
 }
 
-/// Hands what fluid and sponges gave to the engine, and takes over where the bodies are then.
+/// Passes the wrenches of fluid and sponges to the engine, and stores the new states of the bodies.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
     light: &LightBodies,

@@ -8,8 +8,8 @@ use crate::scene::{Fluid, FluidBlock, Scene};
 /// Particles over the depth of the pool, and along its sides.
 const LAYERS: usize = 20;
 
-/// Scatter of the pressure within layers over the pressure at the floor, and the fastest layer on average \[m/s\], after four
-/// seconds.
+/// Scatter of the pressure within layers over the pressure at the floor, and the largest mean speed of a layer \[m/s\],
+/// after four seconds.
 fn pool(roughness: f32) -> (f64, f64) {
     let spacing = 0.02;
     let side = 0.5 * LAYERS as f32 * spacing;
@@ -25,7 +25,7 @@ fn pool(roughness: f32) -> (f64, f64) {
     let rows =
         world.particle_positions().iter().zip(world.particle_velocities()).zip(world.particle_pressures());
     for ((x, v), pressure) in rows {
-        // Walls carry a share of their own.
+        // Walls bear a part of the pressure.
         if x[0].abs() < side - 1.5 * spacing && x[2].abs() < side - 1.5 * spacing {
             let layer = &mut layers[((x[1] / spacing) as usize).min(LAYERS + 1)];
             let (pressure, speed) = (f64::from(pressure), f64::from(Vec3::new(v[0], v[1], v[2]).length()));

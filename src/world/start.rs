@@ -1,4 +1,4 @@
-//! What a host may change before the first step.
+//! Changes that a host may make before the first step.
 
 use glam::Vec3;
 
@@ -10,10 +10,9 @@ const MAXIMUM: f32 = 100.0;
 impl World {
     /// Gives every particle the velocity of a field at its position, before the first step.
     ///
-    /// `velocity` takes a position \[m\] and gives a velocity \[m/s\], whose components may be -100 to 100. It replaces what
-    /// the scene says ([`FluidBlock::velocity`](crate::scene::FluidBlock::velocity), the velocities of wet sponges), which
-    /// is the default. For `wcsph` set [`Fluid::sound_speed`](crate::scene::Fluid::sound_speed) as well: its default
-    /// does not know of the field.
+    /// `velocity` maps a position \[m\] to a velocity \[m/s\], with components from -100 to 100. It replaces the velocities
+    /// of the scene ([`FluidBlock::velocity`](crate::scene::FluidBlock::velocity), wet sponges). For `wcsph` set
+    /// [`Fluid::sound_speed`](crate::scene::Fluid::sound_speed) as well: its default does not include the field.
     ///
     /// ```
     /// # fn main() -> Result<(), sorb::WorldError> {
@@ -28,9 +27,9 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// A step was taken, or the field gives a velocity out of range; the world stays as it is.
+    /// A step was taken, or the field has a velocity out of range; the world is unchanged.
     pub fn set_particle_velocities(&mut self, velocity: impl Fn(Vec3) -> Vec3) -> Result<(), WorldError> {
-        // Later the state may be on a device, and a pressure was found for the velocities that it has.
+        // Later the state may be on a device, and the pressure belongs to the present velocities.
         if self.clock.steps > 0 {
             return Err(WorldError::Started { steps: self.clock.steps });
         }
@@ -39,14 +38,14 @@ impl World {
         let mut velocities = Vec::with_capacity(count);
         for (row, id) in fluid.position.iter().zip(&fluid.id).take(count) {
             let found = velocity(Vec3::new(row[0], row[1], row[2]));
-            // Written so that what is not a number is refused.
+            // Refuses NaN as well.
             if !found.abs().cmple(Vec3::splat(MAXIMUM)).all() {
                 return Err(WorldError::Velocity { id: *id, velocity: found.to_array(), maximum: MAXIMUM });
             }
             velocities.push(found.to_array());
         }
         for (row, [x, y, z]) in fluid.velocity.iter_mut().zip(velocities) {
-            // The fourth number is not a velocity.
+            // The fourth number is no velocity.
             *row = [x, y, z, row[3]];
         }
         self.clock.fluid_speed = fastest(&fluid.velocity[..count]);

@@ -1,4 +1,4 @@
-//! What a host may look at: read-only views of a world.
+//! Read-only views of a world for hosts.
 
 use sorb_kernels::{
     body::Body,
@@ -22,22 +22,22 @@ use crate::{
 macro_rules! views {
     ($State:ty) => {
         impl $State {
-            /// Positions of the particles \[m\]: x, y, z, and a fourth number that is not for hosts. Rows change their order from step to
-            /// step; [`Self::particle_ids`] tells them apart.
+            /// Positions of the particles \[m\]: x, y, z, and a fourth number that is internal. Rows change their order from
+            /// step to step; [`Self::particle_ids`] identifies them.
             #[must_use]
             pub fn particle_positions(&self) -> &[[f32; 4]] {
                 let columns = self.columns();
                 &columns.fluid.position[..columns.rows.fluid]
             }
 
-            /// Velocities of the particles \[m/s\]: x, y, z, and a fourth number that is not for hosts.
+            /// Velocities of the particles \[m/s\]: x, y, z, and a fourth number that is internal.
             #[must_use]
             pub fn particle_velocities(&self) -> &[[f32; 4]] {
                 let columns = self.columns();
                 &columns.fluid.velocity[..columns.rows.fluid]
             }
 
-            /// Identities of the particles, 0 to their number: `ids[row]` is the same particle for ever.
+            /// Identities of the particles, 0 to their number less one: `ids[row]` is the same particle for ever.
             #[must_use]
             pub fn particle_ids(&self) -> &[u32] {
                 let columns = self.columns();
@@ -52,7 +52,7 @@ macro_rules! views {
                 &columns.nodes.position[..columns.rows.nodes]
             }
 
-            /// Velocities of the sponge nodes \[m/s\]: x, y, z, and a fourth number that is not for hosts.
+            /// Velocities of the sponge nodes \[m/s\]: x, y, z, and a fourth number that is internal.
             #[must_use]
             pub fn node_velocities(&self) -> &[[f32; 4]] {
                 let columns = self.columns();
@@ -80,13 +80,13 @@ impl World {
         &self.scene
     }
 
-    /// What runs in a step, and what is skipped and why.
+    /// The phases of a step, with the skipped ones and the reason.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         self.plans.whole()
     }
 
-    /// What runs in the next step: [`Self::plan`] without what has nothing to do as long as parts are asleep.
+    /// The phases of the next step: [`Self::plan`] without those that have no work while parts sleep.
     #[must_use]
     pub fn step_plan(&self) -> &Plan {
         self.plans.of(self.awake())
@@ -121,12 +121,12 @@ impl World {
         self.stores.view()
     }
 
-    /// Pressures of the particles as the last step found them \[Pa\], in the order of the positions; zero at time zero.
+    /// Pressures of the particles in the last step \[Pa\], in the order of the positions; zero at time zero.
     ///
-    /// With `wcsph` that of the equation of state. The solve of `dfsph` knows multipliers; what is given here is the stress
-    /// that pairs of neighbours carry by them where water fills the space, see
-    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill the pores alone: the pressure
-    /// in the pores is this times the porosity, `1 - (1 - phi) / J` where the sponge has J of its volume at rest.
+    /// With `wcsph` that of the equation of state. The solve of `dfsph` computes multipliers: the value here is the stress
+    /// that pairs of neighbours transmit where water fills the space, see
+    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill only the pores:
+    /// the pore pressure is this times the porosity, `1 - (1 - phi) / J` at a volume ratio J of the sponge.
     #[must_use]
     pub fn particle_pressures(&self) -> Vec<f32> {
         let (fluid, count) = (&self.columns().fluid, self.stores.host.rows.fluid);
@@ -142,7 +142,7 @@ impl World {
             return pressures;
         };
         let (inside, beside) = sph::obstacles::pressure_moments(&parameters.smoothing, parameters.spacing);
-        // Of a particle of a lattice beside a wall, half a spacing away.
+        // For the first layer of a lattice beside a wall, half a spacing away.
         let range = solve.boundary_range;
         let whole = solve.boundary_share * (1.0 - 0.5 * parameters.spacing / range).powi(6);
         let square = parameters.rest_density * parameters.rest_density;
@@ -156,8 +156,8 @@ impl World {
         .collect()
     }
 
-    /// Densities of the particles by the smoothing function \[kg/m^3\], in the order of the positions. Near walls, bodies and the surface
-    /// they lack what is not water. They are summed up anew at every call: a step of `dfsph` needs none.
+    /// Densities of the particles by summation \[kg/m^3\], in the order of the positions. Near walls, bodies and the surface
+    /// they lack the volume that is no water. They are summed anew at every call: a step of `dfsph` needs none.
     #[must_use]
     pub fn particle_densities(&self) -> Vec<f32> {
         let summed = self.summed_density();
@@ -177,7 +177,7 @@ impl World {
         self.params.fluid.particle_mass
     }
 
-    /// Masses of the dry nodes \[kg\], in the order of the positions, of nodes that a body holds as well.
+    /// Masses of the dry nodes \[kg\], in the order of the positions, held nodes included.
     #[must_use]
     pub fn node_masses(&self) -> Vec<f32> {
         let Lattice { node_volume, node_sponge, .. } = &self.lattice;
@@ -185,7 +185,7 @@ impl World {
         node_volume.iter().zip(node_sponge).map(|(volume, sponge)| volume * density(*sponge)).collect()
     }
 
-    /// The lattice: tets, outer surface, which node belongs to which sponge.
+    /// The lattice: tets, outer surface, and the sponge of each node.
     #[must_use]
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
@@ -209,7 +209,7 @@ impl World {
         Measures::of(self)
     }
 
-    /// Digest of the state: equal digests mean equal bits, whatever the machine, threads and SIMD level.
+    /// Digest of the state: equal digests mean equal bits, on any machine, with any threads and SIMD level.
     #[must_use]
     pub fn digest(&self) -> u64 {
         digest::digest(self.columns(), &self.clock, &self.sleep.dormant())

@@ -1,9 +1,9 @@
-//! Boxes around parts of a scene.
+//! Bounding boxes of parts of a scene.
 
 use glam::{Mat3, Vec3};
 use sorb_kernels::body::{Body, Shape};
 
-/// A box with faces across the axes.
+/// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     low: Vec3,
@@ -11,7 +11,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Around points; inside out without any.
+    /// Around points; inverted without any.
     pub(super) fn of<'a>(points: impl Iterator<Item = &'a [f32; 4]>) -> Self {
         let none = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
         points.fold(none, |Self { low, high }, [x, y, z, _]| {
@@ -49,12 +49,12 @@ impl Bounds {
         Self { low: self.low - by, high: self.high + by }
     }
 
-    /// Whether two boxes have a point in common, or an image of one where space repeats: `periods` are the lengths of the box of
-    /// the scene along such axes, else zero.
+    /// Whether two boxes, or an image of one along periodic axes, have a point in common; `periods` are the lengths of the
+    /// box of the scene along such axes, else zero.
     pub(super) fn meets(&self, other: &Self, periods: Vec3) -> bool {
         (0..3).all(|axis| {
             let (low, high) = (other.low[axis] - self.high[axis], other.high[axis] - self.low[axis]);
-            // Some whole number of periods is between the two; not where one of them is inside out.
+            // A whole number of periods lies between the two; none where one of them is inverted.
             let period = periods[axis];
             if period > 0.0 {
                 high >= low && (high / period).floor() >= (low / period).ceil()

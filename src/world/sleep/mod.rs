@@ -1,13 +1,14 @@
-//! Sleep: what has come to rest is left as it is, and costs next to nothing, until something comes near.
+//! Sleep: parts at rest keep their state, and cost almost nothing, until something comes near.
 //!
-//! A part of a scene (`parts.rs`) is at rest if in `time.sleep_after` seconds its particles or nodes have moved by no more than
-//! `time.sleep_speed` would take them, in the mean; if none of them is a hundred times as fast; and if no script moved a body near it.
-//! A body is at rest if it moved by no more than that. What counts first is the way between two looks, not the speed: single particles
-//! of a pool tremble for ever, and go nowhere. An island falls asleep when all of its parts are at rest. Velocities and pressures stay
-//! as they were, so that the step after waking is the step that would have come next.
+//! A part of a scene (`parts.rs`) is at rest under three conditions. Within `time.sleep_after` seconds its particles or
+//! nodes have moved by at most `time.sleep_speed` in the mean, from check to check. None of them is a hundred times as fast.
+//! No script moved a body near it. A body is at rest if it moved by no more than that. The displacement between two checks
+//! counts first, not the speed, because single particles of a pool tremble for ever in place. An island falls asleep when
+//! all of its parts are at rest. Velocities and pressures are kept, so that the step after waking is the one that would have
+//! come next.
 //!
-//! While all parts sleep and no script moves a body, the scene sleeps as a whole, and takes no steps. Otherwise steps go on without
-//! the parts that sleep (`waking.rs`). Where kernels are placed on either side, there is only the whole.
+//! While all parts sleep and no script moves a body, the whole scene sleeps and takes no steps. Otherwise steps leave out
+//! the sleeping parts (`waking.rs`). Where kernels are placed on both sides, the scene sleeps only as a whole.
 
 mod bounds;
 mod parts;
@@ -24,15 +25,15 @@ use crate::{
 use bounds::Bounds;
 use parts::{Kind, Part, Rules};
 
-/// Largest speed of a single particle or node over the mean: thin films glide on floors that they do not stick to, but a drop that
-/// falls, or a corner that swings, is awake.
+/// Largest speed of a single particle or node over the mean. Thin films glide on floors with slip, but a falling drop or a
+/// swinging corner is awake.
 const LARGEST: f64 = 100.0;
 
-/// Parts of the time between two looks after which places are taken as well. What swings to and fro as often as looks are taken is where it
-/// was at each of them, and at one time in between that is as far beyond a turn; but not at both of these.
+/// Parts of the time between two checks at which positions are recorded as well. A vibration with the period of the checks,
+/// or a fraction of it, has the same position at each of them, but not at both of these times (sampling alias).
 const BETWEEN: [f64; 2] = [0.236, 0.618];
 
-/// What sleeps, and what that is decided by.
+/// Sleeping parts, and the data of the decision.
 #[derive(Clone, Debug)]
 pub(crate) struct Sleep {
     after: f64,
@@ -43,13 +44,13 @@ pub(crate) struct Sleep {
     parts: Vec<Part>,
     /// Whether the scene sleeps as a whole.
     is_asleep: bool,
-    /// Where everything was at the last look.
+    /// Positions at the last check.
     before: Option<Places>,
-    /// Where everything was between that and the next one, at the times of [`BETWEEN`].
+    /// Positions between that and the next check, at the times of [`BETWEEN`].
     between: Vec<Places>,
-    /// Time up to which ways are known \[s\].
+    /// Time up to which displacements are known \[s\].
     watched: f64,
-    /// How far particles and nodes may have gone since their boxes were taken \[m\].
+    /// Largest displacement of particles and nodes since their boxes were computed \[m\].
     ways: [f32; 2],
 }
 
@@ -82,7 +83,7 @@ impl Sleep {
         }
     }
 
-    /// What steps go on without.
+    /// Parts that steps leave out.
     pub(crate) fn dormant(&self) -> Dormant {
         let mut dormant = Dormant::default();
         for part in self.parts.iter().filter(|part| part.is_asleep) {
@@ -95,7 +96,7 @@ impl Sleep {
         dormant
     }
 
-    /// Whether a part sleeps; false for what is no part.
+    /// Whether a part sleeps; false for an unknown part.
     fn has(&self, kind: Kind) -> bool {
         self.parts.iter().any(|part| part.kind == kind && part.is_asleep)
     }
@@ -105,20 +106,20 @@ impl Sleep {
         self.motions.iter().any(|(_, motion)| is_active(motion, from, to))
     }
 
-    /// Whether no body moves in a step that begins now, nor has a velocity that it must lose.
+    /// Whether no body moves in a step that begins now, nor has a velocity to lose.
     pub(crate) fn are_bodies_still(&self, time: f64, step: f32) -> bool {
         let is_dynamic = |part: &Part| matches!(part.kind, Kind::Body(_));
         let touches = |(_, motion): &(usize, Motion)| {
             let (start, end) = interval(motion);
             start <= time + f64::from(step) && end >= time
         };
-        // Without a look there are no parts yet.
+        // Before the first check there are no parts.
         self.before.is_some()
             && self.parts.iter().filter(|part| is_dynamic(part)).all(|part| part.is_asleep)
             && !self.motions.iter().any(touches)
     }
 
-    /// How long it can sleep on as a whole, at most `left`; none if it is awake \[s\].
+    /// Time for which the whole scene can sleep on, at most `left`; none if it is awake \[s\].
     fn rest(&self, time: f64, left: f64) -> Option<f64> {
         let intervals = self.motions.iter().map(|(_, motion)| interval(motion));
         let next = intervals.filter(|(_, end)| *end > time).map(|(start, _)| start - time);
@@ -126,14 +127,14 @@ impl Sleep {
         (self.is_asleep && rest > 0.0).then_some(rest)
     }
 
-    /// Distance between two places, across the seam of a box that repeats.
+    /// Distance between two positions, across a periodic side where that is shorter.
     fn way(&self, before: Vec3, now: Vec3) -> f32 {
         let (apart, periods) = (now - before, self.rules.periods);
         let turns = Vec3::select(periods.cmpgt(Vec3::ZERO), (apart / periods).round(), Vec3::ZERO);
         (apart - turns * periods).length()
     }
 
-    /// Whether places are where they were, `way` apart \[m\].
+    /// Whether positions are unchanged within `way` \[m\].
     fn are_still<'a>(&self, places: impl Iterator<Item = (&'a Vec3, &'a Vec3)>, way: f64) -> bool {
         let (mut sum, mut count, mut largest) = (0.0_f64, 0.0_f64, 0.0_f32);
         for (before, now) in places {
@@ -145,15 +146,15 @@ impl Sleep {
         sum <= way * count && f64::from(largest) <= LARGEST * way
     }
 
-    /// Whether a body is where it was.
+    /// Whether a body is at its former place.
     fn is_body_still(before: (Vec3, Quat), now: (Vec3, Quat), way: f64) -> bool {
-        // Radians, as metres of something a metre large.
+        // Radians count as metres of a body of one metre.
         let angle = 2.0 * (now.1 - before.1).length().min((now.1 + before.1).length());
         f64::from(before.0.distance(now.0).max(angle)) <= way
     }
 }
 
-/// Time of the first movement and of rest \[s\].
+/// Begin and end of a motion \[s\].
 fn interval(motion: &Motion) -> (f64, f64) {
     let (start, end) = motion.interval();
     (f64::from(start), f64::from(end))
@@ -166,13 +167,13 @@ fn is_active(motion: &Motion, from: f64, to: f64) -> bool {
 }
 
 impl World {
-    /// Whether the whole scene has come to rest and is left as it is; see [`Time::sleep_after`].
+    /// Whether the whole scene is asleep; see [`Time::sleep_after`].
     #[must_use]
     pub fn is_asleep(&self) -> bool {
         self.sleep.is_asleep
     }
 
-    /// Whether the fluid has come to rest and is left as it is, while other parts of the scene may move; see [`Time::sleep_after`].
+    /// Whether the fluid is asleep, while other parts of the scene may move; see [`Time::sleep_after`].
     #[must_use]
     pub fn is_fluid_asleep(&self) -> bool {
         self.sleep.has(Kind::Fluid)
@@ -190,14 +191,15 @@ impl World {
         self.sleep.has(Kind::Body(index))
     }
 
-    /// Sleeps until a time \[s\], or until a script moves a body, if the scene is asleep; whether the time is reached.
+    /// Sleeps until a time \[s\], or until a script moves a body, if the scene is asleep; returns whether the time is
+    /// reached.
     pub(crate) fn sleep_until(&mut self, end: f64) -> bool {
         let slept = self.sleep_within(end - self.clock.time);
         slept.is_some() && end - self.clock.time <= 1e-9
     }
 
-    /// Sleeps as long as a step may be, but no longer than `left`, nor until a script moves a body, if the scene is asleep; the time
-    /// slept \[s\].
+    /// Sleeps for the length of a step, but no longer than `left`, nor until a script moves a body, if the scene is asleep;
+    /// returns the time \[s\].
     pub(super) fn sleep_within(&mut self, left: f64) -> Option<f64> {
         let left = if left.is_finite() { left } else { f64::from(self.scene.time.maximum_step) };
         let time = self.sleep.rest(self.clock.time, left);
@@ -212,7 +214,8 @@ impl World {
         Some(time)
     }
 
-    /// Wakes what something that moves comes near, and looks, once in `sleep_after`, what has come to rest; whether other parts sleep now.
+    /// Wakes the parts that something awake comes near, and once in `sleep_after` checks for rest. Returns whether other
+    /// parts sleep now.
     pub(crate) fn watch(&mut self) -> bool {
         if self.sleep.after == 0.0 {
             return false;
@@ -231,7 +234,7 @@ impl World {
         has_woken
     }
 
-    /// Lets islands fall asleep whose parts have not moved since the last look; whether there are any.
+    /// Lets islands fall asleep whose parts have not moved since the last check; returns whether there are any.
     fn look_for_rest(&mut self) -> bool {
         let now = self.places();
         if self.sleep.before.is_none() {
@@ -247,7 +250,7 @@ impl World {
         has_changed
     }
 
-    /// Decides who falls asleep; whether that is anyone.
+    /// Decides which parts fall asleep; returns whether there are any.
     fn fall_asleep(&mut self, before: &Places, now: &Places) -> bool {
         let moving = self.movers(before.time);
         let is_moved = self.sleep.moves(before.time, now.time);
@@ -278,7 +281,7 @@ impl World {
         has_changed
     }
 
-    /// Whether a part is where it was, at all looks since, and slow.
+    /// Whether a part kept its place at all checks since, and is slow.
     fn is_still(&self, kind: Kind, before: &Places, now: &Places) -> bool {
         let (sleep, way) = (&self.sleep, self.sleep.speed * (now.time - before.time));
         let is_slow = |speed: f32| f64::from(speed) <= LARGEST * sleep.speed;

@@ -1,15 +1,15 @@
-//! Parts of a scene that sleep on their own, and the islands that they form.
+//! Parts of a scene that sleep separately, and the islands that they form.
 //!
-//! The water, every sponge and every dynamic body is a part. Parts whose boxes, grown by their reach, meet are an island: they can touch,
-//! or are about to. What falls asleep are whole islands. What is awake wakes what comes within its reach; islands are joined at [`JOIN`]
-//! times the reach, so that what has just been woken by a neighbour is in an island with it, and does not fall asleep again while the
-//! neighbour moves.
+//! The water, every sponge and every dynamic body is a part. Parts whose boxes, enlarged by their reach, meet are an island:
+//! they can touch, or are about to. Islands fall asleep as a whole. An awake part wakes the parts within its reach. Islands
+//! are joined at [`JOIN`] times the reach: a part that a neighbour has just woken then shares its island, and does not fall
+//! asleep while the neighbour moves.
 
 use glam::Vec3;
 
 use super::bounds::Bounds;
 
-/// Reach within which parts are one island, over that within which one wakes another \[1\].
+/// Reach of islands, over the reach of waking \[1\].
 const JOIN: f32 = 1.5;
 
 /// What a part is.
@@ -27,21 +27,22 @@ pub(super) enum Kind {
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     pub(super) kind: Kind,
-    /// How far beyond its box it can touch others, and more than it moves in a step \[m\].
+    /// Distance beyond its box within which it can touch others; more than it moves in a step \[m\].
     pub(super) reach: f32,
-    /// Where it was when its places were looked at last.
+    /// Its box at the last check of positions.
     pub(super) bounds: Bounds,
     pub(super) is_asleep: bool,
-    /// Since when it is awake \[s\].
+    /// Time since which it is awake \[s\].
     pub(super) awake_since: f64,
 }
 
-/// What all islands are found by.
+/// Data that all islands depend on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rules {
-    /// Lengths of the box along axes on which it repeats, else zero \[m\].
+    /// Lengths of the box along periodic axes, else zero \[m\].
     pub(super) periods: Vec3,
-    /// Whether sponges change with the water in them, and go on changing when it is gone: then all of them are one island with it.
+    /// Whether sponges have properties that depend on wetness, which change after the water has gone: then all of them are
+    /// one island with it.
     pub(super) has_wetting: bool,
 }
 
@@ -52,7 +53,7 @@ impl Rules {
         self.has_wetting && (is_wetting(a, b) || is_wetting(b, a)) || near.meets(&far, self.periods)
     }
 
-    /// For every part the first of its island, among those that count.
+    /// For every part the first of its island, among the parts that count.
     pub(super) fn islands(&self, parts: &[Part], counts: impl Fn(&Part) -> bool) -> Vec<usize> {
         let mut first: Vec<usize> = (0..parts.len()).collect();
         for (a, part) in parts.iter().enumerate().filter(|(_, part)| counts(part)) {
@@ -77,12 +78,12 @@ impl Rules {
         first
     }
 
-    /// Whether a box that is awake comes within reach of a part.
+    /// Whether an awake box comes within reach of a part.
     pub(super) fn is_reached(&self, part: &Part, awake: &Bounds) -> bool {
         part.bounds.grown(part.reach).meets(awake, self.periods)
     }
 
-    /// Whether a box that is awake is so near that a part must not fall asleep.
+    /// Whether an awake box is so near that a part must not fall asleep.
     pub(super) fn is_kept_awake(&self, part: &Part, awake: &Bounds) -> bool {
         part.bounds.grown(JOIN * part.reach).meets(awake, self.periods)
     }

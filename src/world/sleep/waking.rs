@@ -1,4 +1,4 @@
-//! What parts that sleep mean for the steps of the others, and what wakes them.
+//! Effect of sleeping parts on the steps of the others, and waking.
 
 use std::ops::Range;
 
@@ -18,22 +18,22 @@ use crate::{
     world::{World, fastest_body},
 };
 
-/// What particles and nodes may go between two looks at their boxes, over what their largest speeds say \[1\].
+/// Allowed displacement of particles and nodes between two updates of their boxes, over that of their largest speeds \[1\].
 const SPARE: f32 = 1.25;
 
-/// Reach of the fluid, over that of a particle: in a step a particle moves by a part of it \[1\].
+/// Reach of the fluid, over that of a particle, which moves by a part of it in a step \[1\].
 const FLUID_REACH: f32 = 1.5;
 
 /// Reach of a body, over its radius \[1\].
 const BODY_REACH: f32 = 0.1;
 
 impl World {
-    /// Whether parts cannot sleep on their own, because steps run on a device and the CPU by turns.
+    /// Whether parts cannot sleep separately, because steps run on a device and the CPU by turns.
     pub(super) fn sleeps_as_a_whole(&self) -> bool {
         self.stores.device.as_ref().is_some_and(|device| !device.has_all())
     }
 
-    /// All parts, awake, with boxes that were never taken.
+    /// All parts, awake, with boxes that were never computed.
     pub(super) fn parts(&self) -> Vec<Part> {
         let (params, awake_since) = (&self.params, self.clock.time);
         let part = |kind, reach| {
@@ -63,7 +63,7 @@ impl World {
         std::array::from_fn(|color| range(color).start as usize..range(color).end as usize)
     }
 
-    /// Takes the boxes of all parts that are awake.
+    /// Computes the boxes of all awake parts.
     pub(super) fn take_bounds(&mut self) {
         let bounds = |kind| match kind {
             Kind::Fluid => Bounds::of(self.particle_positions().iter()),
@@ -103,7 +103,7 @@ impl World {
         bodies.iter().enumerate().filter_map(mover).collect()
     }
 
-    /// Wakes the islands of parts that something awake has come near; whether there are any.
+    /// Wakes the islands of parts that an awake part has come near; returns whether there are any.
     pub(super) fn wake_what_is_reached(&mut self) -> bool {
         let passed = (self.clock.time - self.sleep.watched) as f32;
         self.sleep.watched = self.clock.time;
@@ -120,7 +120,7 @@ impl World {
             return wakes;
         }
         let mut reached = self.reached();
-        // Boxes that have grown for a while are too large.
+        // Boxes that were enlarged for a while are too large.
         if reached.contains(&true) {
             self.take_bounds();
             reached = self.reached();
@@ -132,7 +132,7 @@ impl World {
         has_woken
     }
 
-    /// For every part whether it sleeps, and something awake has come within its reach.
+    /// For every part whether it sleeps, and an awake part has come within its reach.
     fn reached(&self) -> Vec<bool> {
         let sleep = &self.sleep;
         let mut awake = self.movers(self.clock.time);
@@ -162,7 +162,7 @@ impl World {
         self.apply_sleep();
     }
 
-    /// What the next step goes on with.
+    /// Awake parts of the next step.
     pub(crate) fn awake(&self) -> Awake {
         let dormant = self.sleep.dormant();
         if self.sleeps_as_a_whole() || dormant == Dormant::default() {
@@ -174,7 +174,7 @@ impl World {
         Awake { fluid: !dormant.fluid, sponges: !awake.is_empty(), touch }
     }
 
-    /// Makes the next steps go on without what sleeps.
+    /// Makes the next steps leave out the sleeping parts.
     pub(crate) fn apply_sleep(&mut self) {
         if self.sleeps_as_a_whole() {
             return;
@@ -190,7 +190,7 @@ impl World {
             }
         }
         self.clock.body_speed = fastest_body(&bodies.states.0);
-        // Nobody renews what was given by those whose phases are left out.
+        // The wrenches of phases that are left out would not be renewed.
         if dormant.fluid {
             bodies.fluid_wrenches = Wrenches::default();
         }
@@ -199,7 +199,7 @@ impl World {
             bodies.node_wrenches = Wrenches::default();
         }
         self.steps = Steps::new(&self.scene, &self.params, &bodies.states.0, &*self.engine, &dormant);
-        // Water that is awake is in no sponge that sleeps.
+        // Awake water is in no sleeping sponge.
         let is_outside = are_sponges_asleep && !dormant.fluid;
         if is_outside {
             self.stores.host.fluid.interior.fill(0.0);
@@ -211,13 +211,13 @@ impl World {
     }
 }
 
-/// Largest speed that a motion gives to the surface of a body where it is now \[m/s\].
+/// Largest speed that a motion gives to the surface of a body at its present place \[m/s\].
 fn speed(motion: &Motion, body: &Body) -> f32 {
     match *motion {
         Motion::Linear { velocity, .. } => velocity.length(),
         Motion::Turn { pivot, rate, .. } => {
             let radius = body.shape.bounding_radius();
-            // Boxes of planes are all of space as they are.
+            // Boxes of planes cover all of space anyway.
             let radius = if radius.is_finite() { radius } else { 0.0 };
             rate.abs() * (Vec3::distance(body.state.position, pivot) + radius)
         }
