@@ -2,18 +2,24 @@
 
 use std::f32::consts::PI;
 
+pub use sorb_kernels::clock::Bound;
 use sorb_kernels::{
     body::Body,
+    clock::{
+        ACCELERATION_COURANT, CUT_TOLERANCE, LATTICE_COURANT, PEAK_PRESSURE, PRESSURE_COURANT,
+        SHORTEST_BY_BODY, StepLimits,
+    },
     params::{Params, Solver},
 };
 
-use crate::{
-    rigid::RigidEngine,
-    scene::{Scene, Time},
-};
+use crate::{rigid::RigidEngine, scene::Scene};
 
-/// Longest step of `xpbd_neo_hookean`, over the time in which an elastic wave crosses a cell: a cantilever without damping
-/// then sags correctly within two per cent (`tests/sponge.rs`).
+/// Part of the time in which an elastic wave crosses a cell that a step of `sbd` may take. The solver is stable beyond, but one sweep a
+/// step is then far from converged: a ball that falls on a dry sponge gains energy, and turns tets inside out.
+const STRAIN: f32 = 0.25;
+
+/// The same of `xpbd_neo_hookean`: a cantilever without
+/// damping then sags by what it should within two per cent (`tests/sponge.rs`).
 const NEO_HOOKEAN: f32 = 0.25;
 
 /// The same of `vbd`, which is stable at any step. Four sweeps then give the lowest frequency of a cantilever within two per
@@ -23,61 +29,7 @@ const DESCENT: f32 = 2.0;
 /// The same in water, where a sponge is twenty times as heavy and its waves are four times as slow.
 const WET_DESCENT: f32 = 4.0;
 
-/// Shortest step by the speed of a body, over `time.minimum_step`.
-const SHORTEST_BY_BODY: f32 = 10.0;
-
-/// Bound that limited a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// `time.maximum_step`.
-    Maximum,
-    /// The end of the frame.
-    Frame,
-    /// Sound and flow cross a support radius \[M92\].
-    Courant,
-    /// Pressure moves a particle against its neighbours.
-    Pressure,
-    /// Acceleration over a support radius.
-    Acceleration,
-    /// Diffusion of velocity over a support radius. With implicit viscosity fifty times that, and the time in which the
-    /// fluid stops a no-slip body.
-    Viscosity,
-    /// Capillary waves.
-    SurfaceTension,
-    /// Suction against the mass of a dry node.
-    Suction,
-    /// Elastic waves of a dry sponge cross a part of the lattice constant, which depends on the solver.
-    Elasticity,
-    /// Nodes cross a quarter of the lattice constant.
-    SpongeSpeed,
-    /// The surface of a body crosses the distance that fluid and nodes may.
-    BodySpeed,
-    /// None: the whole scene sleeps, see [`Time::sleep_after`].
-    Asleep,
-}
-
-impl Bound {
-    /// Name as it appears in tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Maximum => "maximum_step",
-            Self::Frame => "frame",
-            Self::Courant => "courant",
-            Self::Pressure => "pressure",
-            Self::Acceleration => "acceleration",
-            Self::Viscosity => "viscosity",
-            Self::SurfaceTension => "surface_tension",
-            Self::Suction => "suction",
-            Self::Elasticity => "elasticity",
-            Self::SpongeSpeed => "sponge_speed",
-            Self::BodySpeed => "body_speed",
-            Self::Asleep => "asleep",
-        }
-    }
-}
-
-/// Time since the start, and results of the last step.
+/// Time since the start, and what the last step found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
     /// Simulated time \[s\].
@@ -98,12 +50,8 @@ pub struct Clock {
     pub(crate) body_speed: f32,
 }
 
-/// Step over the time in which pressure moves a particle by a spacing. At twice that the lattice of a pool at rest buckles
-/// (docs/pressure-solve.md).
-pub(crate) const PRESSURE_COURANT: f32 = 0.4;
-
-/// Step over the period of the shortest capillary wave. At twice that particles at the surface of a drop do not come to
-/// rest.
+/// Step over the time in which the shortest capillary wave turns. At twice that particles at the surface of a drop do not come
+/// to rest.
 const CAPILLARY_COURANT: f32 = 0.1;
 
 /// Step of implicit over that of explicit viscosity, and the Courant number beside it. The pressure is solved after the
@@ -128,10 +76,7 @@ pub(crate) struct Dormant {
 /// Constant bounds of the step.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps {
-    pub(crate) time: Time,
-    pub(crate) constant: (f32, Bound),
-    pub(crate) edge: f32,
-    pub(crate) has_fluid: bool,
+    limits: StepLimits,
 }
 
 impl Steps {
@@ -180,11 +125,9 @@ impl Steps {
         for (sponge, scene) in sponges() {
             let crossing = |modulus: f32| sponge.edge * (scene.density / modulus).sqrt();
             bounds.push(match sponge.solver {
-                // The solver is stable beyond that, but one sweep per step is then far from converged: a ball that falls on
-                // a dry sponge gains energy, and inverts tets.
                 Solver::Sbd => {
                     let modulus = sponge.stretch_modulus.max(sponge.shear_modulus).max(sponge.volume_modulus);
-                    (0.25 * crossing(modulus), Bound::Elasticity)
+                    (STRAIN * crossing(modulus), Bound::Elasticity)
                 }
                 Solver::XpbdNeoHookean => (NEO_HOOKEAN * crossing(scene.young_modulus), Bound::Elasticity),
                 Solver::Vbd => {
@@ -193,39 +136,42 @@ impl Steps {
                 }
             });
         }
-        let constant = smallest(&bounds);
+        let (constant, constant_bound) = smallest(&bounds);
         let edge = sponges().map(|(sponge, _)| sponge.edge).fold(f32::INFINITY, f32::min);
-        let mut time = scene.time;
-        if fluid.implicit_viscosity.is_some() {
-            time.courant = time.courant.min(IMPLICIT_COURANT);
-        }
-        Self { time, constant, edge, has_fluid }
+        let most = if fluid.implicit_viscosity.is_some() { IMPLICIT_COURANT } else { f32::INFINITY };
+        let courant = scene.time.courant.min(most);
+        let minimum = scene.time.minimum_step;
+        Self { limits: StepLimits { courant, edge, has_fluid, minimum, constant, constant_bound } }
     }
 
     /// Longest stable step after the last one, and its bound.
     pub(crate) fn stable(&self, params: &Params, clock: &Clock) -> (f32, Bound) {
-        let mut bounds = vec![self.constant];
+        let limits = &self.limits;
+        let mut bounds = vec![(limits.constant, limits.constant_bound)];
         let fluid = &params.fluid;
         let h = fluid.smoothing.support_radius;
-        if self.has_fluid {
+        if limits.has_fluid {
             let sound_speed = if fluid.incompressible.is_some() { 0.0 } else { fluid.sound_speed };
-            bounds.push((self.time.courant * h / (sound_speed + clock.fluid_speed), Bound::Courant));
-            // In a column at rest the largest pressure is the square root of three times the root mean square.
-            let pressure = 3.0_f32.sqrt() * clock.fluid_pressure;
+            bounds.push((limits.courant * h / (sound_speed + clock.fluid_speed), Bound::Courant));
+            let pressure = PEAK_PRESSURE * clock.fluid_pressure;
             bounds.push((PRESSURE_COURANT * fluid.spacing / pressure.sqrt(), Bound::Pressure));
-            bounds.push((0.25 * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
+            bounds.push((ACCELERATION_COURANT * (h / clock.fluid_acceleration).sqrt(), Bound::Acceleration));
         }
-        bounds.push((0.25 * self.edge / clock.node_speed, Bound::SpongeSpeed));
-        let reach = if self.has_fluid { self.time.courant * h } else { f32::INFINITY };
-        let crossing = reach.min(0.25 * self.edge) / clock.body_speed;
-        // A script may move a body at any speed; faster bodies are swept.
-        bounds.push((crossing.max(SHORTEST_BY_BODY * self.time.minimum_step), Bound::BodySpeed));
+        bounds.push((LATTICE_COURANT * limits.edge / clock.node_speed, Bound::SpongeSpeed));
+        let crossing = limits.reach_of_bodies(h) / clock.body_speed;
+        bounds.push((crossing.max(SHORTEST_BY_BODY * limits.minimum), Bound::BodySpeed));
         smallest(&bounds)
+    }
+
+    /// The part that does not change.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn limits(&self) -> StepLimits {
+        self.limits
     }
 
     /// Shortest step that is allowed \[s\].
     pub(crate) fn minimum(&self) -> f32 {
-        self.time.minimum_step
+        self.limits.minimum
     }
 }
 
@@ -258,8 +204,7 @@ pub(crate) fn within((step, bound): (f32, Bound), left: f64) -> (f32, Bound) {
     if !left.is_finite() {
         return (step, bound);
     }
-    // Rounding must not add another step.
-    let count = (left / whole * (1.0 - 1e-4)).ceil();
+    let count = (left / whole * (1.0 - CUT_TOLERANCE)).ceil();
     ((left / count) as f32, bound)
 }
 
@@ -310,7 +255,7 @@ mod tests {
             let ball = crate::scene::Body::dynamic("ball", shape, glam::Vec3::Y * 0.1, density);
             let scene = scene.with_body(crate::scene::Body { no_slip: true, ..ball });
             let world = crate::World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
-            world.steps.constant
+            (world.steps.limits.constant, world.steps.limits.constant_bound)
         };
         let implicit = ["fluid.viscosity_integration=\"implicit\""];
         // Stokes alone: the rotation of a sphere stops within m / (20 pi mu R).

@@ -2,15 +2,12 @@
 
 use glam::DVec3;
 use sorb_kernels::{
-    params::{Solver, SpongeParams},
+    params::{INSIDE, POLYNOMIAL_RATIO, Solver, SpongeParams, WET},
     pbd::wetted::of_tet,
 };
 
 use crate::{World, rigid::Mechanics};
 use sorb_kernels::columns::lane;
-
-/// Interior value above which a particle counts as inside a sponge: its value at a flat surface.
-const INSIDE: f32 = 0.5;
 
 /// Masses, momenta, energies and errors of one state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -121,7 +118,7 @@ impl Measures {
             if let Some(saturation) = world.node_saturations().get(node) {
                 self.saturation += f64::from(*saturation) * node_volume;
                 volume += node_volume;
-                if *saturation > 0.5 {
+                if *saturation > WET {
                     self.wicking_height = self.wicking_height.max(position.y);
                 }
             }
@@ -160,15 +157,12 @@ impl Measures {
     }
 }
 
-/// Volume ratio below which the logarithm in the energy of `vbd` continues as a polynomial.
-const SOLID: f64 = 0.2;
-
 /// Energy of a tet over its volume at rest \[Pa\], as the solver of its sponge defines it; zero at rest.
 fn energy_density(sponge: &SpongeParams, columns: [DVec3; 3], ratio: f64) -> f64 {
     let (mu, lambda) = (f64::from(sponge.mu), f64::from(sponge.lambda));
     let square: f64 = columns.iter().map(|column| column.length_squared()).sum();
     if sponge.solver == Solver::Vbd {
-        let least = ratio.max(SOLID);
+        let least = ratio.max(POLYNOMIAL_RATIO);
         let beyond = ratio / least - 1.0;
         let logarithm = libm::log(least) + beyond - 0.5 * beyond * beyond;
         let volume = (lambda - mu) * (ratio - 1.0).powi(2);

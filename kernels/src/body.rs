@@ -5,6 +5,7 @@ use glam::{DVec3, Mat3, Quat, Vec3};
 use crate::{
     column::ColumnData,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    layout::constants,
     vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };
 
@@ -293,12 +294,17 @@ fn surface_lanes<S: Simd>(simd: S, shape: &Shape, local: Vec3x8<S>) -> (f32x8<S>
     }
 }
 
+constants! {
+    /// Distance from the centre of a ball below which there is no direction \[m\].
+    const LEAST_RADIUS: f32 = 1.0e-12;
+}
+
 /// Distance from a ball around the origin.
 #[inline(always)]
 fn round<S: Simd>(simd: S, local: Vec3x8<S>, radius: f32) -> (f32x8<S>, Vec3x8<S>) {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
     let length = dot(local, local).sqrt();
-    let off_centre = length.simd_gt(lanes::splat(simd, 1.0e-12));
+    let off_centre = length.simd_gt(lanes::splat(simd, LEAST_RADIUS));
     let scale = one / select(off_centre, length, one);
     (length - radius, choose(off_centre, times(local, scale), [zero, one, zero]))
 }

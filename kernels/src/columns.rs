@@ -4,7 +4,8 @@
 //! neighbours read are packed rows of four floats, because one 16-byte load per neighbour is fastest. The fourth float is a
 //! scalar that the same passes need.
 //!
-//! Rows are padded to a multiple of eight, by at least one row ([`padded`]). Padding rows of particles lie at [`FAR`],
+//! Rows are padded to a multiple of eight, by at least one row ([`padded`](crate::column::padded)). Padding rows of particles lie at
+//! [`FAR`](crate::column::FAR),
 //! beyond every support radius, and fill up neighbour lists: they add exact zeros to every sum.
 
 use crate::{
@@ -226,7 +227,9 @@ columns! {
         FluidPairs = pairs: ListValues("1/m^2"), Scratch on host;
         /// Kinematic pressure \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and remaining compression
         /// \[1\].
-        FluidPressureRows = pressure_rows: rows(; PRESSURE 0 "m^2/s^2", CHANGE 1 "m^2/s^2", DIAGONAL 2 "s^2/m^2", COMPRESSION 3 "1") padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
+        FluidPressureRows = pressure_rows:
+            rows(; PRESSURE 0 "m^2/s^2", CHANGE 1 "m^2/s^2", DIAGONAL 2 "s^2/m^2", COMPRESSION 3 "1")
+            padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
         FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
@@ -307,7 +310,7 @@ columns! {
         /// Water-filled pore volume over pore volume.
         NodeSaturation = saturation: values("1"), Scratch;
         /// Wetness of the material of the node, 0 to 1; its saturation in this step, at most 1; share of the receding
-        /// capillary pressure in its suction; w: mobility of the water, k_r / S. Empty where no property of a sponge depends
+        /// capillary pressure in its suction; w: mobility of the water, `k_r / S`. Empty where no property of a sponge depends
         /// on wetness, see `couple::wetting`.
         NodeWetting = wetting: rows(; WETNESS 0 "1", SATURATION 1 "1", RECEDING_SHARE 2 "1", MOBILITY 3 "1"), State, needs Wetting;
         /// Impulse of the drag of the fluid in this step; w: mass of the fluid that moves with the node \[kg\].

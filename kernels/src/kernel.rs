@@ -1,7 +1,7 @@
 //! A kernel: its declaration, and its body for the CPU.
 
 #[cfg(feature = "gpu")]
-use crate::gpu::twins::Pass;
+use crate::gpu::{layout::Constant, twins::Pass};
 use crate::{
     columns::{Column, Columns},
     cpu::Cpu,
@@ -21,7 +21,7 @@ pub(crate) struct TwinAccess {
 /// A kernel as a plain loop in f64.
 pub type Oracle = fn(&Params, &mut Columns);
 
-/// One phase of a step: a declaration and a body, by [`declare`]. The same name is used for its path, its WGSL twin, its
+/// One phase of a step: a declaration and a body, by `declare!`. The same name is used for its path, its WGSL twin, its
 /// bench and its line in a plan.
 #[derive(Debug)]
 pub struct Kernel {
@@ -55,6 +55,9 @@ pub struct Kernel {
     /// The passes of the WGSL twin, in order.
     #[cfg(feature = "gpu")]
     pub(crate) twin: &'static [Pass],
+    /// Constants of its own that the twin knows.
+    #[cfg(feature = "gpu")]
+    pub(crate) constants: &'static [Constant],
 }
 
 impl Kernel {
@@ -83,12 +86,14 @@ impl Kernel {
             twin_access: TwinAccess { reads: &[], writes: &[] },
             #[cfg(feature = "gpu")]
             twin: &[],
+            #[cfg(feature = "gpu")]
+            constants: &[],
         }
     }
 }
 
-/// Declares the kernel of a module, `KERNEL`, with the path of the module as its name. The body is the function `cpu` of the
-/// module, `oracle` the path of a function, and `twin` a list of [`Pass`]es.
+/// Declares the kernel of a module, `KERNEL`, with the path of the module for a name. The body is the function `cpu` of the module;
+/// `oracle` is the path of a function, `twin` a list of [`Pass`]es, `constants` what `constants!` takes.
 macro_rules! declare {
     (
         needs: [$($need:ident$(($solver:ident))?),* $(,)?],
@@ -99,8 +104,11 @@ macro_rules! declare {
         $(twin_bound: $twin_bound:literal,)?
         $(twin_reads: [$($twin_read:ident),* $(,)?],)?
         $(twin_writes: [$($twin_write:ident),* $(,)?],)?
-        twin: [$($pass:expr),* $(,)?] $(,)?
+        twin: [$($pass:expr),* $(,)?],
+        $(constants: { $($constants:tt)* },)?
     ) => {
+        $($crate::layout::constants! { $($constants)* })?
+
         /// Path of the module within the package.
         const NAME: &str = module_path!().split_at("sorb_kernels::".len()).1;
 
@@ -127,8 +135,12 @@ macro_rules! declare {
                 use $crate::gpu::twins::{Rows::*, *};
                 &[$($pass),*]
             },
+            #[cfg(feature = "gpu")]
+            constants: $crate::kernel::declare!(@constants $({ $($constants)* })?),
         };
     };
+    (@constants) => { &[] };
+    (@constants { $($constants:tt)* }) => { CONSTANTS };
     (@first $first:literal $(, $rest:literal)?) => { $first };
 }
 pub(crate) use declare;

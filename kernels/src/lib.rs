@@ -7,6 +7,7 @@
 
 pub mod asleep;
 pub mod body;
+pub mod clock;
 pub mod column;
 pub mod columns;
 pub mod contents;
@@ -15,6 +16,7 @@ pub mod cpu;
 pub mod gpu;
 pub mod kernel;
 mod lanes;
+mod layout;
 pub mod need;
 #[cfg(any(test, feature = "oracles"))]
 pub mod oracle;
@@ -70,7 +72,7 @@ kernels! {
         pairs, gravity, predict, guess, touch, strain, xpbd_neo_hookean, vbd, contact, reaction, momentum,
         velocity,
     } shared {
-        descent, pub flatness, pub lattice, pub meeting, obstacles, pub stars, tets, pub wetted,
+        pub(crate) descent, pub flatness, pub lattice, pub meeting, pub(crate) obstacles, pub stars, tets, pub wetted,
     }
     /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
     couple {
@@ -78,7 +80,7 @@ kernels! {
         velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction, node_velocity,
         drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
     } shared {
-        compliance, impulses, #[cfg(feature = "gpu")] pub weights,
+        pub(crate) compliance, pub(crate) impulses, #[cfg(feature = "gpu")] pub weights,
     }
 }
 

@@ -2,7 +2,14 @@
 
 use glam::Vec3;
 
-use crate::{asleep::Asleep, column::FAR, grid::cells::Domain, periodic::Periodic, smoothing::Wendland};
+use crate::{
+    asleep::Asleep,
+    column::FAR,
+    grid::cells::Domain,
+    layout::{constants, enumeration, layout},
+    periodic::Periodic,
+    smoothing::Wendland,
+};
 
 /// Distance from the origin of walls that are not there \[m\]: finite, as shaders ask for, and out of reach.
 pub const NO_WALL: f32 = FAR;
@@ -88,13 +95,15 @@ impl Params {
     }
 }
 
-/// How pressure follows from density.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EquationOfState {
-    /// `p = c^2 (rho - rho_0)`.
-    Linear,
-    /// `p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)`.
-    Tait,
+enumeration! {
+    /// How pressure follows from density.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum EquationOfState {
+        /// `p = c^2 (rho - rho_0)`.
+        Linear,
+        /// `p = rho_0 c^2 / 7 ((rho / rho_0)^7 - 1)`.
+        Tait,
+    }
 }
 
 /// A solve for the pressure that keeps the density at rest density.
@@ -144,11 +153,22 @@ pub struct Cohesion {
     pub boundary_share: f32,
 }
 
-/// Time in which the compression of a particle follows the roughness of the pressure, over the root of the roughness \[1\].
-const DELAY: f32 = 8.0;
+constants! {
+    /// Time in which the compression of a particle follows the roughness of the pressure, over the root of the roughness \[1\].
+    const ROUGHNESS_DELAY: f32 = 8.0;
 
-/// Roughness that a step follows at once, over the square of the step: what is less is stable in any case.
-const AT_ONCE: f32 = 0.2;
+    /// Roughness that a step follows at once, over the square of the step: what is less is stable in any case.
+    const PROMPT_ROUGHNESS: f32 = 0.2;
+
+    /// Volume of a tet over that at rest below which the logarithm in the energy of `vbd` goes on as a polynomial \[1\].
+    pub const POLYNOMIAL_RATIO: f64 = 0.2;
+
+    /// Interior value above which a particle counts as inside a sponge: its value at a flat surface \[1\].
+    pub const INSIDE: f32 = 0.5;
+
+    /// Saturation above which a node counts as wet \[1\].
+    pub const WET: f32 = 0.5;
+}
 
 impl FluidParams {
     /// How far the neighbours in the lists may be \[m\].
@@ -166,8 +186,8 @@ impl FluidParams {
     /// What of [`roughness`](Self::roughness) the compression of a single step may follow \[s^2\]; see `sph::predict`.
     #[must_use]
     pub fn prompt_roughness(&self, step: f32) -> f32 {
-        let delayed = self.roughness * step / (step + DELAY * self.roughness.sqrt());
-        let at_once = AT_ONCE * step * step;
+        let delayed = self.roughness * step / (step + ROUGHNESS_DELAY * self.roughness.sqrt());
+        let at_once = PROMPT_ROUGHNESS * step * step;
         let most = if at_once > delayed { at_once } else { delayed };
         if most < self.roughness { most } else { self.roughness }
     }
@@ -212,75 +232,81 @@ pub struct FluidParams {
     pub repulsion_damping: f32,
 }
 
-/// How a sponge is solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Solver {
-    /// Strain constraints on the tets, one after the other (`pbd::strain`).
-    Sbd,
-    /// Vertex block descent on the energy of the nodes (`pbd::vbd`).
-    Vbd,
-    /// Two coupled constraints per tet (`pbd::xpbd_neo_hookean`).
-    XpbdNeoHookean,
+enumeration! {
+    /// How a sponge is solved.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Solver {
+        /// Strain constraints on the tets, one after the other (`pbd::strain`).
+        Sbd,
+        /// Vertex block descent on the energy of the nodes (`pbd::vbd`).
+        Vbd,
+        /// Two coupled constraints per tet (`pbd::xpbd_neo_hookean`).
+        XpbdNeoHookean,
+    }
 }
 
-/// One sponge.
-#[derive(Clone, Debug)]
-pub struct SpongeParams {
-    /// Lattice constant \[m\].
-    pub edge: f32,
-    /// How it is solved.
-    pub solver: Solver,
-    /// Shear constant mu of the Neo-Hookean energies \[Pa\]; of `vbd` and `xpbd_neo_hookean`, like the next two.
-    pub mu: f32,
-    /// Volume constant lambda of those energies, the first Lame constant plus mu \[Pa\].
-    pub lambda: f32,
-    /// Ratio of viscous to elastic stress per strain rate \[s\].
-    pub damping: f32,
-    /// Energy density per squared stretch \[Pa\].
-    pub stretch_modulus: f32,
-    /// Energy density per squared shear \[Pa\].
-    pub shear_modulus: f32,
-    /// Energy density per squared change of volume \[Pa\].
-    pub volume_modulus: f32,
-    /// Ratio of viscous to elastic stress per strain rate of `sbd` \[s\].
-    pub damping_time: f32,
-    /// Solver iterations of a step.
-    pub iterations: u32,
-    /// Coulomb friction of nodes against the walls, and their part in that against other sponges \[1\].
-    pub friction: f32,
-    /// Whether the sponge may touch itself (`pbd::pairs`).
-    pub self_contact: bool,
-    /// Pore volume over volume \[1\].
-    pub porosity: f32,
-    /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
-    pub drag_rate: f32,
-    /// The same per speed of the water beside the sponge, `c_F phi^2 / sqrt(K)` \[1/m\].
-    pub inertial_drag: f32,
-    /// Whether porosity and permeability fall as the sponge is compressed.
-    pub pores_close: bool,
-    /// Suction of a saturated node \[Pa\].
-    pub entry_pressure: f32,
-    /// Further suction of a dry node, over the entry pressure \[1\].
-    pub saturation_gain: f32,
-    /// Stiffness of the zero-distance constraint over that of the exact reaction \[1\].
-    pub reaction: f32,
-    /// What properties do as the material becomes wet.
-    pub wetting: WettingParams,
+layout! {
+    /// One sponge.
+    #[derive(Clone, Debug)]
+    pub struct SpongeParams as Sponge {
+        /// Lattice constant \[m\].
+        pub edge: f32,
+        /// How it is solved.
+        pub solver: Solver,
+        /// Shear constant mu of the Neo-Hookean energies \[Pa\]; of `vbd` and `xpbd_neo_hookean`, like the next two.
+        pub mu: f32,
+        /// Volume constant lambda of those energies, the first Lame constant plus mu \[Pa\].
+        pub lambda: f32,
+        /// Ratio of viscous to elastic stress per strain rate \[s\].
+        pub damping: f32,
+        /// Energy density per squared stretch \[Pa\].
+        pub stretch_modulus: f32,
+        /// Energy density per squared shear \[Pa\].
+        pub shear_modulus: f32,
+        /// Energy density per squared change of volume \[Pa\].
+        pub volume_modulus: f32,
+        /// Ratio of viscous to elastic stress per strain rate of `sbd` \[s\].
+        pub damping_time: f32,
+        /// Solver iterations of a step.
+        pub iterations: u32,
+        /// Coulomb friction of nodes against the walls, and their part in that against other sponges \[1\].
+        pub friction: f32,
+        /// Whether the sponge may touch itself (`pbd::pairs`).
+        pub self_contact: bool,
+        /// Pore volume over volume \[1\].
+        pub porosity: f32,
+        /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
+        pub drag_rate: f32,
+        /// The same per speed of the water beside the sponge, `c_F phi^2 / sqrt(K)` \[1/m\].
+        pub inertial_drag: f32,
+        /// Whether porosity and permeability fall as the sponge is compressed.
+        pub pores_close: bool,
+        /// Suction of a saturated node \[Pa\].
+        pub entry_pressure: f32,
+        /// Further suction of a dry node, over the entry pressure \[1\].
+        pub saturation_gain: f32,
+        /// Stiffness of the zero-distance constraint over that of the exact reaction \[1\].
+        pub reaction: f32,
+        /// What properties do as the material becomes wet.
+        pub wetting: WettingParams,
+    }
 }
 
-/// What properties of a sponge do as it becomes wet; the default is nothing at all.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WettingParams {
-    /// Share of `mu` and `lambda` that wet material lacks \[1\].
-    pub softening: f32,
-    /// Elongation of wet material at rest \[1\].
-    pub swelling: f32,
-    /// Time in which material becomes as wet as its pores are filled \[s\].
-    pub time: f32,
-    /// Exponent n of the relative permeability `S^n` \[1\].
-    pub exponent: u32,
-    /// Further suction of a node whose saturation falls \[Pa\].
-    pub receding: f32,
+layout! {
+    /// What properties of a sponge do as it becomes wet; the default is nothing at all.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct WettingParams as Wetting {
+        /// Share of `mu` and `lambda` that wet material lacks \[1\].
+        pub softening: f32,
+        /// Elongation of wet material at rest \[1\].
+        pub swelling: f32,
+        /// Time in which material becomes as wet as its pores are filled \[s\].
+        pub time: f32,
+        /// Exponent n of the relative permeability `S^n` \[1\].
+        pub exponent: u32,
+        /// Further suction of a node whose saturation falls \[Pa\].
+        pub receding: f32,
+    }
 }
 
 impl Default for WettingParams {

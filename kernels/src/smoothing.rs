@@ -9,21 +9,28 @@
 
 use std::f64::consts::PI;
 
-use crate::lanes::{self, Simd, f32x8, prelude::*};
+use crate::{
+    lanes::{self, Simd, f32x8, prelude::*},
+    layout::{constants, layout},
+};
 
-/// Term added to squared distances in denominators, over the square of the support radius.
-const SOFTENING: f64 = 0.0025;
+constants! {
+    /// What is added to squared distances where they are divided by, over the square of the support radius.
+    const SOFTENING: f64 = 0.0025;
+}
 
-/// Wendland's C2 function for one support radius.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wendland {
-    /// Distance at which the function becomes zero, H \[m\].
-    pub support_radius: f32,
-    inverse_radius: f32,
-    value: f32,
-    gradient: f32,
-    laplacian: f32,
-    viscosity: f32,
+layout! {
+    /// Wendland's C2 kernel for one support radius.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Wendland as Smoothing {
+        /// Distance at which the kernel becomes zero, H \[m\].
+        pub support_radius: f32,
+        inverse_radius: f32,
+        value: f32,
+        gradient: f32,
+        laplacian: f32,
+        viscosity: f32,
+    }
 }
 
 impl Wendland {
@@ -92,13 +99,7 @@ impl Wendland {
         SOFTENING as f32 * self.support_radius * self.support_radius
     }
 
-    /// 1 / H, and the factors of value, gradient, Laplacian and viscosity.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn factors(&self) -> [f32; 5] {
-        [self.inverse_radius, self.value, self.gradient, self.laplacian, self.viscosity]
-    }
-
-    /// The function on eight lanes.
+    /// The kernel on eight lanes.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, simd: S) -> WendlandLanes<S> {
         let splat = |value| lanes::splat(simd, value);

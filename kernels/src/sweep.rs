@@ -21,14 +21,16 @@
 use crate::{
     body::{Body, Placed},
     lanes::{self, Simd, f32x8, prelude::*, select},
+    layout::constants,
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
-/// Largest number of steps along a path. One that passes a surface at a grazing angle counts as an intersection where they
-/// end.
-pub(crate) const ADVANCES: usize = 12;
-/// Distance that counts as zero, over the length of the path.
-pub(crate) const NEARLY: f32 = 1.0e-3;
+constants! {
+    /// Most steps along a way: one that passes a surface at a grazing angle ends as if it met it where they end.
+    pub(crate) const ADVANCES: usize = 12;
+    /// Distance that counts as nothing, over the length of the way.
+    pub(crate) const SWEEP_TOLERANCE: f32 = 1.0e-3;
+}
 
 /// Intersections of paths with a body.
 pub(crate) struct Met<S: Simd> {
@@ -52,7 +54,7 @@ pub(crate) fn met<S: Simd>(
     let way = minus(to, from);
     let length = dot(way, way).sqrt();
     let direction = times(way, one / select(length.simd_gt(zero), length, one));
-    let nearly = length * NEARLY;
+    let nearly = length * SWEEP_TOLERANCE;
     let (mut at, mut left) = (from, length);
     let (distance, mut normal) = body.local_distance(from);
     let mut distance = distance - margin;

@@ -5,16 +5,6 @@
 // it back. If the rounds that were handed in do not suffice, the device stops there: nothing after them is done, and the
 // host hands in more, and all that comes after them again.
 
-const UNFINISHED: u32 = 5u;
-
-struct Repetition {
-    maximum: u32,
-    // Counted from 1.
-    index: u32,
-    unused_0: u32,
-    unused_1: u32,
-}
-
 @group(0) @binding(0) var<uniform> repetition: Repetition;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;
 @group(0) @binding(2) var<storage, read_write> convergence: array<u32, 4>;
@@ -46,7 +36,7 @@ fn end_rounds() {
     } else if (clock.running == 0u) {
         return;
     } else if (clock.rounds < repetition.maximum) {
-        clock.status = UNFINISHED;
+        clock.status = STATUS_UNFINISHED;
         clock.unfinished = repetition.index;
         clock.running = 0u;
         return;

@@ -1,9 +1,6 @@
 // The energy of one node while all others are fixed, and its obstacles; `descent.rs` and `obstacles.rs` have the formulas.
 // Uses the bindings `params`, `node_stars`, `node_position`, `node_predicted`, and `bodies`.
 
-const LEAST_COMPLIANCE: f32 = 0.1;
-const SOLID: f32 = 0.2;
-
 struct Local {
     force: vec3<f32>,
     stiffness: mat3x3<f32>,
@@ -70,12 +67,12 @@ fn columns_of(x: vec3<f32>, u: vec3<f32>, q: vec3<f32>, r: vec3<f32>) -> mat3x3<
 }
 
 fn wetness_of(row: u32) -> f32 {
-    return bitcast<f32>(node_stars[row * STAR + WETNESS]);
+    return bitcast<f32>(node_stars[row * STAR_WORDS + STAR_WETNESS]);
 }
 
 // Contact force of a node, its stiffness along the axes and between them, from behind the stars.
 fn touch_of(row: u32) -> array<vec3<f32>, 3> {
-    let base = params.node_rows * STAR + row * TOUCH;
+    let base = params.node_rows * STAR_WORDS + row * TOUCH_WORDS;
     var all = array<vec3<f32>, 3>();
     for (var k = 0u; k < 3u; k += 1u) {
         let first = base + 3u * k;
@@ -87,14 +84,14 @@ fn touch_of(row: u32) -> array<vec3<f32>, 3> {
 
 // Force on a node at `x` by its material and its contacts, and its stiffness.
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
-    let base = row * STAR;
-    let tets = node_stars[base + TETS];
-    let weights = node_stars[base + WEIGHTS];
+    let base = row * STAR_WORDS;
+    let tets = node_stars[base + STAR_TETS];
+    let weights = node_stars[base + STAR_WEIGHTS];
     let dry_shear = sponge.edge * sponge.mu / 12.0;
     let dry_volume = sponge.edge * sponge.lambda / 12.0;
     let dry_rate = sponge.damping / step;
-    let becomes_wet = sponge.softening > 0.0 || sponge.swelling > 0.0;
-    // Of a tet with the mean wetness of its nodes; `wetted.rs` has the formulas.
+    let becomes_wet = sponge.wetting.softening > 0.0 || sponge.wetting.swelling > 0.0;
+    // Of a tet, which is as wet as its nodes on average; `wetted.rs` has the formulas.
     var edge = sponge.edge;
     var inverse_edge = 1.0 / edge;
     var shear = dry_shear;
@@ -107,9 +104,9 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     var stiffness = mat3x3<f32>();
     var damping = Local(vec3<f32>(0.0), mat3x3<f32>(), 0.0);
     var strain = 0.0;
-    for (var direction = 0u; direction < 6u; direction += 1u) {
+    for (var direction = 0u; direction < DIRECTIONS; direction += 1u) {
         let ring = rings[direction];
-        let partner = node_stars[base + DIRECTION + direction];
+        let partner = node_stars[base + STAR_DIRECTIONS + direction];
         let u = node_predicted[partner].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
             let tet = 4u * direction + k;
@@ -127,8 +124,8 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             let q = node_predicted[q_row].xyz;
             if (becomes_wet) {
                 let all = wetness_of(row) + wetness_of(partner) + (wetness_of(q_row) + wetness_of(r_row));
-                let size = 1.0 + sponge.swelling * (0.25 * all);
-                let softer = 1.0 - sponge.softening * (0.25 * all);
+                let size = 1.0 + sponge.wetting.swelling * (0.25 * all);
+                let softer = 1.0 - sponge.wetting.softening * (0.25 * all);
                 edge = sponge.edge * size;
                 inverse_edge = 1.0 / edge;
                 shear = dry_shear * (size * softer);
@@ -141,7 +138,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             let area = cross(q - u, r - u) * (2.0 * inverse_edge * inverse_edge);
             let ratio = dot(u - x, area) * inverse_edge;
             strain = max(strain, abs(ratio - 1.0));
-            let inverse = 1.0 / max(ratio, SOLID);
+            let inverse = 1.0 / max(ratio, POLYNOMIAL_RATIO);
             let slope = lame * (ratio - 1.0) - shear * inverse * (2.0 - ratio * inverse);
             let own = area * weight;
             pressure += own * (slope * edge);
@@ -212,10 +209,10 @@ fn push_by_body(
     // The body is at its place of the beginning of the step: so is the node, in the body's frame.
     let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
     let depth = -(met.distance + met.beyond);
-    if (depth <= 0.0 || body.info.w == 0u) {
+    if (depth <= 0.0 || body.touches_nodes == 0u) {
         return Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
     }
-    return react(quadratic, depth, out_of_body(body, met.normal), point - old - drift, body.surface.x);
+    return react(quadratic, depth, out_of_body(body, met.normal), point - old - drift, body.friction);
 }
 
 // Position of a point after the walls, as `change` from it, and their force.

@@ -1,12 +1,10 @@
 // Rate of deceleration of a particle by a no-slip surface at a distance, without the limit by the step; `wall_friction.rs`
 // has the integral.
 
-const NEAREST: f32 = 0.125;
-
 fn friction_rate(distance: f32) -> f32 {
-    let radius = params.smoothing.radius;
+    let radius = params.smoothing.support_radius;
     let kinematic = 90.0 * params.wall_viscosity / (params.rest_density * radius * radius);
-    let q = clamp(distance * (1.0 / radius), NEAREST, 1.0);
+    let q = clamp(distance * (1.0 / radius), LEAST_FRICTION_DISTANCE, 1.0);
     let square = q * q;
     let fourth = square * square;
     let integral = 0.025 - square * (1.0 / 12.0) + fourth * 0.125 - fourth * q * (1.0 / 15.0);

@@ -3,22 +3,13 @@
 // On an axis that wraps, cells repeat: distant points may share one, and the distance test separates them. On the others,
 // points outside are in the outermost cell.
 
-struct Grid {
-    // w: one over the edge of a cell.
-    origin: vec4<f32>,
-    // Cells along every axis, powers of two where the axis wraps; w: all cells.
-    size: vec4<u32>,
-    // 1 for axes that wrap; w: rows that are sorted.
-    wrap: vec4<u32>,
-}
-
-// Rounding errors of distances in cells: of the point, and of the target.
+// Distances in cells that rounding may hide: of the point, and of what it is compared with.
 fn slack(coordinate: f32) -> f32 {
     return 0.002 + abs(coordinate) * 4.0e-7;
 }
 
 fn coordinate_of(grid: Grid, value: f32, axis: u32) -> f32 {
-    return (value - grid.origin[axis]) * grid.origin.w;
+    return (value - grid.origin[axis]) * grid.inverse_edge;
 }
 
 // A cell by its coordinate; not yet wrapped, but clamped to the grid where it does not wrap.

@@ -1,9 +1,5 @@
 // Sponges that may touch, and pairs of nodes; `pairs.rs` has the formulas. Used with the binding `sponges`.
 
-const FACING: f32 = 0.1;
-const ALIKE: f32 = 0.6;
-const REACH: f32 = 1.5;
-
 struct Pair {
     normal: vec3<f32>,
     facing: f32,
@@ -13,18 +9,18 @@ struct Pair {
 
 fn may_meet(a: u32, b: u32) -> bool {
     let own = sponges.all[a];
-    return own.solver == VBD && sponges.all[b].solver == VBD && (a != b || own.self_contact != 0u);
+    return own.solver == SOLVER_VBD && sponges.all[b].solver == SOLVER_VBD && (a != b || own.self_contact != 0u);
 }
 
 fn contact_edge(sponge: u32) -> f32 {
-    return sponges.all[sponge].edge * (1.0 + sponges.all[sponge].swelling);
+    return sponges.all[sponge].edge * (1.0 + sponges.all[sponge].wetting.swelling);
 }
 
 // `facing` is at most zero where the surfaces do not face each other; the other values are then invalid.
 fn pair_of(a: vec3<f32>, b: vec3<f32>, normal_a: vec3<f32>, normal_b: vec3<f32>) -> Pair {
     let weight_a = sqrt(dot(normal_a, normal_a));
     let weight_b = sqrt(dot(normal_b, normal_b));
-    let least = FACING + ALIKE * (1.0 - max(weight_a, weight_b));
+    let least = LEAST_FACING + RIM_FACING * (1.0 - max(weight_a, weight_b));
     let facing = -dot(normal_a, normal_b) / (weight_a * weight_b) - least;
     let towards = normal_b - normal_a;
     let normal = towards / sqrt(dot(towards, towards));

@@ -2,14 +2,14 @@
 
 // Volume fraction, and its slope into the surface, at a distance.
 fn share_at(distance: f32) -> vec2<f32> {
-    let depth = clamp(1.0 - distance / params.boundary_range, 0.0, 1.25);
+    let depth = clamp(1.0 - distance / params.boundary_range, 0.0, GREATEST_DEPTH);
     let square = depth * depth;
     let fifth = square * square * depth;
     return vec2<f32>(fifth * depth, fifth * (6.0 / params.boundary_range)) * params.boundary_share;
 }
 
 fn wall_share(point: vec3<f32>) -> vec4<f32> {
-    if (params.wall_low.w == 0.0) {
+    if (params.has_walls == 0u) {
         return vec4<f32>(0.0);
     }
     var gradient = vec3<f32>(0.0);

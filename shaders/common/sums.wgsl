@@ -1,21 +1,10 @@
-// Sums and maxima over the threads of a workgroup, always in the same order.
-
-// Four rows of sums and one of maxima.
-struct Sums {
-    a: vec4<f32>,
-    b: vec4<f32>,
-    c: vec4<f32>,
-    d: vec4<f32>,
-    largest: vec4<f32>,
-}
-
-const SMALLEST: f32 = -3.0e38;
+// GroupSums and largest values over the threads of a group, always in the same order.
 
 var<workgroup> shared_rows: array<vec4<f32>, 256>;
 
-fn no_sums() -> Sums {
+fn no_sums() -> GroupSums {
     let zero = vec4<f32>(0.0);
-    return Sums(zero, zero, zero, zero, vec4<f32>(SMALLEST));
+    return GroupSums(zero, zero, zero, zero, vec4<f32>(NO_VALUE));
 }
 
 // The same for all threads.
@@ -35,8 +24,8 @@ fn group_row(lane: u32, own: vec4<f32>, is_largest: bool) -> vec4<f32> {
     return all;
 }
 
-fn group_sums(lane: u32, own: Sums) -> Sums {
-    return Sums(
+fn group_sums(lane: u32, own: GroupSums) -> GroupSums {
+    return GroupSums(
         group_row(lane, own.a, false),
         group_row(lane, own.b, false),
         group_row(lane, own.c, false),

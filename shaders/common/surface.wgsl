@@ -7,7 +7,7 @@ struct Surface {
 
 fn round_surface(local: vec3<f32>, radius: f32) -> Surface {
     let length = sqrt(dot(local, local));
-    if (length > 1.0e-12) {
+    if (length > LEAST_RADIUS) {
         return Surface(local * (1.0 / length), length - radius);
     }
     return Surface(vec3<f32>(0.0, 1.0, 0.0), length - radius);
@@ -33,8 +33,8 @@ fn cuboid_surface(local: vec3<f32>, half: vec3<f32>) -> Surface {
 
 fn hull_surface(body: Body, local: vec3<f32>) -> Surface {
     var nearest = Surface(vec3<f32>(0.0, 1.0, 0.0), -3.4e38);
-    for (var face = 0u; face < body.info.z; face += 1u) {
-        let plane = planes[body.info.y + face];
+    for (var face = 0u; face < body.planes; face += 1u) {
+        let plane = planes[body.first_plane + face];
         let distance = dot(local, plane.xyz) - plane.w;
         if (distance > nearest.distance) {
             nearest = Surface(plane.xyz, distance);
@@ -44,19 +44,19 @@ fn hull_surface(body: Body, local: vec3<f32>) -> Surface {
 }
 
 fn local_surface(body: Body, local: vec3<f32>) -> Surface {
-    switch (body.info.x) {
-        case PLANE: {
+    switch (body.shape) {
+        case SHAPE_KIND_PLANE: {
             return Surface(vec3<f32>(0.0, 1.0, 0.0), local.y);
         }
-        case SPHERE: {
-            return round_surface(local, body.extents.w);
+        case SHAPE_KIND_SPHERE: {
+            return round_surface(local, body.radius);
         }
-        case CUBOID: {
-            return cuboid_surface(local, body.extents.xyz);
+        case SHAPE_KIND_CUBOID: {
+            return cuboid_surface(local, body.extents);
         }
-        case CAPSULE: {
+        case SHAPE_KIND_CAPSULE: {
             let on_axis = clamp(local.y, -body.extents.x, body.extents.x);
-            return round_surface(vec3<f32>(local.x, local.y - on_axis, local.z), body.extents.w);
+            return round_surface(vec3<f32>(local.x, local.y - on_axis, local.z), body.radius);
         }
         default: {
             return hull_surface(body, local);
@@ -65,23 +65,22 @@ fn local_surface(body: Body, local: vec3<f32>) -> Surface {
 }
 
 fn body_surface(body: Body, point: vec3<f32>) -> Surface {
-    let arm = point - body.position.xyz;
-    let local = vec3<f32>(dot(body.x.xyz, arm), dot(body.y.xyz, arm), dot(body.z.xyz, arm));
+    let arm = point - body.position;
+    let local = vec3<f32>(dot(body.x, arm), dot(body.y, arm), dot(body.z, arm));
     let surface = local_surface(body, local);
-    let normal = surface.normal.x * body.x.xyz + surface.normal.y * body.y.xyz + surface.normal.z * body.z.xyz;
+    let normal = surface.normal.x * body.x + surface.normal.y * body.y + surface.normal.z * body.z;
     return Surface(normal, surface.distance);
 }
 
-fn turned(turn: vec4<f32>, axis: vec4<f32>) -> vec4<f32> {
-    let v = axis.xyz;
-    return vec4<f32>(v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v), 0.0);
+fn turned(turn: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v);
 }
 
 // The body at the end of the step.
 fn at_end(body: Body) -> Body {
     var moved = body;
-    moved.position = vec4<f32>(body.position.xyz + clock.step * body.linear.xyz, 0.0);
-    let turn = normalize(vec4<f32>(0.5 * clock.step * body.angular.xyz, 1.0));
+    moved.position = body.position + clock.step * body.linear;
+    let turn = normalize(vec4<f32>(0.5 * clock.step * body.angular, 1.0));
     moved.x = turned(turn, body.x);
     moved.y = turned(turn, body.y);
     moved.z = turned(turn, body.z);

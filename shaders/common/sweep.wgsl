@@ -1,11 +1,6 @@
 // Path of a point through a step, and its first intersection with a body; `sweep.rs` has the rules.
 
-const ADVANCES: u32 = 12u;
-const NEARLY: f32 = 1.0e-3;
-// Clearance of nodes from bodies, in edges.
-const CLEARANCE: f32 = 1.0e-3;
-
-// Intersection of a path with a body: the distance there, and that of the end of the path from the plane less it.
+// Where a way meets a body: the distance there, and that of the end of the way from the plane less it.
 struct Met {
     distance: f32,
     beyond: f32,
@@ -13,12 +8,12 @@ struct Met {
 }
 
 fn into_body(body: Body, point: vec3<f32>) -> vec3<f32> {
-    let arm = point - body.position.xyz;
-    return vec3<f32>(dot(body.x.xyz, arm), dot(body.y.xyz, arm), dot(body.z.xyz, arm));
+    let arm = point - body.position;
+    return vec3<f32>(dot(body.x, arm), dot(body.y, arm), dot(body.z, arm));
 }
 
 fn out_of_body(body: Body, direction: vec3<f32>) -> vec3<f32> {
-    return direction.x * body.x.xyz + direction.y * body.y.xyz + direction.z * body.z.xyz;
+    return direction.x * body.x + direction.y * body.y + direction.z * body.z;
 }
 
 // Follows a path in the frame of the body.
@@ -30,7 +25,7 @@ fn way_meets(body: Body, margin: f32, start: vec3<f32>, end: vec3<f32>) -> Met {
     var surface = local_surface(body, place);
     surface.distance -= margin;
     for (var k = 0u; k < ADVANCES; k += 1u) {
-        if (surface.distance <= NEARLY * length || surface.distance >= left) {
+        if (surface.distance <= SWEEP_TOLERANCE * length || surface.distance >= left) {
             break;
         }
         place += way * (surface.distance / length);

@@ -5,7 +5,7 @@ fn viscosity_pair(apart: vec3<f32>, relative: vec3<f32>) -> vec3<f32> {
     let square = dot(apart, apart);
     let volume = params.particle_mass / params.rest_density;
     let u = closeness(params.smoothing, square);
-    let softening = 0.0025 * params.smoothing.radius * params.smoothing.radius;
+    let softening = SOFTENING * params.smoothing.support_radius * params.smoothing.support_radius;
     let central = u * u * (dot(relative, apart) / (square + softening));
     let scale = params.smoothing.viscosity * (params.implicit_viscosity * volume / params.rest_density);
     let central_scale =

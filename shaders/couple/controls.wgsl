@@ -20,7 +20,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let slot = row_of(group, groups, lane);
-    if (clock.running == 0u || slot >= control_grid.wrap.w) {
+    if (clock.running == 0u || slot >= control_grid.rows) {
         return;
     }
     let node = control_grouped[slot];
@@ -34,7 +34,7 @@ fn main(
             row += 1u;
         }
     }
-    let swelling = sponges.all[node_sponge[node]].swelling;
+    let swelling = sponges.all[node_sponge[node]].wetting.swelling;
     var volume = node_volume[node];
     if (swelling > 0.0) {
         let size = 1.0 + swelling * node_wetting[node].x;

@@ -13,9 +13,6 @@
 @group(0) @binding(8) var<storage, read> node_free: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_target: array<vec4<f32>>;
 
-// Mass below which there is no target.
-const LEAST: f32 = 1.0e-20;
-
 @compute @workgroup_size(256)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -35,7 +32,7 @@ fn main(
     let node = control_node[row];
     let start = node_free[node];
     var end = start;
-    if (start.w > 0.0 && received.w > LEAST) {
+    if (start.w > 0.0 && received.w > LEAST_DRAG_MASS) {
         let velocity = control_velocity[row].xyz + received.xyz / received.w;
         let mass = start.w + received.w;
         let by_fluid = own.xyz + velocity * clock.step;

@@ -16,11 +16,8 @@
 @group(0) @binding(8) var<storage, read_write> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read> node_wetting: array<vec4<f32>>;
 
-const FOLLOWING: f32 = 0.7;
-const MOST: f32 = 1.0;
-
 fn following(porosity: f32) -> f32 {
-    return sqrt(min(FOLLOWING * (1.0 - porosity) / porosity, MOST));
+    return sqrt(min(FOLLOWING * (1.0 - porosity) / porosity, GREATEST_FOLLOWING));
 }
 
 @compute @workgroup_size(GROUP)

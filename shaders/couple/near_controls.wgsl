@@ -16,10 +16,10 @@ var<workgroup> found: array<u32, 256>;
 // Visits the rows of cells of one thread: counts the points within the radius, and writes them from `slot` on, up to `last`
 // if that is not before it.
 fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
-    let radius = params.coupling.radius;
+    let radius = params.coupling.support_radius;
     let square = radius * radius;
-    let cell_square = square * fluid_grid.origin.w * fluid_grid.origin.w;
-    let reach = radius * fluid_grid.origin.w;
+    let cell_square = square * fluid_grid.inverse_edge * fluid_grid.inverse_edge;
+    let reach = radius * fluid_grid.inverse_edge;
     let at = vec3<f32>(
         coordinate_of(fluid_grid, point.x, 0u),
         coordinate_of(fluid_grid, point.y, 1u),
@@ -99,7 +99,7 @@ fn main(
         let all = before + own;
         control_fluid[first] = all;
         if (all > capacity) {
-            atomicMax(&extremes[7], all);
+            atomicMax(&extremes[EXTREME_CONTROL_FLUID], all);
         }
     }
 }

@@ -22,10 +22,10 @@ fn main(
         return;
     }
     let point = fluid_position[row].xyz;
-    let radius = params.coupling.radius;
+    let radius = params.coupling.support_radius;
     let square = radius * radius;
-    let cell_square = square * control_grid.origin.w * control_grid.origin.w;
-    let reach = radius * control_grid.origin.w;
+    let cell_square = square * control_grid.inverse_edge * control_grid.inverse_edge;
+    let reach = radius * control_grid.inverse_edge;
     let at = vec3<f32>(
         coordinate_of(control_grid, point.x, 0u),
         coordinate_of(control_grid, point.y, 1u),
@@ -68,6 +68,6 @@ fn main(
     }
     fluid_controls[row] = found;
     if (found > params.control_capacity) {
-        atomicMax(&extremes[6], found);
+        atomicMax(&extremes[EXTREME_CONTROLS], found);
     }
 }

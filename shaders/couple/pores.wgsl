@@ -1,5 +1,5 @@
-// #include sponges, star
-// Porosity, permeability and drag rates of a deformed sponge; `pores.rs` has the formulas.
+// #include sponges
+// What compression does to the pores of a sponge; `pores.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -7,9 +7,6 @@
 @group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> node_stars: array<u32>;
 @group(0) @binding(5) var<storage, read_write> node_pores: array<vec4<f32>>;
-
-const LEAST_POROSITY: f32 = 0.15;
-const LARGEST: f32 = 10.0;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -21,8 +18,8 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    let base = row * STAR;
-    let sponge = sponges.all[node_stars[base + SPONGE]];
+    let base = row * STAR_WORDS;
+    let sponge = sponges.all[node_stars[base + STAR_SPONGE]];
     if (is_asleep(sponge)) {
         return;
     }
@@ -30,15 +27,15 @@ fn main(
         node_pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity);
         return;
     }
-    let tets = node_stars[base + TETS];
-    let weights = node_stars[base + WEIGHTS];
+    let tets = node_stars[base + STAR_TETS];
+    let weights = node_stars[base + STAR_WEIGHTS];
     let x = node_position[row].xyz;
     var rings = RINGS;
     var sum = 0.0;
     var all = 0.0;
-    for (var direction = 0u; direction < 6u; direction += 1u) {
+    for (var direction = 0u; direction < DIRECTIONS; direction += 1u) {
         let ring = rings[direction];
-        let u = node_position[node_stars[base + DIRECTION + direction]].xyz;
+        let u = node_position[node_stars[base + STAR_DIRECTIONS + direction]].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
             let tet = 4u * direction + k;
             if (((tets >> tet) & 1u) == 0u) {
@@ -57,7 +54,7 @@ fn main(
     }
     let volume = 2.0 * sum / (sponge.edge * sponge.edge * sponge.edge);
     let least = (1.0 - sponge.porosity) / (1.0 - min(LEAST_POROSITY, sponge.porosity));
-    let ratio = clamp(volume / all, least, LARGEST);
+    let ratio = clamp(volume / all, least, GREATEST_VOLUME_RATIO);
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);
@@ -68,8 +65,8 @@ fn main(
         sponge.inertial_drag * (opening * opening) / sqrt(permeability) * ratio,
         porosity,
     );
-    if (sponge.swelling > 0.0) {
-        let size = 1.0 + sponge.swelling * bitcast<f32>(node_stars[base + WETNESS]);
+    if (sponge.wetting.swelling > 0.0) {
+        let size = 1.0 + sponge.wetting.swelling * bitcast<f32>(node_stars[base + STAR_WETNESS]);
         let swollen = size * size * size;
         node_pores[row] = vec4<f32>(node_pores[row].xyz / swollen, porosity);
     }

@@ -9,8 +9,7 @@
 @group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_fluid: array<u32>;
-// Per node: its sponge, the bits of its suction, and the bits of its sum of W at rest.
-@group(0) @binding(6) var<storage, read> node_traits: array<vec4<u32>>;
+@group(0) @binding(6) var<storage, read> node_traits: array<NodeTraits>;
 @group(0) @binding(7) var<storage, read> control_node: array<u32>;
 @group(0) @binding(8) var<storage, read_write> control_saturation: array<f32>;
 @group(0) @binding(9) var<storage, read_write> control_suction: array<f32>;
@@ -44,12 +43,12 @@ fn main(
     }
     let node = control_node[row];
     let traits = node_traits[node];
-    let sponge = sponges.all[traits.x];
+    let sponge = sponges.all[traits.sponge];
     let volume = params.particle_mass / params.rest_density;
-    let saturation = sum * params.coupling.value * volume / (sponge.porosity * bitcast<f32>(traits.z));
+    let saturation = sum * params.coupling.value * volume / (sponge.porosity * traits.interior);
     let dry = max(1.0 - saturation, 0.0);
     let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
     control_saturation[row] = saturation;
-    control_suction[row] = pressure * bitcast<f32>(traits.y) * own.w;
+    control_suction[row] = pressure * traits.suction * own.w;
     node_saturation[node] = saturation;
 }

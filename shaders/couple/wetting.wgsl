@@ -1,21 +1,17 @@
-// #include sponges, star
-// Wetness of the material at every node, and the suction of receding water; `wetting.rs` has the formulas.
+// #include sponges
+// How wet the material of every node is, and the suction of water that recedes; `wetting.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
 @group(0) @binding(3) var<storage, read> control_node: array<u32>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-// Per node: its sponge, the bits of its suction, and the bits of its sum of W at rest.
-@group(0) @binding(5) var<storage, read> node_traits: array<vec4<u32>>;
+@group(0) @binding(5) var<storage, read> node_traits: array<NodeTraits>;
 @group(0) @binding(6) var<storage, read_write> control_saturation: array<f32>;
 @group(0) @binding(7) var<storage, read_write> control_suction: array<f32>;
 @group(0) @binding(8) var<storage, read_write> node_saturation: array<f32>;
 @group(0) @binding(9) var<storage, read_write> node_wetting: array<vec4<f32>>;
 @group(0) @binding(10) var<storage, read_write> node_stars: array<u32>;
-
-const SCANNING_BAND: f32 = 0.1;
-const LEAST_MOBILITY: f32 = 1.0e-3;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -29,27 +25,27 @@ fn main(
     }
     let node = control_node[row];
     let traits = node_traits[node];
-    let sponge = sponges.all[traits.x];
+    let sponge = sponges.all[traits.sponge];
     let before = node_wetting[node];
-    var saturation = control_saturation[row] * max(bitcast<f32>(traits.z), 1.0);
-    if (sponge.swelling > 0.0) {
-        let size = 1.0 + sponge.swelling * before.x;
+    var saturation = control_saturation[row] * max(traits.interior, 1.0);
+    if (sponge.wetting.swelling > 0.0) {
+        let size = 1.0 + sponge.wetting.swelling * before.x;
         let porosity = 1.0 - (1.0 - sponge.porosity) / (size * size * size);
         saturation *= sponge.porosity / porosity;
     }
     let filled = min(saturation, 1.0);
     var mobility = 1.0;
-    for (var k = 1u; k < sponge.exponent; k += 1u) {
+    for (var k = 1u; k < sponge.wetting.exponent; k += 1u) {
         mobility *= filled;
     }
     let receding = clamp(before.z + (before.y - filled) * (1.0 / SCANNING_BAND), 0.0, 1.0);
     let dry = max(1.0 - saturation, 0.0);
     let pressure =
-        -(sponge.entry_pressure + receding * sponge.receding) * (1.0 + sponge.saturation_gain * dry);
-    let wetness = (sponge.wetting_time * before.x + clock.step * filled) / (sponge.wetting_time + clock.step);
+        -(sponge.entry_pressure + receding * sponge.wetting.receding) * (1.0 + sponge.saturation_gain * dry);
+    let wetness = (sponge.wetting.time * before.x + clock.step * filled) / (sponge.wetting.time + clock.step);
     control_saturation[row] = saturation;
-    control_suction[row] = pressure * bitcast<f32>(traits.y) * control_position[row].w;
+    control_suction[row] = pressure * traits.suction * control_position[row].w;
     node_saturation[node] = saturation;
     node_wetting[node] = vec4<f32>(wetness, filled, receding, max(mobility, LEAST_MOBILITY));
-    node_stars[node * STAR + WETNESS] = bitcast<u32>(wetness);
+    node_stars[node * STAR_WORDS + STAR_WETNESS] = bitcast<u32>(wetness);
 }

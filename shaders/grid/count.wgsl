@@ -19,11 +19,11 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= grid.wrap.w) {
+    if (clock.running == 0u || row >= grid.rows) {
         return;
     }
     let cell = cell_of(grid, points[row].xyz);
     cells[row] = cell;
     slots[row] = atomicAdd(&counts[cell], 1u);
-    atomicAdd(&page_sums[cell / 4096u], 1u);
+    atomicAdd(&page_sums[cell / PAGE_CELLS], 1u);
 }

@@ -44,8 +44,8 @@ fn add_run(before: Found, point: vec3<f32>, begin: u32, end: u32) -> Found {
 fn add_ball(before: Found, point: vec3<f32>) -> Found {
     var found = before;
     let radius = params.list_radius;
-    let cell_square = radius * radius * fluid_grid.origin.w * fluid_grid.origin.w;
-    let reach = radius * fluid_grid.origin.w;
+    let cell_square = radius * radius * fluid_grid.inverse_edge * fluid_grid.inverse_edge;
+    let reach = radius * fluid_grid.inverse_edge;
     let at = vec3<f32>(
         coordinate_of(fluid_grid, point.x, 0u),
         coordinate_of(fluid_grid, point.y, 1u),
@@ -79,9 +79,9 @@ fn add_ball(before: Found, point: vec3<f32>) -> Found {
 
 // Whether images of the box come near a point: those before it (-1) and those behind it (1) along periodic axes.
 fn touches(point: vec3<f32>, image: vec3<f32>) -> bool {
-    let before = point - params.list_radius <= params.period_low.xyz;
-    let behind = point + params.list_radius >= params.period_high.xyz;
-    let near = select(before, behind, image > vec3<f32>(0.0)) & (params.periods.xyz > vec3<f32>(0.0));
+    let before = point - params.list_radius <= params.period_low;
+    let behind = point + params.list_radius >= params.period_high;
+    let near = select(before, behind, image > vec3<f32>(0.0)) & (params.periods > vec3<f32>(0.0));
     return all(near | (image == vec3<f32>(0.0)));
 }
 
@@ -99,17 +99,17 @@ fn main(
     let point = fluid_position[row].xyz;
     var found = Found(0u, row, 0.0);
     // The box itself first, then its images.
-    let images = select(1u, 27u, params.periods.w > 0.0);
+    let images = select(1u, 27u, params.has_periods != 0u);
     for (var index = 0u; index < images; index += 1u) {
         let place = vec3<f32>(vec3<u32>(index % 3u, index / 3u % 3u, index / 9u));
         let image = select(place, vec3<f32>(-1.0), place > vec3<f32>(1.0));
         if (index == 0u || touches(point, image)) {
-            found = add_ball(found, point - image * params.periods.xyz);
+            found = add_ball(found, point - image * params.periods);
         }
     }
     fluid_neighbors[row] = found.count;
     fluid_density[row] = found.sum * (params.smoothing.value * params.particle_mass);
     if (found.count > params.neighbor_capacity) {
-        atomicMax(&extremes[5], found.count);
+        atomicMax(&extremes[EXTREME_NEIGHBORS], found.count);
     }
 }

@@ -24,12 +24,12 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let page = group_of(group, groups);
-    let pages = grid.size.w / 4096u + 1u;
+    let pages = grid.cells / PAGE_CELLS + 1u;
     if (clock.running == 0u || page >= pages) {
         return;
     }
     var start = 0u;
-    if (pages > 256u) {
+    if (pages > FEW_PAGES) {
         start = page_sums[page];
     } else {
         // Few pages: each adds up those before it.
@@ -40,7 +40,7 @@ fn main(
         start = group_scan(lane, vec4<u32>(of_page, 0u, 0u, 0u)).all.x;
     }
     // Four tiles of 1024 values at once.
-    let first = page * 1024u + lane;
+    let first = page * (PAGE_CELLS / 4u) + lane;
     let a = counts[first];
     let b = counts[first + 256u];
     let c = counts[first + 512u];

@@ -11,7 +11,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
-    let pages = grid.size.w / 4096u + 1u;
+    let pages = grid.cells / PAGE_CELLS + 1u;
     var before = 0u;
     for (var first = 0u; first < pages; first += 1024u) {
         // Four consecutive pages per thread.

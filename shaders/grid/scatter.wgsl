@@ -20,10 +20,10 @@ fn main(
     if (clock.running == 0u) {
         return;
     }
-    if (row <= grid.size.w / 4096u) {
+    if (row <= grid.cells / PAGE_CELLS) {
         page_sums[row] = 0u;
     }
-    if (row >= grid.wrap.w) {
+    if (row >= grid.rows) {
         return;
     }
     grouped[starts[cells[row]] + slots[row]] = row;

@@ -20,7 +20,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let slot = row_of(group, groups, lane);
-    if (clock.running == 0u || slot >= fluid_grid.wrap.w) {
+    if (clock.running == 0u || slot >= fluid_grid.rows) {
         return;
     }
     let source = fluid_grouped[slot];

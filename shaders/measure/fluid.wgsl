@@ -9,7 +9,7 @@
 @group(0) @binding(2) var<storage, read> fluid_velocity_next: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> fluid_density: array<f32>;
 @group(0) @binding(4) var<storage, read> fluid_interior: array<f32>;
-@group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> partial_sums: array<GroupSums>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -24,15 +24,15 @@ fn main(
         let v = fluid_velocity_next[row].xyz;
         let square = dot(v, v);
         var inside = 0.0;
-        // Without nodes nothing is inside, and the column has no rows.
-        if (params.node_rows > 0u && fluid_interior[row] > 0.5) {
+        // Without nodes there is nothing to be inside of, and the column has no rows.
+        if (params.node_rows > 0u && fluid_interior[row] > INSIDE) {
             inside = 1.0;
         }
         let error = max((fluid_density[row] - params.rest_density) / params.rest_density, 0.0);
         own.a = vec4<f32>(v, square);
         own.b = vec4<f32>(cross(x, v), inside);
         own.c = vec4<f32>(x, error);
-        own.largest = vec4<f32>(square, error, SMALLEST, SMALLEST);
+        own.largest = vec4<f32>(square, error, NO_VALUE, NO_VALUE);
     }
     write_sums(group_of(group, groups), lane, group_sums(lane, own));
 }

@@ -10,7 +10,7 @@
 @group(0) @binding(3) var<storage, read> node_mass: array<f32>;
 @group(0) @binding(4) var<storage, read> node_volume: array<f32>;
 @group(0) @binding(5) var<storage, read> node_saturation: array<f32>;
-@group(0) @binding(6) var<storage, read_write> partial_sums: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> partial_sums: array<GroupSums>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -28,16 +28,16 @@ fn main(
         own.a = mass * vec4<f32>(v, square);
         own.b = mass * vec4<f32>(cross(x, v), 1.0);
         own.c = vec4<f32>(mass * x, 0.0);
-        var wet = SMALLEST;
+        var wet = NO_VALUE;
         if (params.fluid_rows > 0u) {
             let saturation = node_saturation[row];
             own.c.w = saturation * node_volume[row];
             own.d.x = node_volume[row];
-            if (saturation > 0.5) {
+            if (saturation > WET) {
                 wet = x.y;
             }
         }
-        own.largest = vec4<f32>(square, wet, -x.y, SMALLEST);
+        own.largest = vec4<f32>(square, wet, -x.y, NO_VALUE);
     }
     write_sums(group_of(group, groups), lane, group_sums(lane, own));
 }

@@ -6,12 +6,9 @@
 @group(0) @binding(2) var<storage, read> tets: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> tet_sponge: array<u32>;
 @group(0) @binding(4) var<storage, read> node_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> partial_sums: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> partial_sums: array<GroupSums>;
 @group(0) @binding(6) var<storage, read> node_wetting: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> tet_weight: array<f32>;
-
-// Volume ratio below which the logarithm of `descent.rs` continues as a polynomial.
-const SOLID: f32 = 0.2;
 
 @compute @workgroup_size(256)
 fn main(
@@ -25,14 +22,14 @@ fn main(
         var sponge = sponges.all[tet_sponge[row]];
         let solver = sponge.solver & ~ASLEEP;
         let tet = tets[row];
-        if (sponge.softening > 0.0 || sponge.swelling > 0.0) {
-            // See `wetted.rs`.
+        if (sponge.wetting.softening > 0.0 || sponge.wetting.swelling > 0.0) {
+            // As `wetted.rs` has it.
             let two = vec2<f32>(node_wetting[tet.x].x, node_wetting[tet.y].x);
             let others = vec2<f32>(node_wetting[tet.z].x, node_wetting[tet.w].x);
             let wetness = 0.25 * dot(two + others, vec2<f32>(1.0));
-            sponge.edge *= 1.0 + sponge.swelling * wetness;
-            sponge.mu *= 1.0 - sponge.softening * wetness;
-            sponge.lambda *= 1.0 - sponge.softening * wetness;
+            sponge.edge *= 1.0 + sponge.wetting.swelling * wetness;
+            sponge.mu *= 1.0 - sponge.wetting.softening * wetness;
+            sponge.lambda *= 1.0 - sponge.wetting.softening * wetness;
         }
         let p0 = node_position[tet.x].xyz;
         let p1 = node_position[tet.y].xyz;
@@ -48,23 +45,23 @@ fn main(
         var energy = sponge.stretch_modulus * dot(lengths, lengths)
             + sponge.shear_modulus * dot(shears, shears)
             + sponge.volume_modulus * (ratio - 1.0) * (ratio - 1.0);
-        if (solver == VBD) {
+        if (solver == SOLVER_VBD) {
             // mu (|F|^2 - 3 - 2 ln J) + (lambda - mu) (J - 1)^2, in differences from rest.
-            let least = max(ratio, SOLID);
+            let least = max(ratio, POLYNOMIAL_RATIO);
             let beyond = ratio / least - 1.0;
             let logarithm = log(least) + beyond - 0.5 * beyond * beyond;
             let first_order = lengths.x + lengths.y + lengths.z - logarithm;
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
                 + (sponge.lambda - sponge.mu) * (ratio - 1.0) * (ratio - 1.0);
-        } else if (solver == XPBD_NEO_HOOKEAN) {
+        } else if (solver == SOLVER_XPBD_NEO_HOOKEAN) {
             // mu (|F|^2 - 3) + lambda ((J - alpha)^2 - (1 - alpha)^2), in differences from rest.
             let first_order = lengths.x + lengths.y + lengths.z - (ratio - 1.0);
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
                 + sponge.lambda * (ratio - 1.0) * (ratio - 1.0);
         }
         let weight = tet_weight[row];
-        // The constraints of strain based dynamics use no tet weights.
-        let strained = select(1.0, weight, solver == VBD || solver == XPBD_NEO_HOOKEAN);
+        // The constraints of strain based dynamics know the tets alone.
+        let strained = select(1.0, weight, solver == SOLVER_VBD || solver == SOLVER_XPBD_NEO_HOOKEAN);
         own.a = vec4<f32>(volume * weight * ratio, 0.5 * volume * strained * energy, 0.0, 0.0);
     }
     write_sums(group_of(group, groups), lane, group_sums(lane, own));

@@ -17,8 +17,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     var low = vec3<f32>(3.0e38);
     var high = vec3<f32>(-3.0e38);
-    for (var color = 0u; color < 4u; color += 1u) {
-        let range = sponge_ranges[group.x * 8u + color];
+    for (var color = 0u; color < VERTEX_COLORS; color += 1u) {
+        let range = sponge_ranges[group.x * RANGES + color];
         for (var row = range.x + lane; row < range.y; row += 128u) {
             low = min(low, node_position[row].xyz);
             high = max(high, node_position[row].xyz);

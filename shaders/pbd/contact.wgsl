@@ -29,8 +29,8 @@ fn wall(point: vec3<f32>, old: vec3<f32>, normal: vec3<f32>, distance: f32, fric
 }
 
 fn walls(start: vec3<f32>, old: vec3<f32>, friction: f32) -> vec3<f32> {
-    let low = params.wall_low.xyz;
-    let high = params.wall_high.xyz;
+    let low = params.wall_low;
+    let high = params.wall_high;
     var point = start;
     point = wall(point, old, vec3<f32>(1.0, 0.0, 0.0), point.x - low.x, friction);
     point = wall(point, old, vec3<f32>(-1.0, 0.0, 0.0), high.x - point.x, friction);
@@ -63,9 +63,9 @@ fn main(
         old = node_position[row].xyz;
         clearance = sponges.all[node_sponge[row]].edge * CLEARANCE;
         let sponge = sponges.all[node_sponge[row]];
-        moves = w > 0.0 && sponge.solver != VBD && !is_asleep(sponge);
+        moves = w > 0.0 && sponge.solver != SOLVER_VBD && !is_asleep(sponge);
     }
-    let meets_walls = is_row && moves && params.wall_low.w > 0.0;
+    let meets_walls = is_row && moves && params.has_walls != 0u;
     if (meets_walls) {
         point = walls(point, old, sponges.all[node_sponge[row]].friction);
     }
@@ -74,14 +74,14 @@ fn main(
         let drift = body_velocity(body, point) * clock.step;
         // The body is at its place of the beginning of the step: so is the node, in the body's frame.
         let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
-        let depth = select(0.0, max(-(met.distance + met.beyond), 0.0), moves && body.info.w != 0u);
-        let change = contact(depth, out_of_body(body, met.normal), point - old - drift, body.surface.x);
+        let depth = select(0.0, max(-(met.distance + met.beyond), 0.0), moves && body.touches_nodes != 0u);
+        let change = contact(depth, out_of_body(body, met.normal), point - old - drift, body.friction);
         point += change;
         if (group_touches(lane, depth > 0.0)) {
             var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
             if (depth > 0.0) {
                 own.impulse = change * (-1.0 / (w * clock.step));
-                own.angular = cross(point - body.position.xyz, own.impulse);
+                own.angular = cross(point - body.position, own.impulse);
             }
             let all = group_sum(lane, own);
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
@@ -93,9 +93,9 @@ fn main(
     }
     if (is_row) {
         if (meets_walls) {
-            // One obstacle may push a node into another: walls come last.
-            point = select(point, params.wall_low.xyz, point < params.wall_low.xyz);
-            point = select(point, params.wall_high.xyz, point > params.wall_high.xyz);
+            // One obstacle may have pushed into another: walls have the last word.
+            point = select(point, params.wall_low, point < params.wall_low);
+            point = select(point, params.wall_high, point > params.wall_high);
         }
         node_predicted[row] = vec4<f32>(point, w);
     }

@@ -14,5 +14,5 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    node_acceleration[row] = vec4<f32>(params.gravity.xyz, 0.0);
+    node_acceleration[row] = vec4<f32>(params.gravity, 0.0);
 }

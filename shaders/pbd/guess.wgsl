@@ -32,7 +32,7 @@ fn main(
     node_target[row] = vec4<f32>(y.xyz, mass);
     node_drag[row] = vec4<f32>(0.0);
     node_drag_moment[row] = vec4<f32>(0.0);
-    if (y.w > 0.0 && sponges.all[node_sponge[row]].solver == VBD) {
+    if (y.w > 0.0 && sponges.all[node_sponge[row]].solver == SOLVER_VBD) {
         let lacking = clock.step * clock.step * (1.0 - node_velocity[row].w);
         node_predicted[row] = vec4<f32>(y.xyz - node_acceleration[row].xyz * lacking, y.w);
     }

@@ -8,15 +8,15 @@ fn main() {
     if (clock.running == 0u) {
         return;
     }
-    let count = min(arrayLength(&sponge_ranges) / 8u, 256u);
-    // Through every sponge once: Warshall's algorithm.
+    let count = min(arrayLength(&sponge_ranges) / RANGES, SPONGES);
+    // Through every sponge once, as Warshall has it.
     for (var through = 0u; through < count; through += 1u) {
         for (var own = 0u; own < count; own += 1u) {
-            let pair = sponge_ranges[own * 8u + 4u + through / 64u];
+            let pair = sponge_ranges[own * RANGES + VERTEX_COLORS + through / 64u];
             let word = select(pair.x, pair.y, (through / 32u) % 2u == 1u);
             if (((word >> (through % 32u)) & 1u) != 0u) {
-                for (var k = 4u; k < 8u; k += 1u) {
-                    sponge_ranges[own * 8u + k] = sponge_ranges[own * 8u + k] | sponge_ranges[through * 8u + k];
+                for (var k = VERTEX_COLORS; k < RANGES; k += 1u) {
+                    sponge_ranges[own * RANGES + k] = sponge_ranges[own * RANGES + k] | sponge_ranges[through * RANGES + k];
                 }
             }
         }

@@ -25,7 +25,7 @@ fn main(
     }
     let sponge = node_sponge[row];
     let start = node_predicted[row];
-    if (start.w <= 0.0 || sponges.all[sponge].solver != VBD) {
+    if (start.w <= 0.0 || sponges.all[sponge].solver != SOLVER_VBD) {
         return;
     }
     let x = node_position[row].xyz;
@@ -33,10 +33,10 @@ fn main(
     if (node_reaction[row].w > 0.0) {
         let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, x - sponge_motions[sponge * 3u].xyz);
         y += (sponge_motions[sponge * 3u + 1u].xyz + turn) * clock.step;
-        if (params.wall_low.w > 0.0) {
-            // NaN stays NaN.
-            y = select(y, params.wall_low.xyz, y < params.wall_low.xyz);
-            y = select(y, params.wall_high.xyz, y > params.wall_high.xyz);
+        if (params.has_walls != 0u) {
+            // What is not a number stays so.
+            y = select(y, params.wall_low, y < params.wall_low);
+            y = select(y, params.wall_high, y > params.wall_high);
         }
     }
     node_predicted[row] = vec4<f32>(y, start.w);

@@ -14,9 +14,7 @@
 @group(0) @binding(9) var<storage, read_write> node_reaction: array<vec4<f32>>;
 @group(0) @binding(10) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
-const MARGIN: f32 = 1.0e-2;
-
-// The nearest body at the end of the step, if it is within the distance; otherwise a row beyond all bodies.
+// The nearest body at the end of the step, if it is that near; else a row beyond all bodies.
 fn touched(point: vec3<f32>, margin: f32) -> u32 {
     var found = params.body_rows;
     var least = margin;
@@ -24,7 +22,7 @@ fn touched(point: vec3<f32>, margin: f32) -> u32 {
         let body = body_states[index];
         // The body is at its place of the beginning of the step, and so is the point in the body's frame.
         let distance = body_surface(body, point - body_velocity(body, point) * clock.step).distance;
-        if (body.info.w != 0u && distance < least) {
+        if (body.touches_nodes != 0u && distance < least) {
             found = index;
             least = distance;
         }
@@ -48,20 +46,20 @@ fn main(
     if (row < params.node_rows) {
         let sponge = node_sponge[row];
         let before = node_reaction[row];
-        if (before.w < 0.0 && sponges.all[sponge].solver == VBD) {
+        if (before.w < 0.0 && sponges.all[sponge].solver == SOLVER_VBD) {
             old = node_position[row].xyz;
             let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, old - sponge_motions[sponge * 3u].xyz);
             impulse = (sponge_motions[sponge * 3u + 1u].xyz + turn) * -before.w;
             node_reaction[row] = vec4<f32>(before.xyz - impulse, before.w);
             if (node_predicted[row].w > 0.0) {
-                body = touched(node_predicted[row].xyz, sponges.all[sponge].edge * MARGIN);
+                body = touched(node_predicted[row].xyz, sponges.all[sponge].edge * OBSTACLE_MARGIN);
             }
         }
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         if (group_touches(lane, body == index)) {
             let own = select(vec3<f32>(0.0), impulse, body == index);
-            let all = group_sum(lane, Wrench(own, cross(old - body_states[index].position.xyz, own)));
+            let all = group_sum(lane, Wrench(own, cross(old - body_states[index].position, own)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
                 body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);

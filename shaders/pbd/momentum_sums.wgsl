@@ -28,7 +28,7 @@ var<workgroup> sums: array<Sums, 128>;
 
 // Whether a sponge is corrected together with another.
 fn is_joined(own: u32, other: u32) -> bool {
-    let pair = sponge_ranges[own * 8u + 4u + other / 64u];
+    let pair = sponge_ranges[own * RANGES + VERTEX_COLORS + other / 64u];
     let word = select(pair.x, pair.y, (other / 32u) % 2u == 1u);
     return ((word >> (other % 32u)) & 1u) != 0u;
 }
@@ -68,7 +68,7 @@ fn join(a: Sums, b: Sums) -> Sums {
 
 @compute @workgroup_size(128)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    if (clock.running == 0u || sponges.all[group.x].solver != VBD) {
+    if (clock.running == 0u || sponges.all[group.x].solver != SOLVER_VBD) {
         return;
     }
     let none = vec3<f32>(0.0);
@@ -76,12 +76,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     while (first < group.x && !is_joined(group.x, first)) {
         first += 1u;
     }
-    let origin = node_position[sponge_ranges[first * 8u].x].xyz;
+    let origin = node_position[sponge_ranges[first * RANGES].x].xyz;
     var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
-    for (var index = first * 4u; index < 1024u; index += 1u) {
-        let sponge = index / 4u;
+    for (var index = first * VERTEX_COLORS; index < SPONGES * VERTEX_COLORS; index += 1u) {
+        let sponge = index / VERTEX_COLORS;
         if (sponge == group.x || is_joined(group.x, sponge)) {
-            let range = sponge_ranges[sponge * 8u + index % 4u];
+            let range = sponge_ranges[sponge * RANGES + index % VERTEX_COLORS];
             for (var row = range.x + lane; row < range.y; row += 128u) {
                 own = join(own, term(row, origin));
             }
@@ -119,7 +119,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         let c = cross(scaled[0], scaled[1]);
         let determinant = dot(scaled[0], a);
         let angular = (all.angular - cross(centre, all.momentum)) / trace;
-        if (determinant > 1.0e-12) {
+        if (determinant > LEAST_DETERMINANT) {
             turn = vec3<f32>(dot(a, angular), dot(b, angular), dot(c, angular)) / determinant;
         }
     }

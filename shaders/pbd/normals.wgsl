@@ -1,5 +1,5 @@
-// #include sponges, star, meeting
-// Normals of surface nodes, with their weights as lengths, and their areas; `pairs.rs` has the formulas.
+// #include sponges, meeting
+// Normals of surface nodes, as long as their weights, and their areas; `pairs.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -10,11 +10,9 @@
 @group(0) @binding(6) var<storage, read> node_rest: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> node_normal: array<vec4<f32>>;
 
-const SMALLEST: f32 = 1.0e-3;
-
 // Whether a node may be near another sponge.
 fn is_near(sponge: u32, x: vec3<f32>) -> bool {
-    for (var other = 0u; other < arrayLength(&sponge_boxes) / 2u && other < 256u; other += 1u) {
+    for (var other = 0u; other < arrayLength(&sponge_boxes) / 2u && other < SPONGES; other += 1u) {
         if (!may_meet(sponge, other)) {
             continue;
         }
@@ -35,9 +33,9 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    let base = row * STAR;
-    let tets = node_stars[base + TETS];
-    let sponge = node_stars[base + SPONGE];
+    let base = row * STAR_WORDS;
+    let tets = node_stars[base + STAR_TETS];
+    let sponge = node_stars[base + STAR_SPONGE];
     let x = node_position[row].xyz;
     node_normal[row] = vec4<f32>(0.0);
     let weight = node_rest[row].w;
@@ -46,9 +44,9 @@ fn main(
     }
     var rings = RINGS;
     var sum = vec3<f32>(0.0);
-    for (var direction = 0u; direction < 6u; direction += 1u) {
+    for (var direction = 0u; direction < DIRECTIONS; direction += 1u) {
         let ring = rings[direction];
-        let u = node_position[node_stars[base + DIRECTION + direction]].xyz;
+        let u = node_position[node_stars[base + STAR_DIRECTIONS + direction]].xyz;
         for (var k = 0u; k < 4u; k += 1u) {
             if (((tets >> (4u * direction + k)) & 1u) != 0u) {
                 let q = node_position[node_stars[base + ring[(k + 1u) % 4u]]].xyz;
@@ -60,7 +58,7 @@ fn main(
     let length = sqrt(dot(sum, sum));
     let area = length / 6.0;
     let edge = sponges.all[sponge].edge;
-    if (area > SMALLEST * edge * edge) {
+    if (area > LEAST_NODE_AREA * edge * edge) {
         node_normal[row] = vec4<f32>(sum * (weight / length), area);
     }
 }

@@ -1,4 +1,4 @@
-// #include grid, sponges, star, meeting
+// #include grid, sponges, meeting
 // For every surface node, those that it may touch in this step, in the order of their rows; the list has the layout of
 // `fluid_neighbors.wgsl`, and `pairs.rs` has the formulas.
 
@@ -14,36 +14,32 @@
 @group(0) @binding(9) var<storage, read_write> node_pairs: array<u32>;
 @group(0) @binding(10) var<storage, read_write> extremes: array<atomic<u32>>;
 
-const DEEP: f32 = 1.0;
-const NEAR: f32 = 0.6;
-const APART: f32 = 4.0;
-
 fn may_touch(a: u32, b: u32, own: u32) -> bool {
     let normal_b = node_normal[b];
-    let other = node_stars[b * STAR + SPONGE];
+    let other = node_stars[b * STAR_WORDS + STAR_SPONGE];
     if (normal_b.w <= 0.0 || !may_meet(own, other)) {
         return false;
     }
     let edge = max(contact_edge(own), contact_edge(other));
     if (own == other) {
         let apart = node_rest[a].xyz - node_rest[b].xyz;
-        if (dot(apart, apart) < APART * APART * edge * edge) {
+        if (dot(apart, apart) < SELF_CONTACT_DISTANCE * SELF_CONTACT_DISTANCE * edge * edge) {
             return false;
         }
     }
     let pair = pair_of(node_position[a].xyz, node_position[b].xyz, node_normal[a].xyz, normal_b.xyz);
-    let reach = REACH * edge;
-    return pair.facing > 0.0 && pair.gap > -DEEP * edge && pair.gap < NEAR * edge && pair.aside < reach * reach;
+    let reach = PAIR_REACH * edge;
+    return pair.facing > 0.0 && pair.gap > -PAIR_OVERLAP * edge && pair.gap < PAIR_GAP * edge && pair.aside < reach * reach;
 }
 
 // Inserts a row into an ordered list of `found` entries.
 fn insert(row: u32, found: u32, other: u32) {
     var place = found;
-    while (place > 0u && node_pairs[place * pair_grid.wrap.w + row] > other) {
-        node_pairs[(place + 1u) * pair_grid.wrap.w + row] = node_pairs[place * pair_grid.wrap.w + row];
+    while (place > 0u && node_pairs[place * pair_grid.rows + row] > other) {
+        node_pairs[(place + 1u) * pair_grid.rows + row] = node_pairs[place * pair_grid.rows + row];
         place -= 1u;
     }
-    node_pairs[(place + 1u) * pair_grid.wrap.w + row] = other;
+    node_pairs[(place + 1u) * pair_grid.rows + row] = other;
 }
 
 @compute @workgroup_size(256)
@@ -53,7 +49,7 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= pair_grid.wrap.w) {
+    if (clock.running == 0u || row >= pair_grid.rows) {
         return;
     }
     if (node_normal[row].w <= 0.0) {
@@ -61,7 +57,7 @@ fn main(
         return;
     }
     let x = node_position[row].xyz;
-    let own = node_stars[row * STAR + SPONGE];
+    let own = node_stars[row * STAR_WORDS + STAR_SPONGE];
     // Cells are half of the radius wide.
     let reach = 2.0;
     let at = vec3<f32>(
@@ -72,7 +68,7 @@ fn main(
     let span_x = cells_around(pair_grid, at.x, reach + slack(at.x), 0u);
     let span_y = cells_around(pair_grid, at.y, reach + slack(at.y), 1u);
     let span_z = cells_around(pair_grid, at.z, reach + slack(at.z), 2u);
-    let capacity = arrayLength(&node_pairs) / pair_grid.wrap.w - 1u;
+    let capacity = arrayLength(&node_pairs) / pair_grid.rows - 1u;
     var found = 0u;
     for (var z = span_z.x; z <= span_z.y; z += 1) {
         for (var y = span_y.x; y <= span_y.y; y += 1) {
@@ -93,6 +89,6 @@ fn main(
     }
     node_pairs[row] = found;
     if (found > capacity) {
-        atomicMax(&extremes[9], found);
+        atomicMax(&extremes[EXTREME_PAIRS], found);
     }
 }

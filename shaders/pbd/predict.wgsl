@@ -28,8 +28,8 @@ fn main(
     if (holder < params.body_rows) {
         let body = body_states[holder];
         let offset = node_grip_offset[row].xyz;
-        let arm = body.x.xyz * offset.x + body.y.xyz * offset.y + body.z.xyz * offset.z;
-        y = body.position.xyz + arm + (body.linear.xyz + cross(body.angular.xyz, arm)) * clock.step;
+        let arm = body.x * offset.x + body.y * offset.y + body.z * offset.z;
+        y = body.position + arm + (body.linear + cross(body.angular, arm)) * clock.step;
     }
     node_predicted[row] = vec4<f32>(y, x.w);
     if (lane == 0u) {

@@ -1,5 +1,5 @@
-// #include body, surface, sweep, sponges, wrench, star, descent
-// Impulses of walls, bodies and grips on the nodes of vertex block descent; `reaction.rs` has the rules.
+// #include body, surface, sweep, sponges, wrench, descent
+// What walls, bodies and grips gave to the nodes of vertex block descent; `reaction.rs` has the rules.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -13,12 +13,10 @@
 @group(0) @binding(9) var<storage, read_write> node_reaction: array<vec4<f32>>;
 @group(0) @binding(10) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
-const MARGIN: f32 = 1.0e-2;
-
 fn is_near(point: vec3<f32>, old: vec3<f32>, margin: f32) -> bool {
-    if (params.wall_low.w > 0.0) {
-        let low = point - params.wall_low.xyz;
-        let high = params.wall_high.xyz - point;
+    if (params.has_walls != 0u) {
+        let low = point - params.wall_low;
+        let high = params.wall_high - point;
         let least = min(low, high);
         if (min(least.x, min(least.y, least.z)) < margin) {
             return true;
@@ -28,7 +26,7 @@ fn is_near(point: vec3<f32>, old: vec3<f32>, margin: f32) -> bool {
         let body = body_states[index];
         let drift = body_velocity(body, point) * clock.step;
         let way = point - drift - old;
-        if (body.info.w != 0u && body_surface(body, old).distance - sqrt(dot(way, way)) < margin) {
+        if (body.touches_nodes != 0u && body_surface(body, old).distance - sqrt(dot(way, way)) < margin) {
             return true;
         }
     }
@@ -52,11 +50,11 @@ fn main(
     if (row < params.node_rows) {
         x = node_predicted[row];
         old = node_position[row].xyz;
-        sponge = sponges.all[node_stars[row * STAR + SPONGE]];
-        counts = sponge.solver == VBD;
+        sponge = sponges.all[node_stars[row * STAR_WORDS + STAR_SPONGE]];
+        counts = sponge.solver == SOLVER_VBD;
     }
     let free = x.w > 0.0;
-    let near = counts && free && is_near(x.xyz, old, sponge.edge * MARGIN);
+    let near = counts && free && is_near(x.xyz, old, sponge.edge * OBSTACLE_MARGIN);
     var local = Local(vec3<f32>(0.0), diagonal(1.0), 0.0);
     var quadratic = Quadratic(vec3<f32>(0.0), diagonal(1.0), diagonal(1.0));
     if (near || (counts && !free)) {
@@ -65,9 +63,9 @@ fn main(
     if (near) {
         quadratic = least(local, x.xyz, node_target[row], clock.step);
     }
-    let low = params.wall_low.xyz;
-    let high = params.wall_high.xyz;
-    let meets_walls = near && params.wall_low.w > 0.0;
+    let low = params.wall_low;
+    let high = params.wall_high;
+    let meets_walls = near && params.has_walls != 0u;
     var point = x.xyz + quadratic.way;
     var force = vec3<f32>(0.0);
     if (meets_walls) {
@@ -84,7 +82,7 @@ fn main(
         force += pushed.force;
         if (group_touches(lane, any(pushed.force != vec3<f32>(0.0)))) {
             let impulse = pushed.force * -clock.step;
-            let all = group_sum(lane, Wrench(impulse, cross(old - body_states[index].position.xyz, impulse)));
+            let all = group_sum(lane, Wrench(impulse, cross(old - body_states[index].position, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
                 body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);

@@ -1,13 +1,6 @@
 // #include sponges
 // Strain constraints of the tets of one colour; `strain.rs` has the formulas. No two tets of a colour share a node.
 
-struct Batch {
-    first: u32,
-    count: u32,
-    unused_0: u32,
-    unused_1: u32,
-}
-
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
 @group(0) @binding(2) var<uniform> batch: Batch;
@@ -15,9 +8,6 @@ struct Batch {
 @group(0) @binding(4) var<storage, read> tets: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> tet_sponge: array<u32>;
 @group(0) @binding(6) var<storage, read_write> node_predicted: array<vec4<f32>>;
-
-const SMALLEST_RATIO: f32 = 0.1;
-const RIGID: f32 = 1.0e-3;
 
 // Predicted positions and inverse masses, positions at the beginning of the step.
 var<private> p0: vec3<f32>;
@@ -66,7 +56,7 @@ fn correct(
 }
 
 fn inverse_length(length: f32) -> f32 {
-    return select(1.0, 1.0 / length, length > 1.0e-6);
+    return select(1.0, 1.0 / length, length > LEAST_STRETCH);
 }
 
 fn stretch(compliance: f32, damping: f32) {
@@ -105,7 +95,7 @@ fn volume(compliance: f32, damping: f32, limit: bool) {
     let by_e = cross(f, d);
     let by_f = cross(d, e);
     let ratio = dot(d, by_d);
-    let constraint = select(ratio - 1.0, min(ratio - SMALLEST_RATIO, 0.0), limit);
+    let constraint = select(ratio - 1.0, min(ratio - LEAST_VOLUME_RATIO, 0.0), limit);
     correct(constraint, -(by_d + by_f), by_d - by_f, by_e + by_f, by_f - by_e, compliance, damping);
 }
 
@@ -121,7 +111,7 @@ fn main(
     }
     let tet = tets[batch.first + row];
     let sponge = sponges.all[tet_sponge[batch.first + row]];
-    if (sponge.solver != SBD) {
+    if (sponge.solver != SOLVER_SBD) {
         return;
     }
     let a = node_predicted[tet.x];
@@ -139,13 +129,13 @@ fn main(
     old3 = node_position[tet.w].xyz;
     inverse_edge = 1.0 / sponge.edge;
     let rest = sponge.edge * sponge.edge * sponge.edge / 12.0;
-    // Iterations restart with zero multipliers: each has its share of the stiffness.
-    let per_modulus = sponge.iterations / (rest * clock.step * clock.step);
+    // Iterations restart from no impulse: each takes its share of the stiffness.
+    let per_modulus = f32(sponge.iterations) / (rest * clock.step * clock.step);
     let damping = sponge.damping_time / clock.step;
     stretch(per_modulus / sponge.stretch_modulus, damping);
     shear(per_modulus / sponge.shear_modulus, damping);
     volume(per_modulus / sponge.volume_modulus, damping, false);
-    volume(per_modulus / sponge.volume_modulus * RIGID, 0.0, true);
+    volume(per_modulus / sponge.volume_modulus * LIMIT_COMPLIANCE, 0.0, true);
     node_predicted[tet.x] = vec4<f32>(p0, a.w);
     node_predicted[tet.y] = vec4<f32>(p1, b.w);
     node_predicted[tet.z] = vec4<f32>(p2, c.w);

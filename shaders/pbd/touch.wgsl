@@ -1,5 +1,5 @@
-// #include sponges, star, meeting
-// Contact forces between nodes of sponges, with friction; `touch.rs` has the formulas.
+// #include sponges, meeting
+// What nodes of sponges that touch do to each other, with friction; `touch.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -13,11 +13,6 @@
 @group(0) @binding(9) var<storage, read_write> node_touch_stiffness: array<vec4<f32>>;
 @group(0) @binding(10) var<storage, read_write> node_touch_between: array<vec4<f32>>;
 
-const STIFFNESS: f32 = 10.0;
-const TURN: f32 = 0.4;
-const CREEP: f32 = 2.0e-3;
-const PI: f32 = 3.14159265;
-
 @compute @workgroup_size(256)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -28,7 +23,7 @@ fn main(
     if (clock.running == 0u || row >= params.node_rows) {
         return;
     }
-    let own = node_stars[row * STAR + SPONGE];
+    let own = node_stars[row * STAR_WORDS + STAR_SPONGE];
     let x_a = node_position[row].xyz;
     let y_a = node_predicted[row].xyz;
     let n_a = node_normal[row];
@@ -49,22 +44,22 @@ fn main(
         if (depth <= 0.0) {
             continue;
         }
-        let sponge = node_stars[other * STAR + SPONGE];
+        let sponge = node_stars[other * STAR_WORDS + STAR_SPONGE];
         let edge = max(contact_edge(own), contact_edge(sponge));
-        let reach = REACH * edge;
+        let reach = PAIR_REACH * edge;
         let closeness = max(1.0 - pair.aside / (reach * reach), 0.0);
         let share = 3.0 / PI / (reach * reach) * closeness * closeness;
-        let facing = min(pair.facing / TURN, 1.0);
+        let facing = min(pair.facing / FACING_RANGE, 1.0);
         let modulus_a = sponges.all[own].lambda + sponges.all[own].mu;
         let modulus_b = sponges.all[sponge].lambda + sponges.all[sponge].mu;
         let modulus = 2.0 * modulus_a * modulus_b / (modulus_a + modulus_b);
-        let k = STIFFNESS * modulus / edge * facing * (n_a.w * n_b.w * share);
+        let k = CONTACT_STIFFNESS * modulus / edge * facing * (n_a.w * n_b.w * share);
         let square = 4.0 * depth * depth / (edge * edge);
         let push = k * depth * (1.0 + square);
         var slip = (y_a - x_a) - (y_b - x_b);
         slip -= n * dot(n, slip);
         let friction = 0.5 * (sponges.all[own].friction + sponges.all[sponge].friction);
-        let hold = push * friction / max(sqrt(dot(slip, slip)), CREEP * clock.step);
+        let hold = push * friction / max(sqrt(dot(slip, slip)), CREEP_SPEED * clock.step);
         force += n * push - slip * hold;
         let tangent = k * (1.0 + 3.0 * square) - hold;
         along += n * n * tangent + vec3<f32>(hold);
@@ -81,7 +76,7 @@ fn main(
     node_touch[row] = vec4<f32>(force, f32(lowest));
     node_touch_stiffness[row] = vec4<f32>(along, f32(highest));
     node_touch_between[row] = vec4<f32>(across, 0.0);
-    let base = params.node_rows * STAR + row * TOUCH;
+    let base = params.node_rows * STAR_WORDS + row * TOUCH_WORDS;
     let words = array<vec3<u32>, 3>(bitcast<vec3<u32>>(force), bitcast<vec3<u32>>(along), bitcast<vec3<u32>>(across));
     for (var k = 0u; k < 3u; k += 1u) {
         node_stars[base + 3u * k] = words[k].x;

@@ -6,7 +6,7 @@
 @group(0) @binding(3) var<storage, read_write> sponge_ranges: array<vec2<u32>>;
 
 // Bits that are only ever set, so that the order does not matter.
-var<workgroup> bits: array<atomic<u32>, 8>;
+var<workgroup> bits: array<atomic<u32>, SPONGES / 32u>;
 
 fn set_bit(sponge: u32) {
     atomicOr(&bits[sponge / 32u], 1u << (sponge % 32u));
@@ -17,20 +17,20 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if (clock.running == 0u) {
         return;
     }
-    if (lane < 8u) {
+    if (lane < SPONGES / 32u) {
         atomicStore(&bits[lane], 0u);
     }
     workgroupBarrier();
-    for (var color = 0u; color < 4u; color += 1u) {
-        let range = sponge_ranges[group.x * 8u + color];
+    for (var color = 0u; color < VERTEX_COLORS; color += 1u) {
+        let range = sponge_ranges[group.x * RANGES + color];
         for (var row = range.x + lane; row < range.y; row += 128u) {
             set_bit(u32(node_touch[row].w));
             set_bit(u32(node_touch_stiffness[row].w));
         }
     }
     workgroupBarrier();
-    if (lane < 4u) {
+    if (lane < SPONGES / 64u) {
         let pair = vec2<u32>(atomicLoad(&bits[2u * lane]), atomicLoad(&bits[2u * lane + 1u]));
-        sponge_ranges[group.x * 8u + 4u + lane] = pair;
+        sponge_ranges[group.x * RANGES + VERTEX_COLORS + lane] = pair;
     }
 }

@@ -1,20 +1,5 @@
-// #include body, surface, sweep, sponges, star, descent
+// #include body, surface, sweep, sponges, descent
 // Vertex block descent for the nodes of one vertex colour; `vbd.rs` has the formulas. Neighbours have other colours.
-
-const RELAXATION: f32 = 0.3;
-const SOUND: f32 = 0.2;
-const SPOILT: f32 = 0.5;
-const LONG: f32 = 0.1;
-const FINE: f32 = 4096.0;
-const EPSILON: f32 = 1.1920929e-7;
-const LEAST: f32 = 1.0e-6;
-
-struct Batch {
-    first: u32,
-    count: u32,
-    unused_0: u32,
-    unused_1: u32,
-}
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -38,9 +23,9 @@ fn main(
         return;
     }
     let row = batch.first + index;
-    let sponge = sponges.all[node_stars[row * STAR + SPONGE]];
+    let sponge = sponges.all[node_stars[row * STAR_WORDS + STAR_SPONGE]];
     let x = node_predicted[row];
-    if (x.w <= 0.0 || sponge.solver != VBD) {
+    if (x.w <= 0.0 || sponge.solver != SOLVER_VBD) {
         return;
     }
     let old = node_position[row].xyz;
@@ -48,9 +33,10 @@ fn main(
     let quadratic = least(local, x.xyz, node_target[row], clock.step);
     var relaxation = 1.0;
     let edges = quadratic.way / sponge.edge;
-    let short = (LONG * LONG - dot(edges, edges)) * 4.0 / (3.0 * LONG * LONG);
-    if (sponge.iterations > 1.0) {
-        relaxation += RELAXATION * clamp(min((SPOILT - local.strain) / (SPOILT - SOUND), short), 0.0, 1.0);
+    let short = (NO_RELAXATION_WAY * NO_RELAXATION_WAY - dot(edges, edges)) * 4.0 / (3.0 * NO_RELAXATION_WAY * NO_RELAXATION_WAY);
+    if (sponge.iterations > 1u) {
+        let strain_range = NO_RELAXATION_STRAIN - FULL_RELAXATION_STRAIN;
+        relaxation += RELAXATION * clamp(min((NO_RELAXATION_STRAIN - local.strain) / strain_range, short), 0.0, 1.0);
     }
     let relaxed = moved(x.xyz, quadratic.way * relaxation);
     var point = pushed(quadratic, relaxed, old, sponge);
@@ -64,16 +50,16 @@ fn main(
 
 // Adds a way to a point with stochastic rounding, with a probability in proportion to the remainder; see `vbd.rs`.
 fn moved(point: vec3<f32>, way: vec3<f32>) -> vec3<f32> {
-    let digit = max(abs(point), vec3<f32>(LEAST)) * EPSILON;
-    let parts = way / digit * FINE + 0.5;
+    let digit = max(abs(point), vec3<f32>(LEAST_COORDINATE)) * EPSILON;
+    let parts = way / digit * ROUNDING_PARTS + 0.5;
     return point + (way + (parts - floor(parts) - 0.5) * digit);
 }
 
 // Position of a point after all obstacles.
 fn pushed(quadratic: Quadratic, start: vec3<f32>, old: vec3<f32>, sponge: Sponge) -> vec3<f32> {
-    let low = params.wall_low.xyz;
-    let high = params.wall_high.xyz;
-    let has_walls = params.wall_low.w > 0.0;
+    let low = params.wall_low;
+    let high = params.wall_high;
+    let has_walls = params.has_walls != 0u;
     var point = start;
     if (has_walls) {
         point += push_by_walls(low, high, quadratic, point, old, sponge.friction).change;

@@ -40,11 +40,11 @@ fn main(
         if (is_finite(square)) {
             atomicMax(&largest, bitcast<u32>(square));
         } else {
-            atomicMax(&extremes[4], 0xffffffffu - row);
+            atomicMax(&extremes[EXTREME_NODE_ROW], 0xffffffffu - row);
         }
     }
     workgroupBarrier();
     if (lane == 0u) {
-        atomicMax(&extremes[2], atomicLoad(&largest));
+        atomicMax(&extremes[EXTREME_NODE_SPEED], atomicLoad(&largest));
     }
 }

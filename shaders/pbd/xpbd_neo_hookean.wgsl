@@ -1,13 +1,6 @@
 // #include sponges
 // Neo-Hookean constraints of the tets of one colour; `xpbd_neo_hookean.rs` has the formulas.
 
-struct Batch {
-    first: u32,
-    count: u32,
-    unused_0: u32,
-    unused_1: u32,
-}
-
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
 @group(0) @binding(2) var<uniform> batch: Batch;
@@ -29,7 +22,7 @@ fn main(
     }
     let tet = tets[batch.first + row];
     let sponge = sponges.all[tet_sponge[batch.first + row]];
-    if (sponge.solver != XPBD_NEO_HOOKEAN) {
+    if (sponge.solver != SOLVER_XPBD_NEO_HOOKEAN) {
         return;
     }
     let p = array<vec4<f32>, 4>(node_predicted[tet.x], node_predicted[tet.y], node_predicted[tet.z], node_predicted[tet.w]);
@@ -47,7 +40,7 @@ fn main(
     let area_e = cross(f, d);
     let area_f = cross(d, e);
     let square = dot(d, d) + dot(e, e) + dot(f, f);
-    let inverse = 1.0 / select(1.0, square, square > 1.0e-12);
+    let inverse = 1.0 / select(1.0, square, square > LEAST_SQUARE);
     let by_norm = array<vec3<f32>, 4>(-(d + f), d - f, e + f, f - e);
     let apart_d = area_d - d;
     let apart_e = area_e - e;

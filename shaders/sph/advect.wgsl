@@ -15,9 +15,9 @@ var<workgroup> largest: atomic<u32>;
 
 // A particle that leaves the box along a periodic axis enters it on the other side; values that are not finite stay so.
 fn wrapped_into_box(x: vec3<f32>) -> vec3<f32> {
-    let low = params.period_low.xyz;
-    let high = params.period_high.xyz;
-    let period = params.periods.xyz;
+    let low = params.period_low;
+    let high = params.period_high;
+    let period = params.periods;
     let repeats = period > vec3<f32>(0.0);
     let divisor = select(vec3<f32>(1.0), period, repeats);
     let moved = clamp(x - period * floor((x - low) / divisor), low, high);
@@ -44,15 +44,15 @@ fn main(
         let its_velocity = fluid_velocity[row];
         var v = its_velocity.xyz;
         var x = own.xyz + clock.step * v;
-        if (params.wall_low.w > 0.0) {
-            let margin = params.spacing * 0.05;
-            let low = params.wall_low.xyz + margin;
-            let high = params.wall_high.xyz - margin;
+        if (params.has_walls != 0u) {
+            let margin = params.spacing * WALL_MARGIN;
+            let low = params.wall_low + margin;
+            let high = params.wall_high - margin;
             v = select(v, max(v, vec3<f32>(0.0)), x < low);
             v = select(v, min(v, vec3<f32>(0.0)), x > high);
             x = select(select(x, high, x > high), low, x < low);
         }
-        if (params.periods.w > 0.0) {
+        if (params.has_periods != 0u) {
             x = wrapped_into_box(x);
         }
         fluid_position_next[row] = vec4<f32>(x, own.w);
@@ -62,11 +62,11 @@ fn main(
         if (is_finite(square) && is_finite(x.x + x.y + x.z)) {
             atomicMax(&largest, bitcast<u32>(square));
         } else {
-            atomicMax(&extremes[3], 0xffffffffu - row);
+            atomicMax(&extremes[EXTREME_FLUID_ROW], 0xffffffffu - row);
         }
     }
     workgroupBarrier();
     if (lane == 0u) {
-        atomicMax(&extremes[0], atomicLoad(&largest));
+        atomicMax(&extremes[EXTREME_FLUID_SPEED], atomicLoad(&largest));
     }
 }

@@ -43,7 +43,7 @@ fn main(
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
             let impulse = push * (clock.step * params.particle_mass);
-            all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position.xyz, impulse)));
+            all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position, impulse)));
         }
         if (lane == 0u && is_slot) {
             body_fluid_wrenches[slot] = vec4<f32>(all.impulse, 0.0);

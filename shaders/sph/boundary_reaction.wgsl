@@ -31,7 +31,7 @@ fn main(
         let is_slot = group_of(group, groups) * 256u < rows;
         if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
             let impulse = push * (clock.step * params.particle_mass);
-            let all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position.xyz, impulse)));
+            let all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position, impulse)));
             if (lane == 0u && is_slot) {
                 body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
                 body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);

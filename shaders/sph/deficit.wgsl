@@ -13,14 +13,14 @@
 
 // Volume fraction of a surface at a distance, as in `boundary.rs`.
 fn share_of(distance: f32) -> f32 {
-    let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, 1.25);
+    let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, GREATEST_DEPTH);
     let cube = depth * depth * depth;
     return params.cohesion_share * cube * cube;
 }
 
 fn share_at(point: vec3<f32>) -> f32 {
     var share = 0.0;
-    if (params.wall_low.w > 0.0) {
+    if (params.has_walls != 0u) {
         for (var axis = 0u; axis < 3u; axis += 1u) {
             share += share_of(point[axis] - params.wall_low[axis]);
             share += share_of(params.wall_high[axis] - point[axis]);
@@ -32,10 +32,9 @@ fn share_at(point: vec3<f32>) -> f32 {
     return share;
 }
 
-// FALL and LEAST, as in `deficit.rs`.
 fn weight(lacks: f32) -> f32 {
-    let falling = lacks * (1.0 - 2.5 * lacks);
-    return select(falling, max(falling, 0.01), lacks > 0.2);
+    let falling = lacks * (1.0 - DEFICIT_FALL * lacks);
+    return select(falling, max(falling, LEAST_DEFICIT_WEIGHT), lacks > 0.5 / DEFICIT_FALL);
 }
 
 @compute @workgroup_size(GROUP)
@@ -59,5 +58,5 @@ fn main(
         sum += shape(closeness(params.cohesion, dot(apart, apart)));
     }
     let there = sum * (params.cohesion.value * params.cohesion_volume);
-    fluid_deficit[row] = weight(max(0.98 - there - share_at(point), 0.0));
+    fluid_deficit[row] = weight(max(FULL_SHARE - there - share_at(point), 0.0));
 }

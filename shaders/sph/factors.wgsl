@@ -52,8 +52,8 @@ fn main(
         }
         let wall = fluid_boundary[row];
         own -= wall.xyz;
-        let least = params.lattice_diagonal / 3.0;
-        // The lists contain the particle itself, which is no pair.
+        let least = params.lattice_diagonal / LATTICE_DIAGONAL_RATIO;
+        // The lists hold the particle itself, which is no pair.
         let rough = (pairs - gradient) * prompt_roughness();
         let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step) + rough;
         let most = params.correction_speed * clock.step / params.spacing;

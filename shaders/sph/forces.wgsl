@@ -35,8 +35,8 @@ fn main(
     let is_known = params.incompressible != 0u;
     let rest_volume = params.particle_mass / params.rest_density;
     let own_volume = select(own_velocity.w, rest_volume, is_known);
-    let softening = 0.0025 * params.smoothing.radius * params.smoothing.radius;
-    let weight = params.gravity.xyz / params.rest_density;
+    let softening = SOFTENING * params.smoothing.support_radius * params.smoothing.support_radius;
+    let weight = params.gravity / params.rest_density;
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = fluid_neighbors[slot];
@@ -60,6 +60,6 @@ fn main(
     let viscosity_scale = params.smoothing.viscosity * (params.viscosity / params.particle_mass) * own_volume;
     let central_scale =
         params.smoothing.gradient * (10.0 * params.central_viscosity / params.particle_mass) * own_volume;
-    let sum = push * pressure_scale + pull * viscosity_scale + central * central_scale + params.gravity.xyz;
+    let sum = push * pressure_scale + pull * viscosity_scale + central * central_scale + params.gravity;
     fluid_acceleration[row] = vec4<f32>(sum, roughness * (pressure_scale * params.roughness));
 }

@@ -34,6 +34,6 @@ fn main(
     }
     workgroupBarrier();
     if (lane == 0u) {
-        atomicMax(&extremes[1], atomicLoad(&largest));
+        atomicMax(&extremes[EXTREME_FLUID_ACCELERATION], atomicLoad(&largest));
     }
 }

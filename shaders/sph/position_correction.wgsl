@@ -22,10 +22,10 @@ fn main(
     let change = clock.step * fluid_correction[row].xyz;
     let before = fluid_predicted[row];
     var end = before.xyz + clock.step * change;
-    if (params.wall_low.w > 0.0) {
-        let margin = params.spacing * 0.05;
-        let low = params.wall_low.xyz + margin;
-        let high = params.wall_high.xyz - margin;
+    if (params.has_walls != 0u) {
+        let margin = params.spacing * WALL_MARGIN;
+        let low = params.wall_low + margin;
+        let high = params.wall_high - margin;
         end = select(select(end, high, end > high), low, end < low);
     }
     fluid_predicted[row] = vec4<f32>(end, before.w);

@@ -21,10 +21,10 @@ fn main(
         return;
     }
     var end = fluid_position[row].xyz + clock.step * fluid_velocity[row].xyz;
-    if (params.wall_low.w > 0.0) {
-        let margin = params.spacing * 0.05;
-        let low = params.wall_low.xyz + margin;
-        let high = params.wall_high.xyz - margin;
+    if (params.has_walls != 0u) {
+        let margin = params.spacing * WALL_MARGIN;
+        let low = params.wall_low + margin;
+        let high = params.wall_high - margin;
         end = select(select(end, high, end > high), low, end < low);
     }
     fluid_predicted[row] = vec4<f32>(end, 0.0);

@@ -8,7 +8,7 @@
 
 fn pressure(rho: f32) -> f32 {
     let square = params.sound_speed * params.sound_speed;
-    if (params.tait == 0u) {
+    if (params.equation_of_state == EQUATION_OF_STATE_LINEAR) {
         return max(square * (rho - params.rest_density), 0.0);
     }
     let ratio = rho / params.rest_density;

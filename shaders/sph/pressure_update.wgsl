@@ -1,5 +1,4 @@
-// #include solve
-// Iteration of the pressure solve: a step along the projected gradient.
+// One round of a pressure solve: a step along the projected gradient.
 //
 //     P_i <- min(max(0, P_i + alpha r_i / M_i), (10 u)^2)
 
@@ -22,7 +21,7 @@ fn main(
         return;
     }
     let own = fluid_pressure_rows[row];
-    let speed = 10.0 * params.correction_speed;
+    let speed = SOUND_SPEED_RATIO * params.correction_speed;
     let next = min(max(own.x + fluid_pressure_solve.length * own.w / own.z, 0.0), speed * speed);
     fluid_pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
     fluid_predicted[row].w = next - params.rest_density * fluid_position[row].w;

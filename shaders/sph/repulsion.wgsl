@@ -23,8 +23,8 @@ fn push_of(distance: f32, speed: f32) -> f32 {
 }
 
 fn walls(point: vec3<f32>, speed: vec3<f32>) -> vec3<f32> {
-    let low = params.wall_low.xyz;
-    let high = params.wall_high.xyz;
+    let low = params.wall_low;
+    let high = params.wall_high;
     return vec3<f32>(
         push_of(point.x - low.x, speed.x) - push_of(high.x - point.x, -speed.x),
         push_of(point.y - low.y, speed.y) - push_of(high.y - point.y, -speed.y),
@@ -50,7 +50,7 @@ fn main(
         point = fluid_position[row].xyz;
         speed = fluid_velocity[row].xyz;
         sum = fluid_acceleration[row].xyz;
-        if (params.wall_low.w > 0.0) {
+        if (params.has_walls != 0u) {
             sum += walls(point, speed);
         }
     }
@@ -67,7 +67,7 @@ fn main(
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, push > 0.0)) {
             let impulse = surface.normal * (-push * (clock.step * params.particle_mass));
-            let arm = (point - surface.normal * surface.distance) - body.position.xyz;
+            let arm = (point - surface.normal * surface.distance) - body.position;
             all = group_sum(lane, Wrench(impulse, cross(arm, impulse)));
         }
         if (lane == 0u && is_slot) {

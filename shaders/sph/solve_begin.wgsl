@@ -1,9 +1,5 @@
-// #include sums, solve
-// Before the first iteration of the pressure solve: the tolerance, which falls with the mean displacement in the step.
-
-const ERROR_PER_DISPLACEMENT: f32 = 0.02;
-const LEAST_TOLERANCE: f32 = 1.0e-6;
-const FIRST_LENGTH: f32 = 0.6;
+// #include sums
+// Before the first round of a pressure solve: the tolerance, which falls with the mean displacement in the step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -25,6 +21,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (lane == 0u) {
         let displacement = sqrt(sum / f32(max(params.fluid_rows, 1u))) / params.spacing;
         let tolerance = max(displacement * ERROR_PER_DISPLACEMENT, LEAST_TOLERANCE);
-        fluid_pressure_solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u, 0u, 0u);
+        fluid_pressure_solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u);
     }
 }

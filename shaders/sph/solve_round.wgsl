@@ -1,14 +1,12 @@
-// #include sums, solve
-// After an iteration of the pressure solve: the next step length, and whether there is another iteration.
-
-const FIRST_LENGTH: f32 = 0.6;
+// #include sums
+// After a round of a pressure solve: how far to go in the next one, and whether there is one.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> solve_sums: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read_write> fluid_pressure_solve: Solve;
 @group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
-@group(0) @binding(5) var<storage, read_write> extremes: array<u32, 12>;
+@group(0) @binding(5) var<storage, read_write> extremes: array<u32, EXTREME_COUNT>;
 
 @compute @workgroup_size(256)
 fn main(@builtin(local_invocation_index) lane: u32) {
@@ -33,9 +31,9 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     fluid_pressure_solve.rounds = rounds;
     fluid_pressure_solve.error = sums.x / particles;
     fluid_pressure_solve.pressure = sqrt(pressure_sum / particles);
-    extremes[8] = bitcast<u32>(fluid_pressure_solve.pressure);
+    extremes[EXTREME_PRESSURE] = bitcast<u32>(fluid_pressure_solve.pressure);
     let has_converged = fluid_pressure_solve.error <= fluid_pressure_solve.tolerance || rounds >= params.solve_rounds;
-    fluid_pressure_solve.has_converged = select(0u, 1u, has_converged);
+    fluid_pressure_solve.is_converged = select(0u, 1u, has_converged);
     convergence[0] = select(1u, 0u, has_converged);
     fluid_pressure_solve.length = FIRST_LENGTH;
     let below = select(sums.w, sums.z, rounds % 2u == 0u);
@@ -43,7 +41,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (rounds > 1u && sums.z > 0.0 && below > 0.0) {
         let ratio = above / below;
         if (is_finite(ratio)) {
-            fluid_pressure_solve.length = clamp(ratio, 0.2, 20.0);
+            fluid_pressure_solve.length = clamp(ratio, LEAST_LENGTH, GREATEST_LENGTH);
         }
     }
 }

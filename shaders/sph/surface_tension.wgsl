@@ -37,7 +37,7 @@ fn main(
     }
     let normal = slopes * params.smoothing.gradient;
     let length = sqrt(dot(normal, normal));
-    if (length > 1.0 / params.smoothing.radius) {
+    if (length > SURFACE_THRESHOLD / params.smoothing.support_radius) {
         let strength = laplacian * params.smoothing.laplacian * fluid_velocity[row].w
             * (params.surface_tension / params.particle_mass);
         let own = fluid_acceleration[row];

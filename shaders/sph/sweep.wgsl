@@ -26,7 +26,7 @@ fn main(
         start = fluid_position[row].xyz;
         own = fluid_velocity[row];
     }
-    let margin = params.spacing * 0.05;
+    let margin = params.spacing * WALL_MARGIN;
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let before = body_states[index];
         let after = at_end(before);
@@ -38,7 +38,7 @@ fn main(
         if (group_touches(lane, any(moved != vec3<f32>(0.0)))) {
             let change = moved * clock.inverse_step;
             let impulse = change * -params.particle_mass;
-            let all = group_sum(lane, Wrench(impulse, cross(end + moved - after.position.xyz, impulse)));
+            let all = group_sum(lane, Wrench(impulse, cross(end + moved - after.position, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
                 body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);

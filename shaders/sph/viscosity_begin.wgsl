@@ -1,5 +1,5 @@
-// #include smoothing, images, viscosity, viscosity_solve
-// Before the first iteration of the implicit viscosity: the part of pairs in the residual, and the first direction.
+// #include smoothing, images, viscosity
+// Before the first round of a solve for the implicit viscosity: what pairs add to the residual, and the first direction.
 //
 //     r_i = p_i = -h D_i(v*)
 
@@ -38,6 +38,6 @@ fn main(
     fluid_viscosity_residual[row] = vec4<f32>(residual, 0.0);
     fluid_viscosity_direction[row] = vec4<f32>(residual, 0.0);
     if (row == 0u) {
-        fluid_viscosity_solve = ViscositySolve(0.0, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u);
+        fluid_viscosity_solve = ViscositySolve();
     }
 }

@@ -28,7 +28,7 @@ fn main(
     let v = fluid_velocity[row].xyz;
     var axes = vec3<f32>(0.0);
     var between = vec3<f32>(0.0);
-    if (params.wall_low.w > 0.0 && params.no_slip > 0u) {
+    if (params.has_walls != 0u && params.no_slip > 0u) {
         var rates = vec3<f32>(0.0);
         for (var axis = 0u; axis < 3u; axis += 1u) {
             rates[axis] = friction_rate(point[axis] - params.wall_low[axis])
@@ -39,7 +39,7 @@ fn main(
     var slowed = axes * v;
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
-        if (body.surface.y > 0.0) {
+        if (body.no_slip != 0u) {
             let surface = body_surface(body, point);
             let rate = friction_rate(surface.distance);
             let n = surface.normal;

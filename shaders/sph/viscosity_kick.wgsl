@@ -1,5 +1,4 @@
-// #include viscosity_solve
-// After the last iteration of the implicit viscosity: v <- v + y + r, without r if the solve did not converge.
+// After the last round of a solve for the implicit viscosity: v <- v + y + r, without r where the rounds did not suffice.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

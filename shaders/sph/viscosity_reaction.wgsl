@@ -32,14 +32,14 @@ fn main(
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
         var slowed = vec3<f32>(0.0);
-        if (is_row && body.surface.y > 0.0) {
+        if (is_row && body.no_slip != 0u) {
             let surface = body_surface(body, point);
             let slide = v - body_velocity(body, point);
             slowed = (slide - surface.normal * dot(slide, surface.normal)) * friction_rate(surface.distance);
         }
         if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
             let impulse = slowed * (clock.step * params.particle_mass);
-            let all = group_sum(lane, Wrench(impulse, cross(point - body.position.xyz, impulse)));
+            let all = group_sum(lane, Wrench(impulse, cross(point - body.position, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
                 body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);

@@ -1,5 +1,5 @@
-// #include sums, viscosity_solve
-// After an iteration of the implicit viscosity: whether there is another one.
+// #include sums
+// After a round of a solve for the implicit viscosity: whether there is another one.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -29,6 +29,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let is_solved = fluid_viscosity_solve.residual <= params.viscosity_tolerance * fluid_viscosity_solve.change;
     let has_converged = is_solved || rounds >= params.viscosity_rounds;
     fluid_viscosity_solve.is_solved = select(0u, 1u, is_solved);
-    fluid_viscosity_solve.has_converged = select(0u, 1u, has_converged);
+    fluid_viscosity_solve.is_converged = select(0u, 1u, has_converged);
     convergence[0] = select(1u, 0u, has_converged);
 }

@@ -1,6 +1,6 @@
-// #include sums, viscosity_solve
-// Iteration of the implicit viscosity: a step along the direction, the next direction, and the sums for
-// `viscosity_round.wgsl`.
+// #include sums
+// One round of a solve for the implicit viscosity: a step along the direction, the next direction, and the sums that
+// `viscosity_round.wgsl` adds up.
 //
 //     y <- y + alpha p,   r <- r - alpha q,   p <- r + beta p
 

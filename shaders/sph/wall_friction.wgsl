@@ -15,7 +15,7 @@ fn bounded_rate(distance: f32) -> f32 {
 }
 
 fn wall_friction(point: vec3<f32>, v: vec3<f32>) -> vec3<f32> {
-    if (params.wall_low.w == 0.0 || params.no_slip == 0u) {
+    if (params.has_walls == 0u || params.no_slip == 0u) {
         return vec3<f32>(0.0);
     }
     var rates = vec3<f32>(0.0);
@@ -48,7 +48,7 @@ fn main(
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
         var slowed = vec3<f32>(0.0);
-        if (is_row && body.surface.y > 0.0) {
+        if (is_row && body.no_slip != 0u) {
             let surface = body_surface(body, point);
             let slide = v - body_velocity(body, point);
             slowed = (slide - surface.normal * dot(slide, surface.normal)) * bounded_rate(surface.distance);
@@ -56,7 +56,7 @@ fn main(
         sum += slowed;
         if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
             let impulse = slowed * (clock.step * params.particle_mass);
-            let all = group_sum(lane, Wrench(impulse, cross(point - body.position.xyz, impulse)));
+            let all = group_sum(lane, Wrench(impulse, cross(point - body.position, impulse)));
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {
                 body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);

@@ -4,11 +4,12 @@ use std::sync::{Arc, OnceLock};
 
 use sorb_kernels::{
     asleep::Asleep,
+    clock::StepLimits,
     column::Life,
     columns::{Column, Columns},
     couple::weights::weigh,
     cpu::Cpu,
-    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, StepLimits, make_room},
+    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, make_room},
     params::Params,
     stage::Stage,
 };

@@ -2,7 +2,10 @@
 
 use std::{sync::Arc, time::Instant};
 
-use sorb_kernels::gpu::{Answer, BOUNDS, Gpu, GpuError, Outcome, Start};
+use sorb_kernels::{
+    clock::TIME_RESOLUTION,
+    gpu::{Answer, Gpu, GpuError, Outcome, Start},
+};
 
 use super::device::{Device, Kept};
 use crate::{
@@ -45,7 +48,7 @@ impl World {
         self.take_over(&answer, answer.steps)?;
         Ok(StepReport {
             step: answer.last_step,
-            bound: Bound::from_index(answer.last_bound),
+            bound: answer.last_bound,
             time: self.clock.time,
             maximum_speed: answer.maximum_speed,
         })
@@ -61,11 +64,11 @@ impl World {
             bound: Bound::Frame,
             maximum_speed: 0.0,
         };
-        let mut bounds = [0; BOUNDS];
-        while end - self.clock.time > 1e-9 && !self.sleep_until(end) {
+        let mut bounds = [0; Bound::ALL.len()];
+        while end - self.clock.time > TIME_RESOLUTION && !self.sleep_until(end) {
             self.fill_on_device(end, &mut report, &mut bounds)?;
-            let most = (0..BOUNDS).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
-            report.bound = Bound::from_index(most as u32);
+            let most = (0..bounds.len()).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
+            report.bound = Bound::ALL[most];
         }
         self.clock.frames += 1;
         report.time = self.clock.time;
@@ -78,7 +81,7 @@ impl World {
         &mut self,
         end: f64,
         report: &mut FrameReport,
-        bounds: &mut [u32; BOUNDS],
+        bounds: &mut [u32; Bound::ALL.len()],
     ) -> Result<(), StepError> {
         self.begin_on_device((end - self.clock.time) as f32)?;
         let (first, before) = (self.clock.steps, *bounds);
@@ -87,8 +90,8 @@ impl World {
             let answer = self.advance_on_device(self.steps_to(end), taken_before)?;
             let taken = answer.steps - taken_before;
             self.clock.steps = first + u64::from(answer.steps);
-            // The end is reached exactly: the last step is the remainder.
-            let is_over = answer.left <= 1e-9;
+            // The end is reached exactly: the last step is what is left.
+            let is_over = answer.left <= TIME_RESOLUTION as f32;
             self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
             self.take_over(&answer, taken)?;
             report.steps += taken;
@@ -235,14 +238,10 @@ impl World {
                 Err(StepError::Particle { id, step, time })
             }
             Outcome::Node(node) => Err(StepError::Node { node, step, time }),
-            // A step that was taken is a success; the next one reports the error.
-            Outcome::TooSmall(needed, bound) if taken == 0 => Err(StepError::TooSmall {
-                bound: Bound::from_index(bound),
-                needed,
-                minimum: self.steps.minimum(),
-                step,
-                time,
-            }),
+            // A step that was taken is a success; the next one says why it is not.
+            Outcome::TooSmall(needed, bound) if taken == 0 => {
+                Err(StepError::TooSmall { bound, needed, minimum: self.steps.minimum(), step, time })
+            }
             Outcome::TooSmall(..) | Outcome::Done => Ok(()),
         }
     }

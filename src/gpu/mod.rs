@@ -1,6 +1,5 @@
 //! Worlds on a GPU: placement of kernels, and how their steps run.
 
-mod bounds;
 mod device;
 mod frame;
 mod measure;

@@ -18,6 +18,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
+    clock::TIME_RESOLUTION,
     columns::{Column, Columns},
     contents::Contents,
     cpu::Cpu,
@@ -210,8 +211,8 @@ impl World {
             maximum_speed: 0.0,
         };
         let mut bounds: Vec<(Bound, u32)> = Vec::new();
-        // The end is reached exactly: the last step is shortened to the remainder, and time is summed in f64.
-        while end - self.clock.time > 1e-9 {
+        // The end is reached exactly: the last step is cut to what is left, and time is summed in f64.
+        while end - self.clock.time > TIME_RESOLUTION {
             let step = self.step_within(end - self.clock.time)?;
             // Sleep is no step.
             if step.bound != Bound::Asleep {

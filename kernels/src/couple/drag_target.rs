@@ -36,6 +36,10 @@ declare! {
     // Weights are computed where they are needed.
     twin_reads: [FluidPosition],
     twin: [pass(NAME, Controls)],
+    constants: {
+        /// Mass below which nothing is pulled \[kg\]: far below that of any particle, and its inverse is a number.
+        const LEAST_DRAG_MASS: f32 = 1.0e-20;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -50,7 +54,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
             for row in (0..moved.len()).step_by(LANES) {
                 let [jx, jy, jz, mass] = received(simd, drag, lists.group(row), &weights[lists.range(row)]);
-                let is_pulled = mass.simd_gt(lanes::splat(simd, LEAST));
+                let is_pulled = mass.simd_gt(lanes::splat(simd, LEAST_DRAG_MASS));
                 let inverse = select(is_pulled, one / select(is_pulled, mass, one), zero);
                 let [ux, uy, uz, _] = lanes::load_rows(simd, velocity, first + row);
                 let step = lanes::splat(simd, step);
@@ -70,9 +74,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         }
     }
 }
-
-/// Mass below which there is no target \[kg\]: far below that of any particle, with a finite inverse.
-const LEAST: f32 = 1.0e-20;
 
 /// Sum over the particles of eight controls of `V_a W_ia` times the rows of the drag.
 #[inline(always)]

@@ -5,18 +5,21 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    layout::constants,
     params::Params,
     vector::{self, Vec3x8, plus, times},
 };
 
-/// Interior value below which there is no drag.
-const OUTSIDE: f32 = 1.0e-3;
+constants! {
+    /// Interior value below which a particle feels no drag.
+    const LEAST_INTERIOR: f32 = 1.0e-3;
+}
 
 /// 1 / chi, or 0 where there is no drag.
 #[inline(always)]
 pub(super) fn weight_inside<S: Simd>(simd: S, chi: f32x8<S>) -> f32x8<S> {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let inside = chi.simd_gt(lanes::splat(simd, OUTSIDE));
+    let inside = chi.simd_gt(lanes::splat(simd, LEAST_INTERIOR));
     select(inside, one / select(inside, chi, one), zero)
 }
 

@@ -30,13 +30,13 @@ declare! {
     oracle: crate::oracle::porous::pores,
     bound: 1e-5,
     twin: [pass(NAME, Nodes)],
+    constants: {
+        /// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.
+        pub(crate) const LEAST_POROSITY: f32 = 0.15;
+        /// Volume over that at rest beyond which pores do not get wider: the material would vanish, and drag with it.
+        pub(crate) const GREATEST_VOLUME_RATIO: f32 = 10.0;
+    },
 }
-
-/// Smallest porosity: the lattice can be crushed flat, pores cannot.
-pub(crate) const LEAST_POROSITY: f32 = 0.15;
-
-/// Largest volume over that at rest: beyond it the material would vanish, and drag with it.
-pub(crate) const LARGEST: f32 = 10.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes { position, sponge, stars, pores, wetting, .. } = &mut columns.nodes;
@@ -110,7 +110,7 @@ fn of_node(sponge: &SpongeParams, volume: f32, weight: f32) -> [f32; 4] {
     let least = (1.0 - sponge.porosity) / (1.0 - LEAST_POROSITY.min(sponge.porosity));
     let ratio = volume / weight;
     let ratio = if ratio > least { ratio } else { least };
-    let ratio = if ratio < LARGEST { ratio } else { LARGEST };
+    let ratio = if ratio < GREATEST_VOLUME_RATIO { ratio } else { GREATEST_VOLUME_RATIO };
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);

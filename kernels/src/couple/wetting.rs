@@ -36,13 +36,13 @@ declare! {
     oracle: crate::oracle::wetting::wetting,
     bound: 5e-5,
     twin: [pass(NAME, Nodes)],
+    constants: {
+        /// Change of the saturation over which the suction goes from that of advancing water to that of receding water.
+        pub const SCANNING_BAND: f32 = 0.1;
+        /// Least mobility: drag stays finite where a kernel reaches into dry pores.
+        pub(crate) const LEAST_MOBILITY: f32 = 1.0e-3;
+    },
 }
-
-/// Change of the saturation over which the suction goes from that of advancing water to that of receding water.
-pub const SCANNING_BAND: f32 = 0.1;
-
-/// Smallest mobility: drag stays finite where the support reaches into dry pores.
-pub(crate) const LEAST_MOBILITY: f32 = 1.0e-3;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (nodes, controls) = (&mut columns.nodes, &mut columns.controls);

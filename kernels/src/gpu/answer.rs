@@ -1,13 +1,22 @@
-//! What is said to the device before steps, and what it says after them: the clock of `layout.wgsl`.
+//! What is said to the device before steps, and what it says after them: its clock, and what bodies were given.
 
-use super::{pack::Capacities, program::REPETITIONS, transfer::vector};
-use crate::body::Wrench;
+use super::{
+    layout::{Value, place_of, zero},
+    pack::Capacities,
+    program::REPETITIONS,
+    transfer::vector,
+};
+use crate::{
+    body::Wrench,
+    clock::Bound,
+    layout::{enumeration, layout},
+};
 
-/// Words of the clock.
-pub(super) const CLOCK_WORDS: usize = 44;
 /// Bytes that come back after steps, beside 64 a body.
-pub const CLOCK_BYTES: u64 = CLOCK_WORDS as u64 * 4;
+pub const CLOCK_BYTES: u64 = Clock::BYTES;
 pub(super) const WRENCH_BYTES: u64 = 64;
+/// Bytes of the clock before the largest speed of a body's surface, which the host finds.
+pub(super) const BODY_SPEED_AT: u64 = 4 * place_of::<Clock>("body_speed") as u64;
 
 /// What happened to the last step of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,12 +27,9 @@ pub enum Outcome {
     Particle(u32),
     /// A node's velocity is not finite; its row.
     Node(u32),
-    /// The next step would have to be this short \[s\], by the bound of this index.
-    TooSmall(f32, u32),
+    /// The next step would have to be this short \[s\], by this bound.
+    TooSmall(f32, Bound),
 }
-
-/// Bounds of a step that a device can count.
-pub const BOUNDS: usize = 12;
 
 /// What the device says after a batch of steps.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +43,7 @@ pub struct Answer {
     /// Length of the last step \[s\].
     pub last_step: f32,
     /// Bound that limited the last step.
-    pub last_bound: u32,
+    pub last_bound: Bound,
     /// Shortest step \[s\].
     pub shortest: f32,
     /// Largest speed of particles and nodes in these steps \[m/s\].
@@ -50,8 +56,8 @@ pub struct Answer {
     pub node_speed: f32,
     /// Root of the mean square of the pressure over rest density in the last step, where it is solved for \[m^2/s^2\].
     pub fluid_pressure: f32,
-    /// How many steps each bound limited.
-    pub bounds: [u32; BOUNDS],
+    /// How many steps each bound limited, in the order of [`Bound::ALL`].
+    pub bounds: [u32; Bound::ALL.len()],
     /// What the last step gave to every body, by fluid and by sponges.
     pub wrenches: Vec<(Wrench, Wrench)>,
     /// Rounds of repetitions that end when they have converged, of all steps since the time was set.
@@ -79,45 +85,145 @@ pub struct Start {
     pub fluid_pressure: f32,
 }
 
-/// `clock.wgsl` has these numbers too.
-const NOT_FINITE_PARTICLE: u32 = 1;
-const NOT_FINITE_NODE: u32 = 2;
-const TOO_SMALL: u32 = 3;
-const LIST_FULL: u32 = 4;
-const UNFINISHED: u32 = 5;
+enumeration! {
+    /// Why the device stopped.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(super) enum Status {
+        /// The time that was asked for is filled, or so many steps taken.
+        Done,
+        /// A particle is not finite.
+        NotFiniteParticle,
+        /// A node is not finite.
+        NotFiniteNode,
+        /// The step would be too small.
+        TooSmall,
+        /// A list did not fit.
+        ListFull,
+        /// A repetition needs more rounds than were handed in.
+        Unfinished,
+    }
+}
+
+enumeration! {
+    /// What kernels find over all rows: a word each of the buffer `extremes`.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(super) enum Extreme {
+        /// Largest squared speed of a particle, as bits of f32, like the next two.
+        FluidSpeed,
+        /// Largest squared acceleration of a particle.
+        FluidAcceleration,
+        /// Largest squared speed of a node.
+        NodeSpeed,
+        /// `u32::MAX` less the first row of the particles that are not finite; 0 if there is none.
+        FluidRow,
+        /// The same of nodes.
+        NodeRow,
+        /// Longest of the lists fluid to fluid that did not fit; 0 if all do.
+        Neighbors,
+        /// Longest of the lists fluid to controls.
+        Controls,
+        /// Longest of the lists controls to fluid.
+        ControlFluid,
+        /// Longest of the lists of nodes that may touch.
+        Pairs,
+        /// Root of the mean square of the pressure, as bits of f32.
+        Pressure,
+    }
+}
+
+layout! {
+    /// Time on the device: everything that a step needs to know, and what the host wants to know of the steps of a batch.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub(super) struct Clock {
+        step: f32,
+        inverse_step: f32,
+        /// Without it nothing is to be done; every kernel leaves at once.
+        running: bool,
+        /// Why nothing is to be done.
+        status: Status,
+        /// Time left of what was asked for.
+        left: f32,
+        fluid_speed: f32,
+        fluid_acceleration: f32,
+        node_speed: f32,
+        steps: u32,
+        bound: Bound,
+        shortest: f32,
+        maximum_speed: f32,
+        /// A row that is not finite.
+        failed_row: u32,
+        last_step: f32,
+        last_bound: Bound,
+        /// The step that stability asks for, where it is too small.
+        needed: f32,
+        /// Longest lists that did not fit, in the order of [`Capacities`].
+        longest: Capacities,
+        /// How many steps every bound limited, in the order of [`Bound::ALL`].
+        bounds: [[u32; 4]; 3],
+        /// Most rounds of a step in this batch, of each repetition.
+        most_rounds: [u32; REPETITIONS],
+        /// Rounds of the present repetition so far, see `rounds.wgsl`.
+        rounds: u32,
+        /// Whether it has converged; what is left of its rounds leaves at once.
+        is_converged: bool,
+        /// The repetition, counted from 1, that needs more rounds than were handed in.
+        unfinished: u32,
+        /// Rounds of all steps since the time was set.
+        all_rounds: u32,
+        /// Root of the mean square of the pressure over rest density in the last step, where it is solved for.
+        fluid_pressure: f32,
+        /// Largest speed of a body's surface.
+        body_speed: f32,
+        /// Whether the host gave the step, and there is one.
+        given: bool,
+    }
+}
+
+impl Clock {
+    /// Before the first of some steps.
+    pub(super) fn before(start: &Start) -> Self {
+        let Start { left, fluid_speed, fluid_acceleration, node_speed, fluid_pressure } = *start;
+        let shortest = f32::MAX;
+        Self { left, fluid_speed, fluid_acceleration, node_speed, fluid_pressure, shortest, ..zero() }
+    }
+
+    /// Of one step of this length, which the device does not choose.
+    pub(super) fn of_step(step: f32) -> Self {
+        Self { step, inverse_step: 1.0 / step, running: true, left: step, given: true, ..zero() }
+    }
+}
 
 impl Answer {
-    pub(super) fn new(clock: &[u32], wrenches: &[f32]) -> Self {
-        let float = |word: usize| f32::from_bits(clock[word]);
+    pub(super) fn new(clock: &Clock, wrenches: &[f32]) -> Self {
         let wrench =
             |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
-        let (status, row) = (clock[3], clock[12]);
+        let has_status = |status| clock.status == status;
         Self {
-            outcome: match status {
-                NOT_FINITE_PARTICLE => Outcome::Particle(row),
-                NOT_FINITE_NODE => Outcome::Node(row),
-                TOO_SMALL => Outcome::TooSmall(float(18), clock[9]),
-                _ => Outcome::Done,
+            outcome: match clock.status {
+                Status::NotFiniteParticle => Outcome::Particle(clock.failed_row),
+                Status::NotFiniteNode => Outcome::Node(clock.failed_row),
+                Status::TooSmall => Outcome::TooSmall(clock.needed, clock.bound),
+                Status::Done | Status::ListFull | Status::Unfinished => Outcome::Done,
             },
-            steps: clock[8],
-            left: float(4),
-            last_step: float(16),
-            last_bound: clock[17],
-            shortest: float(10),
-            maximum_speed: float(11),
-            fluid_speed: float(5),
-            fluid_acceleration: float(6),
-            node_speed: float(7),
-            fluid_pressure: float(40),
-            bounds: std::array::from_fn(|bound| clock[20 + bound]),
+            steps: clock.steps,
+            left: clock.left,
+            last_step: clock.last_step,
+            last_bound: clock.last_bound,
+            shortest: clock.shortest,
+            maximum_speed: clock.maximum_speed,
+            fluid_speed: clock.fluid_speed,
+            fluid_acceleration: clock.fluid_acceleration,
+            node_speed: clock.node_speed,
+            fluid_pressure: clock.fluid_pressure,
+            bounds: std::array::from_fn(|bound| clock.bounds[bound / 4][bound % 4]),
             wrenches: wrenches
                 .chunks_exact(16)
                 .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
                 .collect(),
-            rounds: clock[35],
-            most_rounds: std::array::from_fn(|index| clock[36 + index]),
-            unfinished: (status == UNFINISHED).then(|| (clock[34] as usize, clock[32])),
-            longest: (status == LIST_FULL).then(|| [clock[13], clock[14], clock[15], clock[42]]),
+            rounds: clock.all_rounds,
+            most_rounds: clock.most_rounds,
+            unfinished: has_status(Status::Unfinished).then_some((clock.unfinished as usize, clock.rounds)),
+            longest: has_status(Status::ListFull).then_some(clock.longest),
         }
     }
 }

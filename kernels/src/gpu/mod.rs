@@ -15,8 +15,10 @@
 //! the same.
 
 mod answer;
+mod cells;
 mod device;
 mod error;
+pub(crate) mod layout;
 mod pack;
 mod pipeline;
 mod profile;
@@ -26,15 +28,16 @@ mod resident;
 #[cfg(test)]
 mod rounds;
 mod run;
+mod stars;
 mod subgroups;
 mod sums;
 mod transfer;
 pub(crate) mod twins;
+mod wgsl;
 
-pub use answer::{Answer, BOUNDS, CLOCK_BYTES, Outcome, Start};
+pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
 pub use error::GpuError;
-pub use pack::StepLimits;
 pub use profile::Profile;
 pub use program::Program;
 pub use read::Pending;
@@ -42,6 +45,8 @@ pub use resident::Resident;
 pub use sums::{FluidSums, NodeSums, Sums, TetSums};
 pub use transfer::{column_bytes, make_room};
 pub use wgpu;
+#[cfg(test)]
+pub(crate) use wgsl::complete;
 
 /// Names of the variables that a text binds.
 #[cfg(test)]

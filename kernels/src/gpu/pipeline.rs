@@ -5,7 +5,7 @@ use std::sync::{Arc, PoisonError};
 use sorb_shaders::Shader;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 
-use super::{device::Gpu, error::GpuError};
+use super::{device::Gpu, error::GpuError, wgsl};
 
 /// The constant of `layout.wgsl` for the threads of a group.
 const GROUP: &str = "GROUP";
@@ -104,7 +104,7 @@ impl Gpu {
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(shader.name),
-            source: wgpu::ShaderSource::Wgsl(shader.source.into()),
+            source: wgpu::ShaderSource::Wgsl(wgsl::complete(shader.source).into()),
         });
         let constants = [(GROUP, f64::from(group))];
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 
 use super::{
+    cells::FEW_PAGES,
     error::GpuError,
-    pack::{BATCH_STRIDE, BATCHES},
+    layout::Value,
+    pack::{BATCH_STRIDE, BATCHES, Batch, Repetition},
     pipeline::{Pipeline, has_any_group},
     resident::Resident,
     twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows},
@@ -22,8 +24,6 @@ pub(super) const GROUP: u32 = 256;
 /// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP`].
 pub(super) const SMALL_GROUP: u32 = 64;
 pub(super) const FEW_ROWS: u64 = 65_536;
-/// Pages of cells up to which each adds up those before it, as `scan_pages.wgsl` has it too.
-const FEW_PAGES: u64 = 256;
 
 /// A pass bound to its buffers.
 #[derive(Debug)]
@@ -193,7 +193,7 @@ impl Resident {
             return Err(GpuError::Refused { reason });
         }
         let maximum = maximum.max(1);
-        let repetition = self.uniform("repetition", [maximum, index as u32, 0, 0])?;
+        let repetition = self.uniform("repetition", &Repetition { maximum, index: index as u32 })?;
         let mut end = Vec::new();
         let own = Some(("repetition", &repetition));
         self.bind("clock", &END_ROUND, own, &mut round)?;
@@ -201,12 +201,12 @@ impl Resident {
         Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
     }
 
-    /// A buffer of four words that never change.
-    pub(super) fn uniform(&self, name: &'static str, words: [u32; 4]) -> Result<Buffer, GpuError> {
-        self.gpu.guarded(Some((name, 16)), || {
+    /// A buffer of a value that never changes.
+    pub(super) fn uniform<V: Value>(&self, name: &'static str, value: &V) -> Result<Buffer, GpuError> {
+        self.gpu.guarded(Some((name, V::BYTES)), || {
             self.gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(name),
-                contents: bytemuck::cast_slice(&words),
+                contents: bytemuck::cast_slice(&value.words()),
                 usage: BufferUsages::UNIFORM,
             })
         })
@@ -267,7 +267,7 @@ impl Resident {
                 let mut part = own.unwrap_or_else(|| self.buffer(name)).as_entire_buffer_binding();
                 if name == "batch" {
                     part.offset = color as u64 * BATCH_STRIDE;
-                    part.size = std::num::NonZeroU64::new(16);
+                    part.size = std::num::NonZeroU64::new(Batch::BYTES);
                 }
                 wgpu::BindGroupEntry { binding: binding.index, resource: wgpu::BindingResource::Buffer(part) }
             })
@@ -290,12 +290,12 @@ impl Resident {
             Rows::Nodes => threads(nodes),
             Rows::Tets => threads(tets),
             Rows::FluidOrNodes => threads(fluid.max(nodes)),
-            Rows::Colors | Rows::VertexColors => threads(self.batches[color][1] as usize),
+            Rows::Colors | Rows::VertexColors => threads(self.batches[color].count as usize),
             Rows::Sponges => groups(self.params.sponges.len() as u64),
             Rows::Controls => groups(nodes.div_ceil(8) as u64),
-            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > FEW_PAGES)),
-            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > FEW_PAGES)),
-            Rows::PairScan => groups(u64::from(self.grids[2].pages() > FEW_PAGES)),
+            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > u64::from(FEW_PAGES))),
+            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > u64::from(FEW_PAGES))),
+            Rows::PairScan => groups(u64::from(self.grids[2].pages() > u64::from(FEW_PAGES))),
             Rows::PairPages => groups(self.grids[2].pages()),
             Rows::FluidPages => groups(self.grids[0].pages()),
             Rows::ControlPages => groups(self.grids[1].pages()),

@@ -5,27 +5,26 @@ use std::{collections::BTreeMap, sync::Arc};
 use wgpu::{Buffer, BufferUsages};
 
 use super::{
-    answer::{CLOCK_BYTES, WRENCH_BYTES},
+    answer::{BODY_SPEED_AT, CLOCK_BYTES, Extreme, WRENCH_BYTES},
+    cells::{Grid, PAGE_CELLS},
     device::Gpu,
     error::GpuError,
-    pack::{
-        self, BATCH_STRIDE, BATCHES, BODY_BYTES, Capacities, Grid, RANGES, SPONGE_BYTES, SPONGES, StepLimits,
-    },
+    layout::Value,
+    pack::{self, BATCH_STRIDE, BATCHES, Batch, Capacities, DeviceBody, NodeTraits, SPONGES, StepParams},
     program::{FEW_ROWS, GROUP, SMALL_GROUP},
-    sums::{SUM_BYTES, sum_groups},
+    stars::{self, RANGES},
+    sums::{GroupSums, sum_groups},
 };
 use crate::{
     asleep::Asleep,
     body::Body,
+    clock::StepLimits,
     columns::{Columns, RowCounts},
-    params::Params,
+    params::{Params, SpongeParams},
     pbd::meeting::pair_radius,
+    sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
 };
 
-/// Bytes of what a solve keeps from round to round.
-pub(super) const SOLVE_BYTES: u64 = 32;
-/// Where the clock has the largest speed of a body's surface.
-const BODY_SPEED_AT: u64 = 41 * 4;
 /// Most cells of a grid: their counts and starts are one binding each.
 const MOST_CELLS: u64 = 1 << 28;
 
@@ -48,7 +47,7 @@ pub struct Resident {
     /// First node of every sponge.
     first_nodes: Vec<usize>,
     /// First row and rows of every batch.
-    pub(super) batches: [[u32; 2]; BATCHES],
+    pub(super) batches: [Batch; BATCHES],
     /// Whether particles are where `sph::advect` leaves them (false) or where `grid::sort_fluid` does (true).
     pub(super) sorted: bool,
     /// Steps since the time was set.
@@ -161,36 +160,37 @@ impl Resident {
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
         let thick = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
-        let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * 4096 } else { 0 };
+        let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
         let touching = if self.params.has_touch() { nodes } else { 0 };
-        let stars = pack::star_words(&columns.nodes, self.rows.nodes, self.params.has_touch());
+        let stars = stars::star_words(&columns.nodes, self.rows.nodes, self.params.has_touch());
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
         let pair_cells = cells(&self.grids[2], touching);
+        let page_sums = |cells: u64| 4 * cells / u64::from(PAGE_CELLS);
         let sponges = self.params.sponges.len() as u64;
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
         let groups = |rows: u64| rows.div_ceil(256) * bodies * 32;
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         let own = vec![
-            ("params", 448, uniform),
+            ("params", StepParams::BYTES, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
-            ("sponges", (SPONGES * SPONGE_BYTES) as u64, uniform),
-            ("fluid_grid", 48, uniform),
-            ("control_grid", 48, uniform),
-            ("pair_grid", 48, uniform),
+            ("sponges", SPONGES as u64 * SpongeParams::BYTES, uniform),
+            ("fluid_grid", Grid::BYTES, uniform),
+            ("control_grid", Grid::BYTES, uniform),
+            ("pair_grid", Grid::BYTES, uniform),
             ("batch", BATCH_STRIDE * BATCHES as u64, uniform | plain),
-            ("extremes", 48, plain),
+            ("extremes", 4 * Extreme::ALL.len() as u64, plain),
             ("convergence", 16, plain),
-            ("fluid_pressure_solve", SOLVE_BYTES, plain),
+            ("fluid_pressure_solve", Solve::BYTES, plain),
             ("solve_sums", most_groups(solved) * 32, plain),
-            ("fluid_viscosity_solve", SOLVE_BYTES, plain),
+            ("fluid_viscosity_solve", ViscositySolve::BYTES, plain),
             ("viscosity_sums", most_groups(thick) * 16, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
             ("fluid_grouped", fluid * 4, plain),
             ("fluid_counts", fluid_cells * 4, plain),
             ("fluid_starts", fluid_cells * 4, plain),
-            ("fluid_page_sums", fluid_cells / 1024, plain),
+            ("fluid_page_sums", page_sums(fluid_cells), plain),
             ("fluid_neighbors", list(fluid, self.capacities[0]), plain),
             ("fluid_controls", list(inside, self.capacities[1]), plain),
             ("node_stars", stars as u64 * 4, plain),
@@ -201,11 +201,11 @@ impl Resident {
             ("pair_grouped", touching * 4, plain),
             ("pair_counts", pair_cells * 4, plain),
             ("pair_starts", pair_cells * 4, plain),
-            ("pair_page_sums", pair_cells / 1024, plain),
+            ("pair_page_sums", page_sums(pair_cells), plain),
             ("sponge_ranges", sponges * RANGES as u64 * 8, plain),
             ("sponge_boxes", sponges * 32, plain),
             ("sponge_motions", sponges * 48, plain),
-            ("node_traits", nodes * 16, plain),
+            ("node_traits", nodes * NodeTraits::BYTES, plain),
             ("tets", tets as u64 * 16, plain),
             ("tet_sponge", tets as u64 * 4, plain),
             ("tet_weight", tets as u64 * 4, plain),
@@ -214,16 +214,16 @@ impl Resident {
             ("control_grouped", controls * 4, plain),
             ("control_counts", control_cells * 4, plain),
             ("control_starts", control_cells * 4, plain),
-            ("control_page_sums", control_cells / 1024, plain),
+            ("control_page_sums", page_sums(control_cells), plain),
             ("control_fluid", list(controls, self.capacities[2]), plain),
-            ("body_states", bodies * BODY_BYTES, plain),
+            ("body_states", bodies * DeviceBody::BYTES, plain),
             ("planes", planes * 16, plain),
             ("body_fluid_wrenches", groups(fluid), plain),
             ("body_node_wrenches", groups(nodes), plain),
             ("body_wrenches", bodies * WRENCH_BYTES, plain),
             ("node_mass", nodes * 4, plain),
-            ("partial_sums", sum_groups(self.rows) * SUM_BYTES, plain),
-            ("totals", 3 * SUM_BYTES, plain),
+            ("partial_sums", sum_groups(self.rows) * GroupSums::BYTES, plain),
+            ("totals", 3 * GroupSums::BYTES, plain),
         ];
         let columns = self.plain_buffers();
         own.into_iter().chain(columns.into_iter().map(|(name, size)| (name, size, plain))).collect()
@@ -231,7 +231,7 @@ impl Resident {
 
     /// Makes a buffer, zeroed. One row at least: nothing can be bound to an empty buffer.
     fn allocate(&mut self, name: &'static str, size: u64, usage: BufferUsages) -> Result<(), GpuError> {
-        let size = size.max(BODY_BYTES).next_multiple_of(16);
+        let size = size.max(DeviceBody::BYTES).next_multiple_of(16);
         let limits = &self.gpu.limits;
         let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         if size > most {
@@ -250,26 +250,26 @@ impl Resident {
 
     fn fill_constants(&self, columns: &Columns, tet_sponge: &[u32]) {
         let nodes = &columns.nodes;
-        self.write("sponges", &pack::sponges(&self.params, &self.first_nodes));
-        self.write("fluid_grid", &self.grids[0].bytes(self.rows.fluid));
-        self.write("control_grid", &self.grids[1].bytes(self.rows.nodes));
-        self.write("pair_grid", &self.grids[2].bytes(self.rows.nodes));
+        self.write("sponges", bytemuck::cast_slice(&pack::sponges(&self.params, &self.first_nodes)));
+        self.write("fluid_grid", bytemuck::cast_slice(&self.grids[0].words()));
+        self.write("control_grid", bytemuck::cast_slice(&self.grids[1].words()));
+        self.write("pair_grid", bytemuck::cast_slice(&self.grids[2].words()));
         if self.params.has_touch() {
             self.write("node_rest", bytemuck::cast_slice(&nodes.rest[..self.rows.nodes]));
         }
-        self.write("batch", &pack::batch_bytes(&self.batches));
+        self.write("batch", bytemuck::cast_slice(&pack::batch_words(&self.batches)));
         self.write("tets", bytemuck::cast_slice(&nodes.topology.tets));
         self.write("tet_sponge", bytemuck::cast_slice(tet_sponge));
         self.write("tet_weight", bytemuck::cast_slice(&nodes.topology.weights));
-        let trait_of = |values: &[f32], node: usize| values.get(node).copied().unwrap_or(0.0).to_bits();
-        let traits: Vec<[u32; 4]> = (0..self.rows.nodes)
-            .map(|node| {
-                let sponge = nodes.sponge[node];
-                [sponge, trait_of(&nodes.suction, node), trait_of(&nodes.interior, node), 0]
+        let value = |values: &[f32], node: usize| values.get(node).copied().unwrap_or(0.0);
+        let traits: Vec<u32> = (0..self.rows.nodes)
+            .flat_map(|node| {
+                let (suction, interior) = (value(&nodes.suction, node), value(&nodes.interior, node));
+                NodeTraits { sponge: nodes.sponge[node], suction, interior }.words()
             })
             .collect();
         self.write("node_traits", bytemuck::cast_slice(&traits));
-        let stars = pack::stars(nodes, self.rows.nodes, self.params.has_touch());
+        let stars = stars::stars(nodes, self.rows.nodes, self.params.has_touch());
         self.write("node_stars", bytemuck::cast_slice(&stars));
         self.fill_ranges(columns);
         self.fill_params();
@@ -277,13 +277,14 @@ impl Resident {
 
     /// Where the nodes of every sponge are, and which others it touches.
     pub(super) fn fill_ranges(&self, columns: &Columns) {
-        let ranges = pack::sponge_ranges(&columns.nodes, self.params.sponges.len());
+        let ranges = stars::sponge_ranges(&columns.nodes, self.params.sponges.len());
         self.write("sponge_ranges", bytemuck::cast_slice(&ranges));
     }
 
     /// Parameters, which hold the length of lists.
     pub(super) fn fill_params(&self) {
-        self.write("params", &pack::params(&self.params, self.rows, &self.limits, self.capacities));
+        let params = StepParams::new(&self.params, self.rows, &self.limits, self.capacities);
+        self.write("params", bytemuck::cast_slice(&params.words()));
     }
 
     /// Writes the beginning of a buffer, before whatever is submitted next.
@@ -296,13 +297,12 @@ impl Resident {
     /// Shapes, poses and velocities of the bodies, and the largest speed of their surfaces, which bounds the next step.
     pub fn upload_bodies(&mut self, bodies: &[Body]) {
         let fastest = bodies.iter().map(Body::fastest).fold(0.0, f32::max);
-        let (bytes, planes) = pack::bodies(bodies);
-        self.write("body_states", &bytes);
-        self.write("planes", &planes);
+        let (words, planes) = pack::bodies(bodies);
+        self.write("body_states", bytemuck::cast_slice(&words));
+        self.write("planes", bytemuck::cast_slice(&planes));
         self.gpu.queue.write_buffer(self.buffer("clock"), BODY_SPEED_AT, &fastest.to_ne_bytes());
         // The clock has chosen the next step before the bodies moved.
-        let reach =
-            (self.limits.courant * self.params.fluid.smoothing.support_radius).min(0.25 * self.limits.edge);
+        let reach = self.limits.reach_of_bodies(self.params.fluid.smoothing.support_radius);
         if fastest * self.limits.constant > reach {
             self.has_begun = false;
         }
@@ -314,7 +314,7 @@ impl Resident {
         self.params.asleep = asleep.clone();
         self.limits = limits;
         self.has_begun = false;
-        self.write("sponges", &pack::sponges(&self.params, &self.first_nodes));
+        self.write("sponges", bytemuck::cast_slice(&pack::sponges(&self.params, &self.first_nodes)));
         self.fill_params();
         // Nobody renews what was given by those whose phases are left out.
         let mut stale = vec!["body_fluid_wrenches", "body_node_wrenches"];

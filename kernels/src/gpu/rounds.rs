@@ -11,7 +11,10 @@ use super::{
     twins::{Pass, Rows},
     *,
 };
-use crate::tests::scene::{FULL, Scene};
+use crate::{
+    clock::{Bound, StepLimits},
+    tests::scene::{FULL, Scene},
+};
 
 /// Density 0 is halved until it is small; density 1 counts the steps.
 static HALVING: Shader = Shader {
@@ -60,12 +63,11 @@ fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
     let scene = Scene::new(FULL);
     let limits = StepLimits {
         courant: 0.25,
-        pressure_courant: 0.4,
         edge: f32::INFINITY,
         has_fluid: true,
         minimum: 1e-9,
         constant: 1.0,
-        constant_bound: 0,
+        constant_bound: Bound::Maximum,
     };
     let fail = |error: GpuError| -> ! { panic!("{error}") };
     let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| fail(error)));

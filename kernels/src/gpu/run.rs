@@ -3,8 +3,9 @@
 use wgpu::{CommandBuffer, CommandEncoder};
 
 use super::{
-    answer::{Answer, CLOCK_BYTES, CLOCK_WORDS, Outcome, Start, WRENCH_BYTES},
+    answer::{Answer, CLOCK_BYTES, Clock, Extreme, Outcome, Start, WRENCH_BYTES},
     error::GpuError,
+    layout::Value,
     profile::Profile,
     program::{Dispatch, Program},
     resident::Resident,
@@ -27,39 +28,28 @@ impl Resident {
     pub fn set_time(&mut self, start: &Start) {
         self.steps = 0;
         self.has_begun = false;
-        let mut words = [0_u32; CLOCK_WORDS];
-        words[4] = start.left.to_bits();
-        words[5] = start.fluid_speed.to_bits();
-        words[6] = start.fluid_acceleration.to_bits();
-        words[7] = start.node_speed.to_bits();
-        words[10] = f32::MAX.to_bits();
-        words[40] = start.fluid_pressure.to_bits();
-        self.write("clock", bytemuck::cast_slice(&words));
+        self.write("clock", bytemuck::cast_slice(&Clock::before(start).words()));
     }
 
     /// Sets one step of this length, for kernels that run without the others.
     fn set_step(&self, step: f32) {
-        let mut words = [0_u32; CLOCK_WORDS];
-        words[0] = step.to_bits();
-        words[1] = (1.0 / step).to_bits();
-        words[2] = 1;
-        words[4] = step.to_bits();
-        words[19] = 1;
-        self.write("clock", bytemuck::cast_slice(&words));
+        self.write("clock", bytemuck::cast_slice(&Clock::of_step(step).words()));
     }
 
     /// Forgets the extremes that kernels are about to find, and keeps those that were found before them.
     fn clear_extremes(&self, program: &Program) {
-        let mut stale = vec![5, 6, 7];
+        let mut stale = vec![Extreme::Neighbors, Extreme::Controls, Extreme::ControlFluid, Extreme::Pairs];
         if program.runs("sph::kick") {
-            stale.extend([0, 1, 3]);
+            stale.extend([Extreme::FluidSpeed, Extreme::FluidAcceleration, Extreme::FluidRow]);
         }
         if program.runs("pbd::velocity") {
-            stale.extend([2, 4]);
+            stale.extend([Extreme::NodeSpeed, Extreme::NodeRow]);
         }
-        for word in stale {
-            self.gpu.queue.write_buffer(self.buffer("extremes"), word * 4, &[0; 4]);
-        }
+        stale.into_iter().for_each(|extreme| self.write_extreme(extreme, 0));
+    }
+
+    pub(super) fn write_extreme(&self, extreme: Extreme, word: u32) {
+        self.gpu.queue.write_buffer(self.buffer("extremes"), 4 * extreme as u64, &word.to_ne_bytes());
     }
 
     /// Runs kernels once, with a step of the given length; lists that do not fit are made longer. For a step that is
@@ -243,7 +233,7 @@ impl Resident {
         let bytes = self.gpu.map(&self.answer)?;
         self.answer.unmap();
         let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
-        let (clock, wrenches) = words.split_at(CLOCK_WORDS);
-        Ok(Answer::new(clock, bytemuck::cast_slice(wrenches)))
+        let (clock, wrenches) = words.split_at(Clock::WORDS);
+        Ok(Answer::new(&Clock::take(clock), bytemuck::cast_slice(wrenches)))
     }
 }

@@ -2,17 +2,35 @@
 
 use super::{
     error::GpuError,
+    layout::Value,
+    pack::Summands,
     resident::Resident,
     transfer::vector,
     twins::{SUMS, TOTAL},
 };
-use crate::columns::RowCounts;
+use crate::{
+    columns::RowCounts,
+    layout::{constants, layout},
+};
 use glam::DVec3;
 
-/// Bytes of the sums of one group: five rows of four floats, of which the last has largest values.
-pub(super) const SUM_BYTES: u64 = 80;
-/// What stands for the largest of no values, in `sums.wgsl`.
-const SMALLEST: f32 = -3.0e38;
+layout! {
+    /// Sums of one group, or of all; what they are is said where they are made.
+    #[derive(Clone, Copy, Debug)]
+    pub(super) struct GroupSums {
+        a: [f32; 4],
+        b: [f32; 4],
+        c: [f32; 4],
+        d: [f32; 4],
+        /// Largest values.
+        largest: [f32; 4],
+    }
+}
+
+constants! {
+    /// What stands for the largest of no values.
+    const NO_VALUE: f32 = -3.0e38;
+}
 
 /// Groups of the largest of the stores that are summed up.
 pub(super) fn sum_groups(rows: RowCounts) -> u64 {
@@ -97,17 +115,17 @@ impl Resident {
             let mut dispatches = Vec::new();
             self.bind("measure", pass, None, &mut dispatches)?;
             let groups = self.rows_of_sums(place).div_ceil(256) as u32;
-            let summands = self.uniform("summands", [groups, place as u32, 0, 0])?;
+            let summands = self.uniform("summands", &Summands { groups, place: place as u32 })?;
             self.bind("measure", &TOTAL, Some(("summands", &summands)), &mut dispatches)?;
             parts.push(dispatches);
         }
         self.write("node_mass", bytemuck::cast_slice(node_mass));
         let parts: Vec<_> = parts.iter().map(|part| &part[..]).collect();
         self.submit(&parts, false, None)?;
-        let words = self.read(&[("totals", 3 * SUM_BYTES)])?.concat();
-        let floats: &[f32] = bytemuck::cast_slice(&words);
+        let words = self.read(&[("totals", 3 * GroupSums::BYTES)])?.concat();
+        let total = |place: usize| GroupSums::take(&words[place * GroupSums::WORDS..][..GroupSums::WORDS]);
         let [fluid, nodes, tets] =
-            [0, 1, 2].map(|place| Some(&floats[place * 20..][..20]).filter(|_| self.rows_of_sums(place) > 0));
+            [0, 1, 2].map(|place| (self.rows_of_sums(place) > 0).then(|| total(place)));
         Ok(Sums { fluid: fluid.map(fluid_sums), nodes: nodes.map(node_sums), tets: tets.map(tet_sums) })
     }
 
@@ -116,36 +134,34 @@ impl Resident {
     }
 }
 
-fn fluid_sums(row: &[f32]) -> FluidSums {
-    let float = |index: usize| f64::from(row[index]);
+fn fluid_sums(GroupSums { a, b, c, largest, .. }: GroupSums) -> FluidSums {
     FluidSums {
-        velocity: vector(&row[..3]),
-        speed_squared: float(3),
-        angular: vector(&row[4..7]),
-        inside: float(7),
-        position: vector(&row[8..11]),
-        density_error: float(11),
-        largest_speed_squared: float(16),
-        largest_density_error: float(17),
+        velocity: vector(&a),
+        speed_squared: a[3].into(),
+        angular: vector(&b),
+        inside: b[3].into(),
+        position: vector(&c),
+        density_error: c[3].into(),
+        largest_speed_squared: largest[0].into(),
+        largest_density_error: largest[1].into(),
     }
 }
 
-fn node_sums(row: &[f32]) -> NodeSums {
-    let float = |index: usize| f64::from(row[index]);
+fn node_sums(GroupSums { a, b, c, d, largest }: GroupSums) -> NodeSums {
     NodeSums {
-        momentum: vector(&row[..3]),
-        speed_squared: float(3),
-        angular: vector(&row[4..7]),
-        mass: float(7),
-        position: vector(&row[8..11]),
-        saturation: float(11),
-        volume: float(12),
-        largest_speed_squared: float(16),
-        highest_wet: Some(float(17)).filter(|_| row[17] > SMALLEST),
-        lowest: -float(18),
+        momentum: vector(&a),
+        speed_squared: a[3].into(),
+        angular: vector(&b),
+        mass: b[3].into(),
+        position: vector(&c),
+        saturation: c[3].into(),
+        volume: d[0].into(),
+        largest_speed_squared: largest[0].into(),
+        highest_wet: (largest[1] > NO_VALUE).then_some(largest[1].into()),
+        lowest: -f64::from(largest[2]),
     }
 }
 
-fn tet_sums(row: &[f32]) -> TetSums {
-    TetSums { volume: f64::from(row[0]), energy: f64::from(row[1]) }
+fn tet_sums(GroupSums { a, .. }: GroupSums) -> TetSums {
+    TetSums { volume: a[0].into(), energy: a[1].into() }
 }

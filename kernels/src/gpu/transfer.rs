@@ -1,9 +1,12 @@
 //! Columns to the device and back.
 
 use super::{
+    answer::Extreme as Word,
     error::GpuError,
-    pack::{self, BODY_BYTES},
-    resident::{Resident, SOLVE_BYTES, capacities},
+    layout::Value,
+    pack::DeviceBody,
+    resident::{Resident, capacities},
+    stars,
 };
 use crate::{
     body::Wrench,
@@ -14,6 +17,7 @@ use crate::{
     grid::neighbors::Neighbors,
     params::Params,
     reduce::{Extreme, Extremes, Wrenches},
+    sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
 };
 
 /// Particles as `sph::advect` leaves them, which the next step sorts.
@@ -104,7 +108,7 @@ impl Resident {
                 let rows = self.rows_of(*column);
                 self.write(buffer_name(*column, sorted), bytes(columns, *column, rows));
                 if is_beside_stars(*column) && rows > 0 {
-                    let stars = pack::stars(&columns.nodes, self.rows.nodes, self.params.has_touch());
+                    let stars = stars::stars(&columns.nodes, self.rows.nodes, self.params.has_touch());
                     self.write("node_stars", bytemuck::cast_slice(&stars));
                     self.fill_ranges(columns);
                 }
@@ -162,13 +166,13 @@ impl Resident {
             Column::FluidPressureSolve => {
                 self.write(
                     "fluid_pressure_solve",
-                    bytemuck::cast_slice(&columns.fluid.pressure_solve.words()),
+                    bytemuck::cast_slice(&columns.fluid.pressure_solve.state.words()),
                 );
             }
             Column::FluidViscositySolve => {
                 self.write(
                     "fluid_viscosity_solve",
-                    bytemuck::cast_slice(&columns.fluid.viscosity_solve.words()),
+                    bytemuck::cast_slice(&columns.fluid.viscosity_solve.state.words()),
                 );
             }
             _ => {}
@@ -181,10 +185,13 @@ impl Resident {
         let found = if is_fluid { columns.fluid.extremes.total() } else { columns.nodes.extremes.total() };
         let row = found.not_finite.checked_sub(1).map_or(0, |row| u32::MAX - row);
         let (speed, acceleration) = (found.speed_squared.to_bits(), found.acceleration_squared.to_bits());
-        let words: &[(u64, u32)] =
-            if is_fluid { &[(0, speed), (1, acceleration), (3, row)] } else { &[(2, speed), (4, row)] };
-        for (place, word) in words {
-            self.gpu.queue.write_buffer(self.buffer("extremes"), place * 4, &word.to_ne_bytes());
+        if is_fluid {
+            self.write_extreme(Word::FluidSpeed, speed);
+            self.write_extreme(Word::FluidAcceleration, acceleration);
+            self.write_extreme(Word::FluidRow, row);
+        } else {
+            self.write_extreme(Word::NodeSpeed, speed);
+            self.write_extreme(Word::NodeRow, row);
         }
     }
 
@@ -217,11 +224,11 @@ impl Resident {
                 let rows = lists(columns, list).1;
                 wanted.push((*column, name, rows * (self.capacities[list] as usize + 1) * 4));
             } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
-                wanted.push((*column, "extremes", 32));
+                wanted.push((*column, "extremes", 4 * Word::ALL.len()));
             } else if *column == Column::FluidPressureSolve {
-                wanted.push((*column, "fluid_pressure_solve", SOLVE_BYTES as usize));
+                wanted.push((*column, "fluid_pressure_solve", Solve::BYTES as usize));
             } else if *column == Column::FluidViscositySolve {
-                wanted.push((*column, "fluid_viscosity_solve", SOLVE_BYTES as usize));
+                wanted.push((*column, "fluid_viscosity_solve", ViscositySolve::BYTES as usize));
             } else if let Some((name, size)) = self.wrench_buffer(*column) {
                 wanted.push((*column, name, size));
             }
@@ -277,9 +284,9 @@ impl Resident {
         } else if matches!(column, Column::FluidExtremes | Column::NodeExtremes) {
             take_extremes(columns, column, words);
         } else if column == Column::FluidPressureSolve {
-            columns.fluid.pressure_solve.take_words(words);
+            columns.fluid.pressure_solve.state = Value::take(words);
         } else if column == Column::FluidViscositySolve {
-            columns.fluid.viscosity_solve.take_words(words);
+            columns.fluid.viscosity_solve.state = Value::take(words);
         } else {
             let words: &[f32] = bytemuck::cast_slice(words);
             let wrenches = words
@@ -354,15 +361,15 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
     };
     if column == Column::FluidExtremes {
         columns.fluid.extremes = all(Extreme {
-            speed_squared: f32::from_bits(words[0]),
-            acceleration_squared: f32::from_bits(words[1]),
-            not_finite: row(words[3]),
+            speed_squared: f32::from_bits(words[Word::FluidSpeed as usize]),
+            acceleration_squared: f32::from_bits(words[Word::FluidAcceleration as usize]),
+            not_finite: row(words[Word::FluidRow as usize]),
         });
     } else {
         columns.nodes.extremes = all(Extreme {
-            speed_squared: f32::from_bits(words[2]),
+            speed_squared: f32::from_bits(words[Word::NodeSpeed as usize]),
             acceleration_squared: 0.0,
-            not_finite: row(words[4]),
+            not_finite: row(words[Word::NodeRow as usize]),
         });
     }
 }
@@ -384,8 +391,9 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     }
     match column {
         Column::FluidExtremes | Column::NodeExtremes => 20,
-        Column::FluidPressureSolve | Column::FluidViscositySolve => SOLVE_BYTES,
-        Column::BodyStates => count * BODY_BYTES,
+        Column::FluidPressureSolve => Solve::BYTES,
+        Column::FluidViscositySolve => ViscositySolve::BYTES,
+        Column::BodyStates => count * DeviceBody::BYTES,
         Column::BodyFluidWrenches => groups(rows.fluid),
         Column::BodyNodeWrenches => groups(rows.nodes),
         _ => 0,

@@ -39,7 +39,7 @@ pub(super) fn met(body: &Body, margin: f64, from: DVec3, to: DVec3) -> (f64, f64
     };
     let (mut distance, mut normal) = look(from);
     for _ in 0..sweep::ADVANCES {
-        if distance <= f64::from(sweep::NEARLY) * length || gone + distance >= length {
+        if distance <= f64::from(sweep::SWEEP_TOLERANCE) * length || gone + distance >= length {
             break;
         }
         gone += distance;

@@ -20,7 +20,7 @@ pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
         let volume_at = |other: &DVec3| volume * smoothing(radius, apart(params, x[i], *other).length());
         let there: f64 = x.iter().map(volume_at).sum();
         let share = incompressible::share(params, &columns.bodies.states.0, profile, x[i]);
-        fluid.deficit[i] = deficit::weight((f64::from(deficit::FULL) - there - share).max(0.0)) as f32;
+        fluid.deficit[i] = deficit::weight((f64::from(deficit::FULL_SHARE) - there - share).max(0.0)) as f32;
     }
 }
 

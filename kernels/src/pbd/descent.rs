@@ -44,7 +44,8 @@
 
 use crate::{
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
-    params::{Params, Solver, SpongeParams},
+    layout::constants,
+    params::{POLYNOMIAL_RATIO, Params, Solver, SpongeParams},
     pbd::{
         stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
         wetted::{Wet, Wetness},
@@ -52,11 +53,10 @@ use crate::{
     vector::{Vec3x8, cross, dot, minus, plus, times},
 };
 
-/// Volume ratio below which the logarithm continues as a polynomial \[1\].
-pub(super) const SOLID: f32 = 0.2;
-
-/// Over-relaxation of `pbd::vbd` beyond the minimum, over the way to it, in steps of more than one sweep \[1\].
-pub(super) const RELAXATION: f32 = 0.3;
+constants! {
+    /// How far `pbd::vbd` goes beyond the least energy, over the way there, in steps of more than one sweep \[1\].
+    pub(super) const RELAXATION: f32 = 0.3;
+}
 
 /// A symmetric 3 x 3 matrix: xx, yy, zz, xy, xz, yz.
 pub(super) type Symmetric<S> = [f32x8<S>; 6];
@@ -224,7 +224,7 @@ impl<'a, S: Simd> Star<'a, S> {
                 let ratio = dot(out, area) * material.inverse_edge;
                 // Without a tet its corners have no valid position.
                 strain = strain.max(select(present.simd_gt(zero), (ratio - one).abs(), zero));
-                let inverse = one / ratio.max(lanes::splat(simd, SOLID));
+                let inverse = one / ratio.max(lanes::splat(simd, POLYNOMIAL_RATIO as f32));
                 let slope = lame * (ratio - one) - shear * inverse * (two - ratio * inverse);
                 pressure = plus(pressure, times(own, slope));
                 add_outer(&mut stiffness, times(own, lame + shear * inverse * inverse), area);

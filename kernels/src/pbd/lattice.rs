@@ -2,10 +2,15 @@
 
 use std::ops::Range;
 
-use crate::column::ColumnData;
+use crate::{column::ColumnData, layout::constants};
 
 /// Colours of tets: no two tets of a colour share a node.
 pub const COLORS: usize = 24;
+
+constants! {
+    /// Colours of nodes: each tet has one node of each.
+    pub const VERTEX_COLORS: usize = 4;
+}
 
 /// Tets of one colour and one sponge, and the nodes that they touch.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,7 +18,7 @@ pub struct TetChunk {
     /// Tets.
     pub tets: Range<u32>,
     /// Nodes by vertex colour. Chunks of one colour touch disjoint ranges.
-    pub nodes: [Range<u32>; 4],
+    pub nodes: [Range<u32>; VERTEX_COLORS],
     /// Index of the sponge.
     pub sponge: u32,
 }
@@ -25,8 +30,8 @@ pub struct Topology {
     pub tets: Vec<[u32; 4]>,
     /// Volume that every tet stands for, over its own \[1\]: above 1 at pits.
     pub weights: Vec<f32>,
-    /// First node of each vertex colour: each tet has one node of each.
-    pub vertex_color_start: [u32; 5],
+    /// Where the vertex colours begin.
+    pub vertex_color_start: [u32; VERTEX_COLORS + 1],
     /// Vertex colour of every slot of the tets of a colour.
     pub slot_vertex_color: [[u8; 4]; COLORS],
     /// Chunks by colour.

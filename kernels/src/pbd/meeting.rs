@@ -2,19 +2,21 @@
 
 use glam::Vec3;
 
-use crate::params::Params;
+use crate::{layout::constants, params::Params};
 
-/// Scalar product of the opposite normals above which two surfaces face each other \[1\].
-const FACING: f32 = 0.1;
-/// Added to it for two nodes of rims, whose normals are less precise \[1\].
-const ALIKE: f32 = 0.6;
-/// Largest depth by which the tangent planes of a pair may have passed each other, in edges.
-const DEEP: f32 = 1.0;
-/// Largest distance between them, in edges.
-const NEAR: f32 = 0.6;
-/// Tangential distance within which nodes push each other, in edges: the stiffness of a surface of nodes one edge apart then
-/// varies by 6 %.
-pub(super) const REACH: f32 = 1.5;
+constants! {
+    /// Scalar product of the normals, of opposite sign, above which two surfaces face each other \[1\].
+    const LEAST_FACING: f32 = 0.1;
+    /// What is added to it for two nodes of rims, whose normals are known less well \[1\].
+    const RIM_FACING: f32 = 0.6;
+    /// How far the tangent planes of a pair may have passed each other, in edges.
+    const PAIR_OVERLAP: f32 = 1.0;
+    /// How far they may be from each other, in edges.
+    const PAIR_GAP: f32 = 0.6;
+    /// Distance along the surface within which nodes push each other, in edges: nodes on a square of one edge then feel a surface
+    /// that is stiff to 6 % everywhere.
+    pub(super) const PAIR_REACH: f32 = 1.5;
+}
 
 /// A pair, the same for both of its nodes.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +42,7 @@ impl Pair {
             return None;
         }
         let (p_a, p_b) = (n_a.dot(n_a).sqrt(), n_b.dot(n_b).sqrt());
-        let facing = across / (p_a * p_b) - (FACING + ALIKE * (1.0 - p_a.max(p_b)));
+        let facing = across / (p_a * p_b) - (LEAST_FACING + RIM_FACING * (1.0 - p_a.max(p_b)));
         if facing <= 0.0 {
             return None;
         }
@@ -53,8 +55,8 @@ impl Pair {
 
     /// Whether the two may touch in this step.
     pub(super) fn is_near(&self, edge: f32) -> bool {
-        let reach = REACH * edge;
-        self.gap > -DEEP * edge && self.gap < NEAR * edge && self.aside < reach * reach
+        let reach = PAIR_REACH * edge;
+        self.gap > -PAIR_OVERLAP * edge && self.gap < PAIR_GAP * edge && self.aside < reach * reach
     }
 }
 
@@ -65,8 +67,8 @@ pub(super) fn vector(row: [f32; 4]) -> Vec3 {
 /// Largest distance between the nodes of a pair \[m\].
 #[must_use]
 pub fn pair_radius(params: &Params) -> f32 {
-    // Of the cylinder of `Pair::is_near`.
-    let reach = (REACH * REACH + DEEP * DEEP).sqrt();
+    // Of the cylinder that `Pair::is_near` describes.
+    let reach = (PAIR_REACH * PAIR_REACH + PAIR_OVERLAP * PAIR_OVERLAP).sqrt();
     let edges = (0..).zip(&params.sponges).filter(|(index, _)| params.meets_any(*index));
     edges.map(|(_, sponge)| sponge.contact_edge()).fold(0.0, f32::max) * reach
 }

@@ -36,7 +36,7 @@ use crate::{
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
     params::{Params, Solver},
-    pbd::{obstacles::MARGIN, stars::Piece},
+    pbd::{obstacles::OBSTACLE_MARGIN, stars::Piece},
 };
 
 declare! {
@@ -54,6 +54,10 @@ declare! {
         pass(NAME, Nodes),
         pass("pbd::momentum_bodies", Nodes),
     ],
+    constants: {
+        /// Determinant of the inertia over the cube of its trace below which a sponge cannot be turned about some axis.
+        const LEAST_DETERMINANT: f64 = 1.0e-12;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -153,7 +157,7 @@ impl Task<'_> {
     fn give(&self, node: usize, y: &[f32; 4], change: [f32; 3], mass: f32, wrenches: &mut [Wrench]) {
         let vector = |row: &[f32]| Vec3::new(row[0], row[1], row[2]);
         let edge = self.params.sponges[self.sponge[node] as usize].edge;
-        if let Some(body) = self.touched(vector(y), MARGIN * edge) {
+        if let Some(body) = self.touched(vector(y), OBSTACLE_MARGIN * edge) {
             let arm = vector(&self.position[node]).as_dvec3() - self.bodies[body].state.position.as_dvec3();
             wrenches[body].add(Vec3::from(change).as_dvec3() * -f64::from(mass), arm);
         }
@@ -317,8 +321,8 @@ impl Sums {
         let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - second;
         let angular = self.angular_momentum - centre.cross(self.momentum);
         let determinant = inertia.determinant();
-        // A sponge with all nodes on a line has no inertia about it.
-        let turns = determinant > 1.0e-12 * trace.powi(3);
+        // A sponge of nodes in one line cannot be turned about it.
+        let turns = determinant > LEAST_DETERMINANT * trace.powi(3);
         let angular_velocity = if turns { inertia.inverse() * angular } else { DVec3::ZERO };
         Motion { centre, velocity: self.momentum / mass, angular_velocity }
     }

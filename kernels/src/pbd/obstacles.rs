@@ -16,21 +16,24 @@ use crate::{
     body::{Body, BodyState, Placed, Wrench},
     cpu::Cpu,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    layout::constants,
     params::Params,
     pbd::descent::{Material, Symmetric, product},
     sweep::met,
     vector::{Vec3x8, dot, minus, plus, splat, times},
 };
 
-/// Distance from an obstacle, in edges, within which a node is examined.
-pub(super) const MARGIN: f32 = 1.0e-2;
+constants! {
+    /// Distance that nodes keep from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
+    pub(super) const CLEARANCE: f32 = 1.0e-3;
+    /// Smallest part of the compliance along the normal that friction may leave.
+    const LEAST_COMPLIANCE: f32 = 0.1;
+    /// How close to an obstacle, in edges, a node is looked at.
+    pub(super) const OBSTACLE_MARGIN: f32 = 1.0e-2;
+}
 
-/// Clearance of nodes from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
-pub(super) const CLEARANCE: f32 = 1.0e-3;
-/// Part of the distance of a node from a body that is certain after rounding \[1\].
+/// What is left of the distance of a node from a body after rounding, at least \[1\].
 const SPARE: f32 = 0.999;
-/// Smallest part of the compliance along the normal that friction may leave.
-const LEAST_COMPLIANCE: f32 = 0.1;
 
 /// Eight values of each coordinate.
 type Lanes3 = [[f32; LANES]; 3];

@@ -6,13 +6,13 @@
 //! A n_a = -sum over tets of (q - u) x (r - u) / 6
 //! ```
 //!
-//! with the partner u and the corners r, q of its tets (`stars.rs`). The weight p is 1 on a face and nearly 0 on a rim
-//! (`flatness.rs`). Two nodes a and b belong to different sponges, or to one with self-contact, at least `APART` edges from
-//! each other at rest. They are a pair where their surfaces face each other:
+//! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p, which is 1 on a face and next to nothing on a
+//! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least
+//! `SELF_CONTACT_DISTANCE` edges from each other at rest, are a pair where their surfaces face each other:
 //!
 //! ```text
 //! n = (p_b n_b - p_a n_a) / |..|,   g = n . (x_a - x_b),   t^2 = |x_a - x_b|^2 - g^2
-//! c = -n_a . n_b - FACING - ALIKE (1 - max(p_a, p_b)) > 0,   -DEEP e < g < NEAR e,   t < REACH e
+//! c = -n_a . n_b - LEAST_FACING - RIM_FACING (1 - max(p_a, p_b)) > 0,   -PAIR_OVERLAP e < g < PAIR_GAP e,   t < PAIR_REACH e
 //! ```
 //!
 //! with e the larger of their edges. The normal of a node of a rim lies between those of two faces: where it meets a face,
@@ -35,11 +35,6 @@ use crate::{
     pbd::stars::{CORNERS, RINGS, StarGroup, Stars},
 };
 
-/// Smallest distance at rest at which two nodes of one sponge may touch, in edges.
-const APART: f32 = 4.0;
-/// Area of a node, over the square of the edge, below which it has no normal.
-const SMALLEST: f32 = 1.0e-3;
-
 use super::meeting::{Pair, pair_radius, vector};
 
 declare! {
@@ -60,6 +55,12 @@ declare! {
         pass(NAME, Nodes),
         CHECK,
     ],
+    constants: {
+        /// Distance at rest of two nodes of one sponge, in edges, from which on they may touch.
+        const SELF_CONTACT_DISTANCE: f32 = 4.0;
+        /// Area of a node, over the square of the edge, below which it has no normal.
+        const LEAST_NODE_AREA: f32 = 1.0e-3;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -180,8 +181,8 @@ fn normal_of(group: &StarGroup, lane: usize, position: &[[f32; 4]], (edge, weigh
     }
     let length = sum.dot(sum).sqrt();
     let area = length / 6.0;
-    // NaN has none either.
-    if area > SMALLEST * edge * edge {
+    // Nor has what is not a number.
+    if area > LEAST_NODE_AREA * edge * edge {
         let scale = weight / length;
         [sum.x * scale, sum.y * scale, sum.z * scale, area]
     } else {
@@ -213,7 +214,7 @@ impl Surface<'_> {
         }
         if own == other {
             let apart = vector(self.rest[a]) - vector(self.rest[b]);
-            if apart.dot(apart) < APART * APART * edge * edge {
+            if apart.dot(apart) < SELF_CONTACT_DISTANCE * SELF_CONTACT_DISTANCE * edge * edge {
                 return false;
             }
         }

@@ -13,7 +13,7 @@ use crate::{
     params::Params,
     pbd::{
         descent::{Material, constants_of, local},
-        obstacles::{MARGIN, Obstacles, array, vector},
+        obstacles::{OBSTACLE_MARGIN, Obstacles, array, vector},
         stars::{StarGroup, Stars},
         touch::Touch,
         vbd::least,
@@ -128,7 +128,7 @@ impl Task<'_> {
         let own = select(free, counts, zero);
         let [ox, oy, oz, _] = lanes::gather_rows(simd, self.position, &group.own);
         let old = [ox, oy, oz];
-        let near = obstacles.near(&array(x), &array(old), &(material.edge * MARGIN).to_array());
+        let near = obstacles.near(&array(x), &array(old), &(material.edge * OBSTACLE_MARGIN).to_array());
         let near = lanes::load_array(simd, &near) * own;
         let is_held = !free & counts.simd_gt(zero);
         if !(is_held | near.simd_gt(zero)).any_true() {

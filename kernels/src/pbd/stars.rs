@@ -9,21 +9,23 @@
 
 use std::ops::Range;
 
-use crate::{column::ColumnData, lanes::LANES, pbd::lattice::Topology};
+use crate::{column::ColumnData, lanes::LANES, layout::constants, pbd::lattice::Topology};
 
-/// Directions of the neighbours of the same sublattice.
-pub const DIRECTIONS: usize = 6;
-/// Corners, where the neighbours of the other sublattice are.
-pub const CORNERS: usize = 8;
+constants! {
+    /// Directions of the neighbours of the same sublattice.
+    pub const DIRECTIONS: usize = 6;
+    /// Corners, where the neighbours of the other sublattice are.
+    pub const CORNERS: usize = 8;
+    /// Corners next to every direction, clockwise when looking along it.
+    pub const RINGS: [[usize; 4]; DIRECTIONS] = rings();
+}
+
 /// Neighbours: first the corners, then the directions.
 pub const NEIGHBORS: usize = CORNERS + DIRECTIONS;
 /// Tets of a full star.
 pub const TETS: usize = 4 * DIRECTIONS;
 /// Nodes of a piece that is summed separately.
 const PIECE: usize = 256;
-
-/// Corners next to every direction, clockwise when looking along it.
-pub const RINGS: [[usize; 4]; DIRECTIONS] = rings();
 
 const fn rings() -> [[usize; 4]; DIRECTIONS] {
     // Of the two other axes in the order that makes the three right-handed.

@@ -33,12 +33,6 @@ use crate::{
     vector::{Vec3x8, cross, dot, minus, negative, plus, times},
 };
 
-/// Smallest volume over volume at rest of a tet.
-const SMALLEST_RATIO: f32 = 0.1;
-
-/// Compliance of that constraint over that of the volume; not zero, which would divide by zero for held nodes.
-const RIGID: f32 = 1.0e-3;
-
 declare! {
     needs: [Sponge, Solver(Sbd)],
     reads: [NodePosition, NodePredicted, NodeTopology],
@@ -47,6 +41,14 @@ declare! {
     // 6e-8 m: eight units in the last place of a position.
     bound: 5e-4,
     twin: [pass(NAME, Colors)],
+    constants: {
+        /// Length of an edge over that at rest below which it has no direction.
+        const LEAST_STRETCH: f32 = 1.0e-6;
+        /// Smallest volume over volume at rest that a tet is pressed to.
+        const LEAST_VOLUME_RATIO: f32 = 0.1;
+        /// Compliance of that constraint over that of the volume; not zero, which would divide by zero for held nodes.
+        const LIMIT_COMPLIANCE: f32 = 1.0e-3;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -100,7 +102,7 @@ impl<S: Simd> Solver<S> {
         for column in 0..3 {
             let f = tet.columns(self.inverse_edge)[column];
             let length = dot(f, f).sqrt();
-            let is_long = length.simd_gt(lanes::splat(self.simd, 1.0e-6));
+            let is_long = length.simd_gt(lanes::splat(self.simd, LEAST_STRETCH));
             let inverse = one / select(is_long, length, one);
             let n = times(f, inverse);
             let gradient = match column {
@@ -118,10 +120,10 @@ impl<S: Simd> Solver<S> {
         let (ratio, gradient) = self.volume_gradient(tet);
         self.correct(tet, ratio - one, gradient, volume, self.damping);
         let (ratio, gradient) = self.volume_gradient(tet);
-        let lacking = ratio - SMALLEST_RATIO;
+        let lacking = ratio - LEAST_VOLUME_RATIO;
         let zero = lanes::splat(self.simd, 0.0);
         let inverted = select(lacking.simd_lt(zero), lacking, zero);
-        self.correct(tet, inverted, gradient, volume * RIGID, zero);
+        self.correct(tet, inverted, gradient, volume * LIMIT_COMPLIANCE, zero);
     }
 
     /// Volume over volume at rest, and its gradients times the edge.

@@ -4,16 +4,16 @@
 //! along the normal n of the beginning of the step:
 //!
 //! ```text
-//! d = -n . (y_a - y_b),   psi = k (d^2 / 2 + d^4 / e^2),   k = STIFFNESS M / e f A_a A_b w
-//! w = 3 / (pi R^2) (1 - t^2 / R^2)^2,   f = min(c / TURN, 1)
+//! d = -n . (y_a - y_b),   psi = k (d^2 / 2 + d^4 / e^2),   k = CONTACT_STIFFNESS M / e f A_a A_b w
+//! w = 3 / (pi R^2) (1 - t^2 / R^2)^2,   f = min(c / FACING_RANGE, 1)
 //! ```
 //!
-//! The pressure does not depend on the number of nodes of a surface. M is the harmonic mean of the moduli lambda + mu of
-//! both materials, e the larger edge. The pair slips by s along the surface in this step. Friction of up to mu times the
-//! normal force acts against it, linear up to a speed `CREEP`.
+//! so that surfaces of many nodes, or of few large ones, feel the same pressure. M is the harmonic mean of the moduli
+//! lambda + mu of both materials, e the larger edge. Where the pair slips by s along the surface in this step, friction of up to mu
+//! times the normal force acts against it, linear up to a speed `CREEP_SPEED`.
 //!
 //! ```text
-//! F_a = n k d (1 + 4 d^2 / e^2) - k_t s,   H_a = k (1 + 12 d^2 / e^2) n n^T + k_t (1 - n n^T),   k_t = mu |F_n| / max(|s|, h CREEP)
+//! F_a = n k d (1 + 4 d^2 / e^2) - k_t s,   H_a = k (1 + 12 d^2 / e^2) n n^T + k_t (1 - n n^T),   k_t = mu |F_n| / max(|s|, h CREEP_SPEED)
 //! ```
 //!
 //! Both nodes receive the same with opposite sign. Vertex block descent adds force and stiffness to those of the material
@@ -30,17 +30,10 @@ use crate::{
     params::Params,
     pbd::{
         descent::Local,
-        meeting::{Pair, REACH, vector},
+        meeting::{PAIR_REACH, Pair, vector},
     },
     vector::plus,
 };
-
-/// Stiffness of a surface times the edge, over the modulus of the material \[1\].
-const STIFFNESS: f32 = 10.0;
-/// Range of c over which a pair reaches its full stiffness \[1\].
-const TURN: f32 = 0.4;
-/// Slip speed up to which friction is linear, also in sticking \[m/s\].
-const CREEP: f32 = 2.0e-3;
 
 declare! {
     needs: [Sponge, Solver(Vbd), Touch],
@@ -49,6 +42,15 @@ declare! {
     oracle: crate::oracle::touch::touch,
     bound: 1e-4,
     twin: [pass(NAME, Nodes), pass("pbd::touching", Sponges), pass("pbd::joining", One)],
+    constants: {
+        const PI: f32 = std::f32::consts::PI;
+        /// Stiffness of a surface times the edge, over the modulus of the material \[1\].
+        const CONTACT_STIFFNESS: f32 = 10.0;
+        /// Range of c in which a pair comes to its full stiffness \[1\].
+        const FACING_RANGE: f32 = 0.4;
+        /// Speed at which what sticks may slip \[m/s\].
+        const CREEP_SPEED: f32 = 2.0e-3;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -122,17 +124,17 @@ impl Task<'_> {
         }
         let (own, other) = (self.sponge[a], self.sponge[b]);
         let edge = self.params.pair_edge(own, other);
-        let reach = REACH * edge;
+        let reach = PAIR_REACH * edge;
         let closeness = (1.0 - pair.aside / (reach * reach)).max(0.0);
-        let share = 3.0 / std::f32::consts::PI / (reach * reach) * closeness * closeness;
-        let facing = (pair.facing / TURN).min(1.0);
+        let share = 3.0 / PI / (reach * reach) * closeness * closeness;
+        let facing = (pair.facing / FACING_RANGE).min(1.0);
         let area = normals[0][lane::nodes::normal::AREA] * normals[1][lane::nodes::normal::AREA];
-        let k = STIFFNESS * self.params.pair_modulus(own, other) / edge * facing * (area * share);
+        let k = CONTACT_STIFFNESS * self.params.pair_modulus(own, other) / edge * facing * (area * share);
         let square = 4.0 * depth * depth / (edge * edge);
         let push = k * depth * (1.0 + square);
         let slip = (y_a - vector(self.position[a])) - (y_b - vector(self.position[b]));
         let slip = slip - n * n.dot(slip);
-        let slowest = CREEP * self.params.step;
+        let slowest = CREEP_SPEED * self.params.step;
         let hold = push * self.params.pair_friction(own, other) / slip.dot(slip).sqrt().max(slowest);
         sum.force += n * push - slip * hold;
         let outer = Mat3::from_cols(n * n.x, n * n.y, n * n.z);

@@ -31,18 +31,6 @@ use crate::{
     vector::{Vec3x8, choose, dot, minus, plus, times},
 };
 
-/// Volume change of a tet around a node, over the volume at rest, up to which the node is fully over-relaxed, and from which
-/// on it is not over-relaxed \[1\].
-const SOUND: f32 = 0.2;
-const SPOILT: f32 = 0.5;
-/// Way, in edges, from which on a node is not over-relaxed; up to half of it the node is fully over-relaxed \[1\].
-const LONG: f32 = 0.1;
-
-/// Parts of the last digit of a position from which the random number of [`moved`] is taken \[1\].
-const FINE: f32 = 4096.0;
-/// Smallest position by which the random number is scaled, so that a way over its last digit is finite \[m\].
-const LEAST: f32 = 1.0e-6;
-
 declare! {
     needs: [Sponge, Solver(Vbd)],
     reads: [
@@ -53,6 +41,20 @@ declare! {
     oracle: crate::oracle::descent::vbd,
     bound: 5e-4,
     twin: [pass(NAME, VertexColors)],
+    constants: {
+        /// Change of the volume of a tet around a node, over that at rest, up to which the node goes all the way further \[1\].
+        const FULL_RELAXATION_STRAIN: f32 = 0.2;
+        /// The same from which on it goes no further than to its least energy \[1\].
+        const NO_RELAXATION_STRAIN: f32 = 0.5;
+        /// Way, in edges, from which on a node goes no further than to its least energy; it goes all the way
+        /// further up to half of that \[1\].
+        const NO_RELAXATION_WAY: f32 = 0.1;
+        /// Parts of the last digit of a place that chance is taken from, see [`moved`] \[1\].
+        const ROUNDING_PARTS: f32 = 4096.0;
+        /// Smallest place that chance is scaled by, so that a way over its last digit is a number \[m\].
+        const LEAST_COORDINATE: f32 = 1.0e-6;
+        const EPSILON: f32 = f32::EPSILON;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -158,9 +160,10 @@ fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: V
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
     let edges = times(way, material.inverse_edge);
     // From 1 at half of that way down to 0 at all of it.
-    let short =
-        (lanes::splat(simd, LONG * LONG) - dot(edges, edges)) * lanes::splat(simd, 4.0 / (3.0 * LONG * LONG));
-    let share = (lanes::splat(simd, SPOILT) - strain) * lanes::splat(simd, 1.0 / (SPOILT - SOUND));
+    let short = (lanes::splat(simd, NO_RELAXATION_WAY * NO_RELAXATION_WAY) - dot(edges, edges))
+        * lanes::splat(simd, 4.0 / (3.0 * NO_RELAXATION_WAY * NO_RELAXATION_WAY));
+    let share = (lanes::splat(simd, NO_RELAXATION_STRAIN) - strain)
+        * lanes::splat(simd, 1.0 / (NO_RELAXATION_STRAIN - FULL_RELAXATION_STRAIN));
     one + share.min(short).max(zero).min(one) * material.relaxation
 }
 
@@ -189,11 +192,11 @@ pub(super) fn least<S: Simd>(
 /// remainder of the way beyond a few thousandths of that digit.
 #[inline(always)]
 fn moved<S: Simd>(simd: S, points: Vec3x8<S>, way: Vec3x8<S>) -> Vec3x8<S> {
-    let (half, least) = (lanes::splat(simd, 0.5), lanes::splat(simd, LEAST));
+    let (half, least) = (lanes::splat(simd, 0.5), lanes::splat(simd, LEAST_COORDINATE));
     let mut moved = points;
     for axis in 0..3 {
-        let digit = points[axis].abs().max(least) * f32::EPSILON;
-        let parts = way[axis] / digit * FINE + half;
+        let digit = points[axis].abs().max(least) * EPSILON;
+        let parts = way[axis] / digit * ROUNDING_PARTS + half;
         moved[axis] += way[axis] + (parts - parts.floor() - half) * digit;
     }
     moved

@@ -12,9 +12,9 @@
 use crate::{
     columns::Columns,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select},
-    params::{Params, SpongeParams},
+    params::{POLYNOMIAL_RATIO, Params, SpongeParams},
     pbd::{
-        descent::{Local, Material, SOLID, Star, add_outer},
+        descent::{Local, Material, Star, add_outer},
         stars::{NEIGHBORS, StarGroup, StarShape},
     },
     vector::{Vec3x8, cross, dot, minus, plus, times},
@@ -99,7 +99,7 @@ impl<S: Simd> Star<'_, S> {
             let area = times(area, inverse_edge * inverse_edge * two);
             let ratio = dot(minus(partner, x), area) * inverse_edge;
             strain = strain.max(select(present.simd_gt(zero), (ratio - one).abs(), zero));
-            let inverse = one / ratio.max(lanes::splat(simd, SOLID));
+            let inverse = one / ratio.max(lanes::splat(simd, POLYNOMIAL_RATIO as f32));
             let slope = lame * (ratio - one) - shear * inverse * (two - ratio * inverse);
             let own = times(area, present);
             force = plus(force, times(pull, shear * present));

@@ -33,35 +33,34 @@ declare! {
     // Weights of deficits are a tenth of the sums whose differences they are.
     bound: 4e-5,
     twin: [pass(NAME, Fluid)],
+    constants: {
+        /// Share of the neighbourhood above which nothing lacks.
+        pub(crate) const FULL_SHARE: f32 = 0.98;
+        /// How fast the weight of a deficit falls: with 2.4 the layers below a flat surface pull together least in the continuum, and
+        /// 2.5 spreads the periods of drops least.
+        const DEFICIT_FALL: f64 = 2.5;
+        /// Weight of what lacks nearly everything, such as a particle alone: positive, so that it is drawn to others.
+        const LEAST_DEFICIT_WEIGHT: f64 = 0.01;
+    },
 }
 
-/// Sum over the neighbourhood above which there is no deficit.
-pub(crate) const FULL: f32 = 0.98;
-
-/// Slope of the decrease of the weight. In the continuum 2.4 gives the smallest attraction between the layers below a flat
-/// surface; 2.5 gives the smallest spread of the periods of drops.
-const FALL: f64 = 2.5;
-
-/// Weight of particles that lack nearly all neighbours: positive, so that single particles are attracted by others.
-const LEAST: f64 = 0.01;
-
-/// Surface tension of settled drops, over that of the layers of a lattice that ends in a plane. Measured on eight drops of
-/// 16 to 19 particles across.
+/// Surface tension of drops that have settled, over that of the layers of a lattice that ends in a plane: measured on eight drops
+/// of 16 to 19 particles across.
 const SETTLED: f64 = 0.97;
 
 /// Weight of a deficit: the derivative of `energy`.
 #[must_use]
 pub fn weight(deficit: f64) -> f64 {
-    let falling = deficit * (1.0 - FALL * deficit);
-    if deficit > 0.5 / FALL { falling.max(LEAST) } else { falling }
+    let falling = deficit * (1.0 - DEFICIT_FALL * deficit);
+    if deficit > 0.5 / DEFICIT_FALL { falling.max(LEAST_DEFICIT_WEIGHT) } else { falling }
 }
 
 /// Energy density of a deficit over the stiffness \[1\].
 fn energy(deficit: f64) -> f64 {
-    // The deficit at which the weight reaches its minimum.
-    let end = (1.0 + (1.0 - 4.0 * FALL * LEAST).sqrt()) / (2.0 * FALL);
+    // Where the weight has fallen to the least.
+    let end = (1.0 + (1.0 - 4.0 * DEFICIT_FALL * LEAST_DEFICIT_WEIGHT).sqrt()) / (2.0 * DEFICIT_FALL);
     let e = deficit.min(end);
-    e * e * (0.5 - FALL / 3.0 * e) + LEAST * (deficit - e)
+    e * e * (0.5 - DEFICIT_FALL / 3.0 * e) + LEAST_DEFICIT_WEIGHT * (deficit - e)
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -112,7 +111,7 @@ impl Task<'_> {
             for body in &near {
                 share += profile.body(simd, &self.bodies[*body], [x, y, z])[3];
             }
-            let lacks = lanes::splat(simd, FULL) - sum * value - share;
+            let lacks = lanes::splat(simd, FULL_SHARE) - sum * value - share;
             lanes::store(deficit, row, weights(simd, lanes::positive(simd, lacks)));
         }
     }
@@ -121,9 +120,9 @@ impl Task<'_> {
 /// `weight` in every lane.
 #[inline(always)]
 fn weights<S: Simd>(simd: S, deficit: f32x8<S>) -> f32x8<S> {
-    let falling = deficit * (lanes::splat(simd, 1.0) - deficit * lanes::splat(simd, FALL as f32));
-    let least = falling.max(lanes::splat(simd, LEAST as f32));
-    select(deficit.simd_gt(lanes::splat(simd, (0.5 / FALL) as f32)), least, falling)
+    let falling = deficit * (lanes::splat(simd, 1.0) - deficit * lanes::splat(simd, DEFICIT_FALL as f32));
+    let least = falling.max(lanes::splat(simd, LEAST_DEFICIT_WEIGHT as f32));
+    select(deficit.simd_gt(lanes::splat(simd, (0.5 / DEFICIT_FALL) as f32)), least, falling)
 }
 
 /// Stiffness \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\]: energy density over energy of
@@ -143,7 +142,7 @@ pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f
             let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
             missing += volume * Wendland::value_f64(radius, distance);
         }
-        energies += energy((missing + f64::from(FULL) - 1.0).max(0.0));
+        energies += energy((missing + f64::from(FULL_SHARE) - 1.0).max(0.0));
     }
     (f64::from(tension) * d * d / (SETTLED * volume * energies)) as f32
 }

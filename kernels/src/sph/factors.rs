@@ -40,10 +40,11 @@ declare! {
     oracle: crate::oracle::incompressible::factors,
     bound: 4e-6,
     twin: [pass(NAME, Fluid), pass("sph::solve_begin", One)],
+    constants: {
+        /// Diagonal of a lattice over the least that a particle may have: a lone one is not moved by its own pressure.
+        const LATTICE_DIAGONAL_RATIO: f32 = 3.0;
+    },
 }
-
-/// Smallest diagonal, over that of a lattice: its own pressure does not move a lone particle.
-const LEAST_DIAGONAL: f32 = 1.0 / 3.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
@@ -116,7 +117,7 @@ impl Task<'_> {
         let volume = fluid.particle_mass / fluid.rest_density;
         let (gradient, value) = (kernel.gradient_scale() * volume, kernel.value_scale() * volume);
         let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        let least = lanes::splat(simd, LEAST_DIAGONAL * self.solve.lattice_diagonal);
+        let least = lanes::splat(simd, 1.0 / LATTICE_DIAGONAL_RATIO * self.solve.lattice_diagonal);
         let prompt = fluid.prompt_roughness(step);
         let most = lanes::splat(simd, self.solve.correction_speed * step / fluid.spacing);
         for row in (0..factors.len()).step_by(LANES) {

@@ -13,17 +13,27 @@
 //! few spacings are hardly damped. With a fixed tolerance a pool would oscillate for ever at a speed in proportion to it.
 
 use crate::columns::lane;
-use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::Incompressible};
+use crate::{
+    column::ColumnData,
+    cpu::PerChunk,
+    grid::sort::per_chunk,
+    layout::{constants, layout},
+    params::Incompressible,
+};
 
-/// Length of the first step: slightly more than the stability limit of relaxed Jacobi iteration.
-const FIRST_LENGTH: f32 = 0.6;
-/// Largest mean error over the mean displacement of a step, in spacings, at which the fluid comes to rest: the remaining
-/// error becomes a velocity.
-const ERROR_PER_DISPLACEMENT: f32 = 0.02;
-/// Smallest tolerance: the limit of rounding in f32.
-const LEAST_TOLERANCE: f32 = 1.0e-6;
-/// Range of the step length.
-const LENGTHS: (f64, f64) = (0.2, 20.0);
+constants! {
+    /// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
+    const FIRST_LENGTH: f32 = 0.6;
+    /// Mean error over the mean displacement of a step, in spacings, above which the fluid would not come to rest: what is
+    /// left of an error becomes a velocity.
+    const ERROR_PER_DISPLACEMENT: f32 = 0.02;
+    /// Least tolerance: rounding to f32 leaves no less.
+    const LEAST_TOLERANCE: f32 = 1.0e-6;
+    /// Least length of a step.
+    const LEAST_LENGTH: f64 = 0.2;
+    /// Greatest length of a step.
+    const GREATEST_LENGTH: f64 = 20.0;
+}
 
 /// Sums over the rows of a chunk.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,15 +70,25 @@ impl Sums {
     }
 }
 
-/// State of the pressure solve.
+layout! {
+    /// What a pressure solve keeps from round to round.
+    #[derive(Clone, Copy, Debug, Default)]
+    pub(crate) struct Solve {
+        /// Length of the next step along the gradient.
+        length: f32,
+        tolerance: f32,
+        error: f32,
+        pressure: f32,
+        /// Rounds of this step.
+        rounds: u32,
+        is_converged: bool,
+    }
+}
+
+/// Where a pressure solve stands.
 #[derive(Clone, Debug, Default)]
 pub struct PressureSolve {
-    rounds: u32,
-    length: f32,
-    is_converged: bool,
-    error: f32,
-    pressure: f32,
-    tolerance: f32,
+    pub(crate) state: Solve,
     sums: Vec<Sums>,
     displacements: Vec<f32>,
 }
@@ -77,62 +97,43 @@ impl PressureSolve {
     /// Iterations of this step.
     #[must_use]
     pub fn rounds(&self) -> u32 {
-        self.rounds
+        self.state.rounds
     }
 
     /// Whether the error is below the tolerance.
     #[must_use]
     pub fn is_converged(&self) -> bool {
-        self.is_converged
+        self.state.is_converged
     }
 
     /// Iterations, whether converged, next step length, error, pressure and tolerance.
     #[cfg(test)]
     pub(crate) fn numbers(&self) -> [f64; 6] {
         [
-            f64::from(self.rounds),
-            f64::from(u8::from(self.is_converged)),
-            f64::from(self.length),
-            f64::from(self.error),
-            f64::from(self.pressure),
-            f64::from(self.tolerance),
+            f64::from(self.state.rounds),
+            f64::from(u8::from(self.state.is_converged)),
+            f64::from(self.state.length),
+            f64::from(self.state.error),
+            f64::from(self.state.pressure),
+            f64::from(self.state.tolerance),
         ]
     }
 
     /// Mean density error after the last iteration, of either sign \[1\].
     #[must_use]
     pub fn error(&self) -> f32 {
-        self.error
+        self.state.error
     }
 
     /// Root mean square of the kinematic pressure \[m^2/s^2\].
     #[must_use]
     pub fn pressure(&self) -> f32 {
-        self.pressure
+        self.state.pressure
     }
 
     /// Next step length along the gradient.
     pub(crate) fn length(&self) -> f32 {
-        self.length
-    }
-
-    /// Words of the state on a device: step length, tolerance, error, pressure (bits of f32), iterations, whether converged.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn words(&self) -> [u32; 8] {
-        let [length, tolerance, error, pressure] =
-            [self.length, self.tolerance, self.error, self.pressure].map(f32::to_bits);
-        [length, tolerance, error, pressure, self.rounds, u32::from(self.is_converged), 0, 0]
-    }
-
-    /// Takes the state from the words of a device; missing words change nothing.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn take_words(&mut self, words: &[u32]) {
-        if let [length, tolerance, error, pressure, rounds, is_converged, ..] = *words {
-            let [length, tolerance, error, pressure] =
-                [length, tolerance, error, pressure].map(f32::from_bits);
-            (self.length, self.tolerance, self.error, self.pressure) = (length, tolerance, error, pressure);
-            (self.rounds, self.is_converged) = (rounds, is_converged != 0);
-        }
+        self.state.length
     }
 
     /// Room for the squared displacements of every chunk of `rows` rows.
@@ -149,10 +150,8 @@ impl PressureSolve {
 
     /// Before the first iteration, with the root mean square of the displacements in spacings.
     pub(crate) fn begin_with(&mut self, displacement: f32, solve: &Incompressible) {
-        let tolerance = (displacement * ERROR_PER_DISPLACEMENT).max(LEAST_TOLERANCE);
-        self.tolerance = tolerance.min(solve.tolerance);
-        (self.rounds, self.is_converged, self.length) = (0, false, FIRST_LENGTH);
-        (self.error, self.pressure) = (0.0, 0.0);
+        let tolerance = (displacement * ERROR_PER_DISPLACEMENT).max(LEAST_TOLERANCE).min(solve.tolerance);
+        self.state = Solve { length: FIRST_LENGTH, tolerance, ..Solve::default() };
     }
 
     /// Room for the sums over every chunk of `rows` rows.
@@ -178,27 +177,29 @@ impl PressureSolve {
         count: usize,
         solve: &Incompressible,
     ) {
+        let state = &mut self.state;
         let particles = count.max(1) as f64;
-        self.error = (error / particles) as f32;
-        self.pressure = (pressure / particles).sqrt() as f32;
-        self.rounds += 1;
-        self.is_converged = self.error <= self.tolerance || self.rounds >= solve.rounds;
-        let ratio = if self.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
-        let is_usable = self.rounds > 1 && mixed > 0.0 && ratio.is_finite();
-        self.length = if is_usable { ratio.clamp(LENGTHS.0, LENGTHS.1) as f32 } else { FIRST_LENGTH };
+        state.error = (error / particles) as f32;
+        state.pressure = (pressure / particles).sqrt() as f32;
+        state.rounds += 1;
+        state.is_converged = state.error <= state.tolerance || state.rounds >= solve.rounds;
+        let ratio = if state.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
+        let is_usable = state.rounds > 1 && mixed > 0.0 && ratio.is_finite();
+        state.length =
+            if is_usable { ratio.clamp(LEAST_LENGTH, GREATEST_LENGTH) as f32 } else { FIRST_LENGTH };
     }
 }
 
 impl ColumnData for PressureSolve {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
-        visit(self.rounds);
-        visit(u32::from(self.is_converged));
-        [self.length, self.error, self.pressure, self.tolerance]
-            .into_iter()
-            .for_each(|value| visit(value.to_bits()));
+        let Solve { rounds, is_converged, length, error, pressure, tolerance } = self.state;
+        visit(rounds);
+        visit(u32::from(is_converged));
+        [length, error, pressure, tolerance].into_iter().for_each(|value| visit(value.to_bits()));
     }
     fn poison(&mut self) {
-        (self.rounds, self.length, self.tolerance) = (u32::MAX, f32::NAN, f32::NAN);
-        (self.error, self.pressure) = (f32::NAN, f32::NAN);
+        let (rounds, is_converged) = (u32::MAX, self.state.is_converged);
+        let [length, tolerance, error, pressure] = [f32::NAN; 4];
+        self.state = Solve { length, tolerance, error, pressure, rounds, is_converged };
     }
 }

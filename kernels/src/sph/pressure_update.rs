@@ -24,14 +24,15 @@ declare! {
     oracle: crate::oracle::incompressible::pressure_update,
     bound: 4e-6,
     twin: [pass(NAME, Fluid)],
+    constants: {
+        /// Speed of sound over the fastest speed that is expected.
+        const SOUND_SPEED_RATIO: f32 = 10.0;
+    },
 }
-
-/// Speed of sound over the fastest expected speed.
-const SPEEDS: f32 = 10.0;
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(solve) = &params.fluid.incompressible else { return };
-    let most = SPEEDS * solve.correction_speed * (SPEEDS * solve.correction_speed);
+    let most = SOUND_SPEED_RATIO * solve.correction_speed * (SOUND_SPEED_RATIO * solve.correction_speed);
     let count = columns.rows.fluid;
     let Fluid { position, predicted, pressure_rows, pressure_solve, .. } = &mut columns.fluid;
     let (length, density) = (pressure_solve.length(), params.fluid.rest_density);

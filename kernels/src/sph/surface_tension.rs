@@ -17,9 +17,6 @@ use crate::{
     vector::{dot, times},
 };
 
-/// Length of the normal times the support radius below which a particle is not at the surface.
-const THRESHOLD: f32 = 1.0;
-
 declare! {
     needs: [Fluid, SurfaceTension],
     reads: [FluidPosition, FluidVelocity, FluidNeighbors, FluidAcceleration],
@@ -27,6 +24,10 @@ declare! {
     oracle: crate::oracle::sph::surface_tension,
     bound: 1e-5,
     twin: [pass(NAME, Fluid)],
+    constants: {
+        /// Length of the normal times the support radius below which a particle is not at the surface.
+        const SURFACE_THRESHOLD: f32 = 1.0;
+    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -50,7 +51,7 @@ fn chunk<S: Simd>(
     let fluid = &params.fluid;
     let kernel = fluid.smoothing.lanes(simd);
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let threshold = THRESHOLD / fluid.smoothing.support_radius;
+    let threshold = SURFACE_THRESHOLD / fluid.smoothing.support_radius;
     for row in (0..acceleration.len()).step_by(LANES) {
         let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
         let [_, _, _, volume] = lanes::load_rows(simd, velocity, first + row);

@@ -18,7 +18,7 @@ use crate::{
 };
 
 use super::{
-    container::STOP,
+    container::WALL_MARGIN,
     obstacles::per_chunk,
     obstacles::{at_end, give, near},
 };
@@ -79,7 +79,7 @@ impl Task<'_> {
         let (step, rate) = (lanes::splat(simd, self.params.step), 1.0 / self.params.step);
         for body in self.near {
             let pair = [&self.bodies[0][*body], &self.bodies[1][*body]];
-            let swept = Swept::new(simd, pair, STOP * fluid.spacing);
+            let swept = Swept::new(simd, pair, WALL_MARGIN * fluid.spacing);
             for row in (0..velocity.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, points, row);
                 let [vx, vy, vz, w] = lanes::load_rows(simd, velocity, row);

@@ -17,21 +17,35 @@
 //! The solve stops when the residual is below the tolerance times the change, both as root mean squares. Every eigenvalue of
 //! `A` is at least one, so that the error of the velocity is at most the residual.
 
-use crate::{column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, params::ImplicitViscosity};
+use crate::{
+    column::ColumnData, cpu::PerChunk, grid::sort::per_chunk, layout::layout, params::ImplicitViscosity,
+};
 
 /// Sums over the rows of a chunk: `p.Ap, r.p, r.Ap, Ap.Ap` of a product, `r.r, y.y` of an update.
 pub(super) type Sums = [f64; 4];
 
-/// State of the solve for the viscosity.
+layout! {
+    /// What a solve for the viscosity keeps from round to round.
+    #[derive(Clone, Copy, Debug, Default)]
+    pub(crate) struct State as ViscositySolve {
+        /// Length of the step along the present direction.
+        length: f32,
+        /// Share of the present direction in the next one.
+        share: f32,
+        residual: f32,
+        change: f32,
+        /// Rounds of this step.
+        rounds: u32,
+        is_converged: bool,
+        /// Whether the residual is below the tolerance.
+        is_solved: bool,
+    }
+}
+
+/// Where a solve for the viscosity stands.
 #[derive(Clone, Debug, Default)]
 pub struct ViscositySolve {
-    rounds: u32,
-    is_converged: bool,
-    is_solved: bool,
-    length: f32,
-    share: f32,
-    residual: f32,
-    change: f32,
+    pub(crate) state: State,
     sums: Vec<Sums>,
 }
 
@@ -39,81 +53,60 @@ impl ViscositySolve {
     /// Iterations of this step.
     #[must_use]
     pub fn rounds(&self) -> u32 {
-        self.rounds
+        self.state.rounds
     }
 
     /// Whether no further iteration is needed, or allowed.
     #[must_use]
     pub fn is_converged(&self) -> bool {
-        self.is_converged
+        self.state.is_converged
     }
 
     /// Whether the residual is below the tolerance.
     #[must_use]
     pub fn is_solved(&self) -> bool {
-        self.is_solved
+        self.state.is_solved
     }
 
     /// Root mean square of the residual after the last iteration \[m/s\].
     #[must_use]
     pub fn residual(&self) -> f32 {
-        self.residual
+        self.state.residual
     }
 
     /// Root mean square of the change of the velocity by viscosity \[m/s\].
     #[must_use]
     pub fn change(&self) -> f32 {
-        self.change
+        self.state.change
     }
 
     /// Step length along the present direction.
     pub(crate) fn length(&self) -> f32 {
-        self.length
+        self.state.length
     }
 
     /// Share of the present direction in the next one.
     pub(crate) fn share(&self) -> f32 {
-        self.share
+        self.state.share
     }
 
     /// Iterations, whether it has ended, whether by the tolerance, step length, share, residual and change.
     #[cfg(test)]
     pub(crate) fn numbers(&self) -> [f64; 7] {
         [
-            f64::from(self.rounds),
-            f64::from(u8::from(self.is_converged)),
-            f64::from(u8::from(self.is_solved)),
-            f64::from(self.length),
-            f64::from(self.share),
-            f64::from(self.residual),
-            f64::from(self.change),
+            f64::from(self.state.rounds),
+            f64::from(u8::from(self.state.is_converged)),
+            f64::from(u8::from(self.state.is_solved)),
+            f64::from(self.state.length),
+            f64::from(self.state.share),
+            f64::from(self.state.residual),
+            f64::from(self.state.change),
         ]
     }
 
-    /// Words of the state on a device: step length, share, residual, change (bits of f32), iterations, whether it has ended,
-    /// whether by the tolerance.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn words(&self) -> [u32; 8] {
-        let [length, share, residual, change] =
-            [self.length, self.share, self.residual, self.change].map(f32::to_bits);
-        let [converged, solved] = [self.is_converged, self.is_solved].map(u32::from);
-        [length, share, residual, change, self.rounds, converged, solved, 0]
-    }
-
-    /// Takes the state from the words of a device; missing words change nothing.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn take_words(&mut self, words: &[u32]) {
-        if let [length, share, residual, change, rounds, converged, solved, ..] = *words {
-            let [length, share, residual, change] = [length, share, residual, change].map(f32::from_bits);
-            (self.length, self.share, self.residual, self.change) = (length, share, residual, change);
-            (self.rounds, self.is_converged, self.is_solved) = (rounds, converged != 0, solved != 0);
-        }
-    }
-
-    /// Before the first iteration.
+    /// Before the first round.
     pub(crate) fn begin(&mut self) {
-        let sums = std::mem::take(&mut self.sums);
-        *self = Self { sums, ..Self::default() };
+        self.state = State::default();
     }
 
     /// Room for the sums over every chunk of `rows` rows.
@@ -139,12 +132,12 @@ impl ViscositySolve {
 
     /// After the product of an iteration, with the sums over all rows.
     pub(crate) fn choose_with(&mut self, [curvature, slope, residual_product, product_square]: Sums) {
-        (self.length, self.share) = (0.0, 0.0);
-        // Without motion there is no direction.
+        (self.state.length, self.state.share) = (0.0, 0.0);
+        // There is no direction where nothing moves.
         if curvature > 0.0 {
             let length = slope / curvature;
-            self.length = length as f32;
-            self.share = ((length * product_square - residual_product) / curvature) as f32;
+            self.state.length = length as f32;
+            self.state.share = ((length * product_square - residual_product) / curvature) as f32;
         }
     }
 
@@ -161,28 +154,26 @@ impl ViscositySolve {
         count: usize,
         implicit: &ImplicitViscosity,
     ) {
+        let state = &mut self.state;
         let particles = count.max(1) as f64;
-        self.residual = (residual / particles).sqrt() as f32;
-        self.change = (change / particles).sqrt() as f32;
-        self.rounds += 1;
-        self.is_solved = self.residual <= implicit.tolerance * self.change;
-        self.is_converged = self.is_solved || self.rounds >= implicit.rounds;
+        state.residual = (residual / particles).sqrt() as f32;
+        state.change = (change / particles).sqrt() as f32;
+        state.rounds += 1;
+        state.is_solved = state.residual <= implicit.tolerance * state.change;
+        state.is_converged = state.is_solved || state.rounds >= implicit.rounds;
     }
 }
 
 impl ColumnData for ViscositySolve {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
-        [self.rounds, u32::from(self.is_converged), u32::from(self.is_solved)]
-            .into_iter()
-            .for_each(&mut *visit);
-        [self.length, self.share, self.residual, self.change]
-            .into_iter()
-            .for_each(|value| visit(value.to_bits()));
+        let State { length, share, residual, change, rounds, is_converged, is_solved } = self.state;
+        [rounds, u32::from(is_converged), u32::from(is_solved)].into_iter().for_each(&mut *visit);
+        [length, share, residual, change].into_iter().for_each(|value| visit(value.to_bits()));
     }
     fn poison(&mut self) {
-        // In the end only the flag of the tolerance is read.
-        (self.rounds, self.is_solved) = (u32::MAX, !self.is_solved);
-        (self.length, self.share) = (f32::NAN, f32::NAN);
-        (self.residual, self.change) = (f32::NAN, f32::NAN);
+        // Whether the residual counts is all that is read of it in the end.
+        let State { is_converged, is_solved, .. } = self.state;
+        let ([length, share, residual, change], rounds) = ([f32::NAN; 4], u32::MAX);
+        self.state = State { length, share, residual, change, rounds, is_converged, is_solved: !is_solved };
     }
 }

@@ -15,7 +15,7 @@ mod parts;
 mod waking;
 
 use glam::{Quat, Vec3};
-use sorb_kernels::params::Params;
+use sorb_kernels::{clock::TIME_RESOLUTION, params::Params};
 
 use crate::{
     clock::Dormant,
@@ -195,7 +195,7 @@ impl World {
     /// reached.
     pub(crate) fn sleep_until(&mut self, end: f64) -> bool {
         let slept = self.sleep_within(end - self.clock.time);
-        slept.is_some() && end - self.clock.time <= 1e-9
+        slept.is_some() && end - self.clock.time <= TIME_RESOLUTION
     }
 
     /// Sleeps for the length of a step, but no longer than `left`, nor until a script moves a body, if the scene is asleep;

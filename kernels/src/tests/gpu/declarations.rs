@@ -64,7 +64,7 @@ fn undeclared(kernel: &Kernel, declared: &TwinAccess) -> BTreeSet<String> {
     let mut written: Vec<Column> = Vec::new();
     for pass in kernel.twin {
         let shader = sorb_shaders::shader(pass.shader).unwrap_or_else(|| panic!("no {}", pass.shader));
-        let accesses = accesses(pass, shader.source);
+        let accesses = accesses(pass, &crate::gpu::complete(shader.source));
         for (buffer, access) in &accesses {
             if access.contains(GlobalUse::WRITE) {
                 written.extend(columns_in(buffer));

@@ -10,8 +10,9 @@ use std::sync::{Arc, OnceLock};
 
 use super::scene::Scene;
 use crate::{
+    clock::{Bound, StepLimits},
     columns::{Column, Columns},
-    gpu::{Gpu, Resident, StepLimits},
+    gpu::{Gpu, Resident},
     kernel::Kernel,
     kernel_named,
 };
@@ -29,12 +30,11 @@ fn gpu() -> &'static Arc<Gpu> {
 /// Bounds of the step that allow anything.
 const LIMITS: StepLimits = StepLimits {
     courant: 0.25,
-    pressure_courant: 0.4,
     edge: f32::INFINITY,
     has_fluid: true,
     minimum: 1e-9,
     constant: 1.0,
-    constant_bound: 0,
+    constant_bound: Bound::Maximum,
 };
 
 /// The columns after one kernel on a device.
