@@ -4,7 +4,7 @@ use glam::{DVec3, Mat3, Quat, Vec3};
 
 use crate::{
     column::ColumnData,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     layout::constants,
     vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };

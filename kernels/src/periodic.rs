@@ -6,7 +6,7 @@
 use glam::Vec3;
 
 use crate::{
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     vector::{Vec3x8, minus, plus, splat},
 };
 

@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use crate::{
-    lanes::{self, Simd, f32x8, prelude::*},
+    lanes::{self, Simd, f32x8},
     layout::{constants, layout},
 };
 

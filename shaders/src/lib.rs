@@ -16,6 +16,13 @@ pub struct Shader {
 
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 
+/// The prefix sums of the numbers of the threads of a group, by subgroup operations. No pass of a kernel: a device is tried
+/// out with it.
+pub static PROBE: Shader = Shader {
+    name: "grid::probe",
+    source: concat!(include_str!("../common/scan_subgroup.wgsl"), include_str!("probe.wgsl")),
+};
+
 /// The pass of that name with subgroup operations, if it has use for them.
 #[must_use]
 pub fn subgroup_shader(name: &str) -> Option<&'static Shader> {

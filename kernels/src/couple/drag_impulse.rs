@@ -16,7 +16,7 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, prelude::*, with_lanes},
+    lanes::{self, LANES, with_lanes},
     params::Params,
     vector::{dot, minus, times},
 };

@@ -20,7 +20,7 @@ use crate::{
     columns::{Columns, Controls, lane},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::Params,
 };
 

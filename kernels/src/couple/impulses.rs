@@ -4,7 +4,7 @@ use crate::{
     columns::Fluid,
     cpu::Cpu,
     grid::neighbors::ChunkLists,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     layout::constants,
     params::Params,
     vector::{self, Vec3x8, plus, times},

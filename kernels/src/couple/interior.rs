@@ -16,7 +16,7 @@ use crate::{
     cpu::Cpu,
     grid::{cells::Cells, neighbors::Neighbors, sort::permute},
     kernel::declare,
-    lanes::{self, LANES, prelude::*, select, with_lanes},
+    lanes::{self, LANES, select, with_lanes},
     params::Params,
     smoothing::Wendland,
 };

@@ -17,7 +17,7 @@ use crate::{
     columns::{Columns, Nodes},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, with_lanes},
     params::{Params, SpongeParams},
     pbd::stars::{StarGroup, StarShape},
     vector::{Vec3x8, cross, dot, minus},

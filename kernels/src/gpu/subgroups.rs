@@ -1,25 +1,9 @@
 //! Whether subgroup operations do on a device what prefix sums need of them.
 
-use sorb_shaders::Shader;
+use sorb_shaders::PROBE;
 use wgpu::{BufferUsages, util::DeviceExt};
 
 use super::device::Gpu;
-
-/// The prefix sums of the numbers of the threads.
-static PROBE: Shader = Shader {
-    name: "grid::probe",
-    source: concat!(
-        include_str!("../../../shaders/common/scan_subgroup.wgsl"),
-        "
-@group(0) @binding(0) var<storage, read_write> found: array<u32>;
-
-@compute @workgroup_size(256)
-fn main(@builtin(local_invocation_index) lane: u32) {
-    found[lane] = group_scan(lane, vec4<u32>(lane, 1u, 0u, 0u)).before.x;
-}
-"
-    ),
-};
 
 impl Gpu {
     /// Whether the subgroups of a group are runs of its threads, in order: WGSL does not say so. Tried out once per

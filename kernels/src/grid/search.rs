@@ -215,9 +215,9 @@ impl Search<'_> {
                 let near = (dx * dx + dy * dy + dz * dz).simd_lt(square) & rows.simd_lt(ends);
                 // No branch: whether there are any is unpredictable.
                 let to = count..count + LANES;
-                simd.compress_f32x8(xs, near).store_slice(&mut x[to.clone()]);
-                simd.compress_f32x8(ys, near).store_slice(&mut y[to.clone()]);
-                simd.compress_f32x8(zs, near).store_slice(&mut z[to.clone()]);
+                xs.compress(near).store_slice(&mut x[to.clone()]);
+                ys.compress(near).store_slice(&mut y[to.clone()]);
+                zs.compress(near).store_slice(&mut z[to.clone()]);
                 simd.compress_u32x8(rows, near).store_slice(&mut row[to]);
                 count += near.to_bitmask().count_ones() as usize;
             }

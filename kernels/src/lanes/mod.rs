@@ -4,12 +4,14 @@
 //! bits of a result therefore do not depend on the level. Fused multiply-add, approximate reciprocals and horizontal
 //! reductions are not used, because they differ between machines.
 
+mod floats;
 mod transpose;
 
 use std::fmt;
 
 use fearless_simd::Level;
-pub(crate) use fearless_simd::{Simd, dispatch, f32x8, mask32x8, prelude, u32x8};
+pub(crate) use fearless_simd::{mask32x8, prelude, u32x8};
+pub(crate) use floats::f32x8;
 use prelude::*;
 
 /// Number of lanes of a vector.
@@ -106,6 +108,63 @@ impl fmt::Display for SimdLevel {
     }
 }
 
+/// Proof that the machine has a level, as a type: code for vectors is generic over it.
+pub(crate) trait Simd: fearless_simd::Simd {
+    /// Whether the level has no vectors.
+    const IS_SCALAR: bool = false;
+}
+
+impl Simd for fearless_simd::Fallback {
+    const IS_SCALAR: bool = true;
+}
+
+/// Implements [`Simd`] for the levels of a target, and declares how an expression that is generic over the level is run at
+/// one of them.
+macro_rules! levels {
+    ($(#[cfg($target:meta)] $($module:ident::$level:ident)*;)*) => {
+        levels! { @dispatch ($) $($(#[cfg($target)] $module::$level;)*)* }
+        $($(
+            #[cfg($target)]
+            impl Simd for fearless_simd::$module::$level {}
+        )*)*
+    };
+    (@dispatch ($dollar:tt) $(#[cfg($target:meta)] $module:ident::$level:ident;)*) => {
+        /// Runs an expression that is generic over the SIMD token at a level.
+        macro_rules! dispatch {
+            ($dollar level:expr, $dollar simd:pat => $dollar body:expr) => {
+                match $dollar level {
+                    $(
+                        #[cfg($target)]
+                        fearless_simd::Level::$level(token) => {
+                            $crate::lanes::dispatch!(@at token, $dollar simd => $dollar body)
+                        }
+                    )*
+                    fearless_simd::Level::Fallback(token) => {
+                        $crate::lanes::dispatch!(@at token, $dollar simd => $dollar body)
+                    }
+                    _ => unreachable!("a level of another target"),
+                }
+            };
+            (@at $dollar token:ident, $dollar simd:pat => $dollar body:expr) => {{
+                let $dollar simd = $crate::lanes::generic($dollar token);
+                fearless_simd::Simd::vectorize($dollar token, #[inline(always)] || $dollar body)
+            }};
+        }
+        pub(crate) use dispatch;
+    };
+}
+levels! {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))] x86::Sse2 x86::Sse4_2 x86::Avx2 x86::Avx512;
+    #[cfg(target_arch = "aarch64")] aarch64::Neon;
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))] wasm32::WasmSimd128;
+}
+
+/// Hides which level a token is of, so that code that is not generic does not compile.
+#[inline(always)]
+pub(crate) fn generic<S: Simd>(token: S) -> impl Simd {
+    token
+}
+
 /// A vector with the same value in every lane.
 #[inline(always)]
 pub(crate) fn splat<S: Simd>(simd: S, value: f32) -> f32x8<S> {
@@ -134,13 +193,13 @@ pub(crate) fn store<S: Simd>(values: &mut [f32], start: usize, lanes: f32x8<S>) 
 #[inline(always)]
 pub(crate) fn positive<S: Simd>(simd: S, lanes: f32x8<S>) -> f32x8<S> {
     let zero = splat(simd, 0.0);
-    lanes.simd_gt(zero).select(lanes, zero)
+    select(lanes.simd_gt(zero), lanes, zero)
 }
 
 /// Lanes where `condition` holds from `yes`, else from `no`.
 #[inline(always)]
 pub(crate) fn select<S: Simd>(condition: mask32x8<S>, yes: f32x8<S>, no: f32x8<S>) -> f32x8<S> {
-    condition.select(yes, no)
+    f32x8::select(condition, yes, no)
 }
 
 /// Rows `start..start + 8` as vectors of x, y, z and w.

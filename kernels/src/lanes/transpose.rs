@@ -3,9 +3,9 @@
 //! Passes over neighbours are bound by these shuffles. Where the machine has 256-bit shuffles inside 128-bit blocks, half as
 //! many suffice as with the portable operations. They only move bits, so that results agree.
 
-use fearless_simd::{Simd, f32x4, f32x8, prelude::*};
+use fearless_simd::{f32x4, prelude::*};
 
-use super::LANES;
+use super::{LANES, Simd, f32x8};
 
 /// Transposes four rows of four.
 #[inline(always)]
@@ -27,7 +27,12 @@ pub(super) fn eight_by_four<S: Simd>(simd: S, rows: [&[f32; 4]; LANES]) -> [f32x
     let row = |lane: usize| f32x4::load_array_ref(simd, rows[lane]);
     let low = four_by_four([row(0), row(1), row(2), row(3)]);
     let high = four_by_four([row(4), row(5), row(6), row(7)]);
-    [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
+    [
+        f32x8::combine(low[0], high[0]),
+        f32x8::combine(low[1], high[1]),
+        f32x8::combine(low[2], high[2]),
+        f32x8::combine(low[3], high[3]),
+    ]
 }
 
 /// Transposes eight rows of eight.

@@ -11,7 +11,7 @@ use crate::{
     columns::{Columns, Nodes},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::{Params, Solver, SpongeParams},
     pbd::obstacles::CLEARANCE,
     sweep::met,

@@ -43,7 +43,7 @@
 //! ```
 
 use crate::{
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     layout::constants,
     params::{POLYNOMIAL_RATIO, Params, Solver, SpongeParams},
     pbd::{

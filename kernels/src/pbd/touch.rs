@@ -26,7 +26,7 @@ use crate::{
     columns::{Columns, Nodes, lane},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     params::Params,
     pbd::{
         descent::Local,

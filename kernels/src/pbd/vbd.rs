@@ -19,7 +19,7 @@ use crate::{
     columns::{Columns, Nodes},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::Params,
     pbd::{
         descent::{Local, Material, constants_of, inverse, local, product},

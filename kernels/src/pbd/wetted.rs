@@ -11,7 +11,7 @@
 
 use crate::{
     columns::Columns,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     params::{POLYNOMIAL_RATIO, Params, SpongeParams},
     pbd::{
         descent::{Local, Material, Star, add_outer},

@@ -18,7 +18,7 @@ use crate::{
     columns::Columns,
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, Simd, f32x8, prelude::*, select},
+    lanes::{self, Simd, f32x8, select},
     params::{Params, Solver, SpongeParams},
     pbd::tets::{Law, TetLanes, sweep},
     vector::{Vec3x8, cross, dot, minus, negative, plus, times},

@@ -9,7 +9,7 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
-    lanes::{self, LANES, Simd, prelude::*, with_lanes},
+    lanes::{self, LANES, Simd, with_lanes},
     params::Params,
 };
 

@@ -8,7 +8,7 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
     kernel::declare,
-    lanes::{self, LANES, prelude::*, with_lanes},
+    lanes::{self, LANES, with_lanes},
     params::Params,
 };
 

@@ -16,7 +16,7 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, select},
+    lanes::{self, LANES, Simd, f32x8, select},
     params::{Cohesion, Params},
     periodic::{Space, with_space},
     smoothing::Wendland,

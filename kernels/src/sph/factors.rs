@@ -26,7 +26,7 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::declare,
-    lanes::{self, LANES, Simd, prelude::*},
+    lanes::{self, LANES, Simd},
     params::{Incompressible, Params},
     periodic::{Space, with_space},
     smoothing::Wendland,

@@ -21,7 +21,7 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::declare,
-    lanes::{self, LANES, Simd, prelude::*},
+    lanes::{self, LANES, Simd},
     params::Params,
     periodic::{Space, with_space},
     vector::{self, plus, times},

@@ -1,7 +1,7 @@
 //! Friction at a no-slip surface; `wall_friction` has the derivation.
 
 use crate::{
-    lanes::{self, Simd, f32x8, prelude::*},
+    lanes::{self, Simd, f32x8},
     layout::constants,
     params::FluidParams,
     vector::{Vec3x8, dot, minus, times},

@@ -6,7 +6,7 @@ use crate::{
     body::{Body, Placed, Wrench},
     column::FAR,
     cpu::CHUNK,
-    lanes::{self, Simd, f32x8, prelude::*},
+    lanes::{self, Simd, f32x8},
     layout::constants,
     params::{Incompressible, Params},
     smoothing::Wendland,

@@ -13,7 +13,7 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
-    lanes::{self, LANES, Simd, prelude::*, select, with_lanes},
+    lanes::{self, LANES, Simd, select, with_lanes},
     params::Params,
     vector::{Vec3x8, dot, minus, plus, times},
 };

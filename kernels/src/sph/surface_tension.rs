@@ -11,7 +11,7 @@ use crate::{
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::declare,
-    lanes::{self, LANES, Simd, prelude::*, select},
+    lanes::{self, LANES, Simd, select},
     params::Params,
     periodic::{Space, with_space},
     vector::{dot, times},

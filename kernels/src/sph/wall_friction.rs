@@ -18,7 +18,7 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, prelude::*, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, with_lanes},
     params::Params,
     vector::{Vec3x8, minus, plus, splat, times},
 };
