@@ -1,8 +1,14 @@
-//! Pairs of surface nodes of sponges; `pairs` has the formulas.
+//! Pairs of surface nodes of sponges, and the contact of nodes; `pairs` and `touch` have the formulas.
 
 use glam::Vec3;
 
-use crate::{layout::constants, params::Params};
+use super::descent::Local;
+use crate::{
+    lanes::{self, LANES, Simd, f32x8, select},
+    layout::constants,
+    params::Params,
+    vector::plus,
+};
 
 constants! {
     /// Scalar product of the normals, of opposite sign, above which two surfaces face each other \[1\].
@@ -71,4 +77,33 @@ pub fn pair_radius(params: &Params) -> f32 {
     let reach = (PAIR_REACH * PAIR_REACH + PAIR_OVERLAP * PAIR_OVERLAP).sqrt();
     let edges = (0..).zip(&params.sponges).filter(|(index, _)| params.meets_any(*index));
     edges.map(|(_, sponge)| sponge.contact_edge()).fold(0.0, f32::max) * reach
+}
+
+/// Contact of nodes, for vertex block descent; empty in scenes without any.
+#[derive(Clone, Copy)]
+pub(super) struct Touch<'a> {
+    pub(super) force: &'a [[f32; 4]],
+    pub(super) stiffness: &'a [[f32; 4]],
+    pub(super) between: &'a [[f32; 4]],
+}
+
+impl Touch<'_> {
+    /// Adds the contact of eight nodes to their energy. Nodes in contact move to their minimum, without over-relaxation.
+    #[inline(always)]
+    pub(super) fn add<S: Simd>(&self, simd: S, nodes: &[u32; LANES], local: &mut Local<S>) {
+        if self.force.is_empty() {
+            return;
+        }
+        let [x, y, z, _] = lanes::gather_rows(simd, self.force, nodes);
+        local.force = plus(local.force, [x, y, z]);
+        let [xx, yy, zz, _] = lanes::gather_rows(simd, self.stiffness, nodes);
+        let [xy, xz, yz, _] = lanes::gather_rows(simd, self.between, nodes);
+        let trace: f32x8<S> = xx + yy + zz;
+        let stiffness = &mut local.stiffness;
+        for (sum, own) in stiffness.iter_mut().zip([xx, yy, zz, xy, xz, yz]) {
+            *sum += own;
+        }
+        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+        local.strain += select(trace.simd_gt(zero), one, zero);
+    }
 }

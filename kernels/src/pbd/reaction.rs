@@ -13,9 +13,9 @@ use crate::{
     params::Params,
     pbd::{
         descent::{Material, constants_of, local},
+        meeting::Touch,
         obstacles::{OBSTACLE_MARGIN, Obstacles, array, vector},
         stars::{StarGroup, Stars},
-        touch::Touch,
         vbd::least,
         wetted::Wet,
     },

@@ -26,13 +26,9 @@ use crate::{
     columns::{Columns, Nodes, lane},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, select},
+    lanes::LANES,
     params::Params,
-    pbd::{
-        descent::Local,
-        meeting::{PAIR_REACH, Pair, vector},
-    },
-    vector::plus,
+    pbd::meeting::{PAIR_REACH, Pair, vector},
 };
 
 declare! {
@@ -143,34 +139,5 @@ impl Task<'_> {
             let [lowest, highest] = &mut sum.others;
             (*lowest, *highest) = (lowest.min(other as f32), highest.max(other as f32));
         }
-    }
-}
-
-/// Contact of nodes, for vertex block descent; empty in scenes without any.
-#[derive(Clone, Copy)]
-pub(super) struct Touch<'a> {
-    pub(super) force: &'a [[f32; 4]],
-    pub(super) stiffness: &'a [[f32; 4]],
-    pub(super) between: &'a [[f32; 4]],
-}
-
-impl Touch<'_> {
-    /// Adds the contact of eight nodes to their energy. Nodes in contact move to their minimum, without over-relaxation.
-    #[inline(always)]
-    pub(super) fn add<S: Simd>(&self, simd: S, nodes: &[u32; LANES], local: &mut Local<S>) {
-        if self.force.is_empty() {
-            return;
-        }
-        let [x, y, z, _] = lanes::gather_rows(simd, self.force, nodes);
-        local.force = plus(local.force, [x, y, z]);
-        let [xx, yy, zz, _] = lanes::gather_rows(simd, self.stiffness, nodes);
-        let [xy, xz, yz, _] = lanes::gather_rows(simd, self.between, nodes);
-        let trace: f32x8<S> = xx + yy + zz;
-        let stiffness = &mut local.stiffness;
-        for (sum, own) in stiffness.iter_mut().zip([xx, yy, zz, xy, xz, yz]) {
-            *sum += own;
-        }
-        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        local.strain += select(trace.simd_gt(zero), one, zero);
     }
 }

@@ -23,9 +23,9 @@ use crate::{
     params::Params,
     pbd::{
         descent::{Local, Material, constants_of, inverse, local, product},
+        meeting::Touch,
         obstacles::{Obstacles, Quadratic, array, vector},
         stars::{StarGroup, Stars},
-        touch::Touch,
         wetted::Wet,
     },
     vector::{Vec3x8, choose, dot, minus, plus, times},
