@@ -47,6 +47,7 @@ use crate::{
     layout::constants,
     params::{POLYNOMIAL_RATIO, Params, Solver, SpongeParams},
     pbd::{
+        obstacles::Quadratic,
         stars::{CORNERS, NEIGHBORS, StarGroup, StarShape},
         wetted::{Wet, Wetness},
     },
@@ -350,4 +351,22 @@ pub(super) fn local<S: Simd>(
             local
         },
     )
+}
+
+/// The way to the minimum of an energy without obstacles, and its Hessian, with the target of the node.
+#[inline(always)]
+pub(super) fn least<S: Simd>(
+    simd: S,
+    Local { force, mut stiffness, .. }: Local<S>,
+    (x, target, mass): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),
+    step: f32,
+) -> (Vec3x8<S>, Quadratic<S>) {
+    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
+    let inertia = select(mass.simd_gt(zero), mass, one) / lanes::splat(simd, step * step);
+    for diagonal in &mut stiffness[..3] {
+        *diagonal += inertia;
+    }
+    let inverse = inverse(simd, &stiffness);
+    let pull = plus(force, times(minus(target, x), inertia));
+    (product(&inverse, pull), Quadratic { stiffness, inverse })
 }

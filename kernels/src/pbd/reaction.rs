@@ -12,11 +12,10 @@ use crate::{
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
     pbd::{
-        descent::{Material, constants_of, local},
+        descent::{Material, constants_of, least, local},
         meeting::Touch,
         obstacles::{OBSTACLE_MARGIN, Obstacles, array, vector},
         stars::{StarGroup, Stars},
-        vbd::least,
         wetted::Wet,
     },
     vector::{choose, dot, negative, plus, times},

@@ -22,13 +22,13 @@ use crate::{
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::Params,
     pbd::{
-        descent::{Local, Material, constants_of, inverse, local, product},
+        descent::{Material, constants_of, least, local},
         meeting::Touch,
-        obstacles::{Obstacles, Quadratic, array, vector},
+        obstacles::{Obstacles, array, vector},
         stars::{StarGroup, Stars},
         wetted::Wet,
     },
-    vector::{Vec3x8, choose, dot, minus, plus, times},
+    vector::{Vec3x8, choose, dot, minus, times},
 };
 
 declare! {
@@ -165,24 +165,6 @@ fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: V
     let share = (lanes::splat(simd, NO_RELAXATION_STRAIN) - strain)
         * lanes::splat(simd, 1.0 / (NO_RELAXATION_STRAIN - FULL_RELAXATION_STRAIN));
     one + share.min(short).max(zero).min(one) * material.relaxation
-}
-
-/// The way to the minimum of an energy without obstacles, and its Hessian, with the target of the node.
-#[inline(always)]
-pub(super) fn least<S: Simd>(
-    simd: S,
-    Local { force, mut stiffness, .. }: Local<S>,
-    (x, target, mass): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),
-    step: f32,
-) -> (Vec3x8<S>, Quadratic<S>) {
-    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let inertia = select(mass.simd_gt(zero), mass, one) / lanes::splat(simd, step * step);
-    for diagonal in &mut stiffness[..3] {
-        *diagonal += inertia;
-    }
-    let inverse = inverse(simd, &stiffness);
-    let pull = plus(force, times(minus(target, x), inertia));
-    (product(&inverse, pull), Quadratic { stiffness, inverse })
 }
 
 /// Adds a way to points with stochastic rounding: up or down with a probability in proportion to the remainder.
