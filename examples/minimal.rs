@@ -1,4 +1,5 @@
 //! A sponge absorbs water: build a scene in code, step it, read its state.
+// Prints: ^[0-9.]+ g of [0-9.]+ g of water absorbed$
 
 use sorb::{
     World,
