@@ -1,7 +1,7 @@
 //! Run time against error: the fastest run of every sweep within each budget of error, over the run time of the defaults.
 //!
-//! `cargo bench -p sorb-validation --bench work_precision [-- CASE.. | --quick]`. `sorb validate --work-precision` makes the same sweeps and
-//! writes tables, diagrams and the report of docs/precision.
+//! `cargo bench -p sorb-validation --bench work_precision [-- CASE.. | --quick]`. `sorb validate --work-precision`
+//! makes the same sweeps and writes tables, diagrams and the report of docs/precision.
 
 #![expect(clippy::print_stdout, reason = "the figures are what it is for")]
 

@@ -59,7 +59,7 @@ fn names(folder: &Path, extension: Option<&str>) -> Result<Vec<String>, Box<dyn 
 /// A row of the table.
 fn entry(name: &str, common: &[String], path: &str) -> String {
     let text = |path: &str| format!("include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/{path}\"))");
-    let common = ["layout".to_owned()]
+    let common = ["rows".to_owned()]
         .iter()
         .chain(common)
         .map(|name| text(&format!("common/{name}.wgsl")))

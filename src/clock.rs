@@ -138,8 +138,8 @@ impl Steps {
         }
         let (constant, constant_bound) = smallest(&bounds);
         let edge = sponges().map(|(sponge, _)| sponge.edge).fold(f32::INFINITY, f32::min);
-        let most = if fluid.implicit_viscosity.is_some() { IMPLICIT_COURANT } else { f32::INFINITY };
-        let courant = scene.time.courant.min(most);
+        let maximum = if fluid.implicit_viscosity.is_some() { IMPLICIT_COURANT } else { f32::INFINITY };
+        let courant = scene.time.courant.min(maximum);
         let minimum = scene.time.minimum_step;
         Self { limits: StepLimits { courant, edge, has_fluid, minimum, constant, constant_bound } }
     }

@@ -1,7 +1,10 @@
 //! What worlds are made of: columns, parameters, kernels and the step. **Without any promise**: all of it may change with any version,
 //! names included. For tests, benches and tools of this project.
 
-pub use sorb_kernels::{KERNELS, column, columns, contents, kernel, kernel_named, need, params};
+pub use sorb_kernels::{
+    KERNELS, column, columns, contents, kernel, kernel_named, need, params,
+    step::{Block, HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times},
+};
 
 use sorb_kernels::{
     columns::{Column, Columns},
@@ -9,10 +12,7 @@ use sorb_kernels::{
     params::Params,
 };
 
-pub use crate::schedule::{
-    run::Runner,
-    step::{Block, HostPhase, POROUS_STEP, Phase, RIGID, STEP, Solve, Times},
-};
+pub use crate::schedule::run::Runner;
 use crate::{
     World,
     schedule::{Plan, PlanError},

@@ -162,9 +162,9 @@ fn energy_density(sponge: &SpongeParams, columns: [DVec3; 3], ratio: f64) -> f64
     let (mu, lambda) = (f64::from(sponge.mu), f64::from(sponge.lambda));
     let square: f64 = columns.iter().map(|column| column.length_squared()).sum();
     if sponge.solver == Solver::Vbd {
-        let least = ratio.max(POLYNOMIAL_RATIO);
-        let beyond = ratio / least - 1.0;
-        let logarithm = libm::log(least) + beyond - 0.5 * beyond * beyond;
+        let minimum = ratio.max(POLYNOMIAL_RATIO);
+        let beyond = ratio / minimum - 1.0;
+        let logarithm = libm::log(minimum) + beyond - 0.5 * beyond * beyond;
         let volume = (lambda - mu) * (ratio - 1.0).powi(2);
         return 0.5 * (mu * (square - 3.0 - 2.0 * logarithm) + volume);
     }

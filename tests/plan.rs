@@ -279,8 +279,9 @@ fn implicit_viscosity_is_a_solve_that_ends_when_it_has_converged() {
     const NAMES: [&str; 4] =
         ["sph::viscosity_begin", "sph::viscosity_product", "sph::viscosity_update", "sph::wall_friction"];
     let calls = |keys: &[&str]| {
-        let thick = ["fluid.viscosity=10", "fluid.no_slip=true"];
-        let mut world = common::world(&common::with(&common::preset("water", 0.5), &[&thick, keys].concat()));
+        let viscous = ["fluid.viscosity=10", "fluid.no_slip=true"];
+        let mut world =
+            common::world(&common::with(&common::preset("water", 0.5), &[&viscous, keys].concat()));
         common::steps(&mut world, 5);
         NAMES.map(|name| {
             world.phase_times().iter().find(|time| time.name == name).map_or(0, |time| time.calls)

@@ -55,12 +55,11 @@ impl Run {
             common::frame(&mut world);
             run.samples.push(Sample::of(&world));
             if run.broken.is_none() {
-                run.broken =
-                    common::unhealthy(&world, particles).map(|what| format!("frame {frame}: {what}"));
+                let unhealthy = common::unhealthy(&world, particles);
+                run.broken = unhealthy.map(|what| format!("frame {frame}: {what}"));
             }
             if frame % rate as u64 == 0 {
-                run.text.push_str(&common::line(&world));
-                run.text.push('\n');
+                run.text.push_str(&(common::line(&world) + "\n"));
             }
         }
         run.text.push_str(&format!("digest {:016x}", world.digest()));
@@ -197,11 +196,11 @@ fn squeezed(
     let scene = common::preset(name, RESOLUTION);
     let run = Run::of(&scene, 10.0);
     *claims = run.claims();
-    let (least, _) = run.range(smallest.clone(), volume);
+    let (minimum, _) = run.range(smallest.clone(), volume);
     let full = volume(run.at(before));
-    claims.claim(least < 0.9 * full, format!("volume: {full:.3e} m^3, then {least:.3e} m^3"));
+    claims.claim(minimum < 0.9 * full, format!("volume: {full:.3e} m^3, then {minimum:.3e} m^3"));
     let moment =
-        run.samples.iter().find(|sample| volume(sample) <= least && sample.measures.time >= smallest.start);
+        run.samples.iter().find(|sample| volume(sample) <= minimum && sample.measures.time >= smallest.start);
     let moment = moment.map_or(smallest.end, |sample| sample.measures.time);
     let (held, left) = (absorbed(run.at(before)), absorbed(run.at(moment)));
     claims.claim(
@@ -237,14 +236,14 @@ fn ball_drop() {
     // The ball is in the air for 0.11 s and goes deepest half a tenth later.
     let run = squeezed("ball_drop", 0.1, 0.1..0.25, 1.0, &mut claims);
     let (early, late) = (absorbed(run.at(0.1)), absorbed(run.at(10.0)));
-    let (least, _) = run.range(0.1..2.0, absorbed);
-    claims.claim(least < 0.9 * early, format!("absorbed: {early:.4} kg, pressed out to {least:.4} kg"));
+    let (minimum, _) = run.range(0.1..2.0, absorbed);
+    claims.claim(minimum < 0.9 * early, format!("absorbed: {early:.4} kg, pressed out to {minimum:.4} kg"));
     // Water around the sponge is absorbed again, but not where the ball lies; with so few cells the faces then drain
     // (docs/porous.md).
     let again = absorbed(run.at(1.0));
     claims.claim(
-        again > 1.02 * least && late < 0.95 * early,
-        format!("absorbed: {early:.4} kg, {least:.4} kg under the ball, {again:.4} kg after it, {late:.4} kg in the end"),
+        again > 1.02 * minimum && late < 0.95 * early,
+        format!("absorbed: {early:.4} kg, {minimum:.4} kg under the ball, {again:.4} kg after it, {late:.4} kg in the end"),
     );
     run.finish(claims);
 }
@@ -286,10 +285,10 @@ fn wring() {
     let run = Run::of(&scene, 6.0);
     let mut claims = run.claims();
     let full = volume(run.at(0.3));
-    let (least, _) = run.range(0.3..6.0, volume);
+    let (minimum, _) = run.range(0.3..6.0, volume);
     // Spun dry, the pores have no suction any more.
     let kept = volume(run.at(2.0));
-    claims.claim(least < 0.9 * full, format!("volume: {full:.3e} m^3, then {least:.3e} m^3"));
+    claims.claim(minimum < 0.9 * full, format!("volume: {full:.3e} m^3, then {minimum:.3e} m^3"));
     claims.claim(kept < 0.9 * full, format!("volume: {full:.3e} m^3, and {kept:.3e} m^3 while twisted"));
     let (held, left) = (absorbed(run.at(0.3)), absorbed(run.at(2.8)));
     claims.claim(left < 0.9 * held, format!("absorbed: {held:.4} kg at 0.3 s, {left:.4} kg at 2.8 s"));
@@ -366,8 +365,8 @@ fn water() {
     let mut claims = run.claims();
     let energy = |sample: &Sample| sample.measures.kinetic_energy + sample.measures.potential_energy;
     let (start, end) = (run.start.potential_energy, energy(run.at(2.0)));
-    let (_, most) = run.range(0.0..2.0, energy);
-    claims.claim(most < 1.02 * start, format!("energy: {start:.4} J, then up to {most:.4} J"));
+    let (_, maximum) = run.range(0.0..2.0, energy);
+    claims.claim(maximum < 1.02 * start, format!("energy: {start:.4} J, then up to {maximum:.4} J"));
     claims.claim(end < 0.8 * start, format!("energy: {start:.4} J, then {end:.4} J: the dam has not fallen"));
     let error = run.mean(0.5..2.0, |sample| sample.measures.mean_density_error);
     claims.claim(error < 0.01, format!("mean density error {error:.4}"));
@@ -378,16 +377,16 @@ fn water() {
 fn dry() {
     let run = Run::of(&common::preset("dry", RESOLUTION), 2.0);
     let mut claims = run.claims();
-    let (least, _) = run.range(0.0..0.5, volume);
+    let (minimum, _) = run.range(0.0..0.5, volume);
     let full = run.start.sponge_volume;
-    claims.claim(least < 0.95 * full, format!("volume: {full:.3e} m^3, under the ball {least:.3e} m^3"));
+    claims.claim(minimum < 0.95 * full, format!("volume: {full:.3e} m^3, under the ball {minimum:.3e} m^3"));
     let energy = |sample: &Sample| {
         let m = &sample.measures;
         m.kinetic_energy + m.potential_energy + m.elastic_energy
     };
     let start = run.start.potential_energy;
-    let (_, most) = run.range(0.0..2.0, energy);
-    claims.claim(most < 1.02 * start, format!("energy: {start:.4} J, then up to {most:.4} J"));
+    let (_, maximum) = run.range(0.0..2.0, energy);
+    claims.claim(maximum < 1.02 * start, format!("energy: {start:.4} J, then up to {maximum:.4} J"));
     run.finish(claims);
 }
 

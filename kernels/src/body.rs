@@ -63,8 +63,8 @@ impl Shape {
         let radius = self.bounding_radius();
         match self {
             Self::Hull { planes, .. } => {
-                let least = planes.iter().map(|(_, offset)| *offset).fold(f32::INFINITY, f32::min);
-                if least > 0.0 { radius * (1.0 + range / least) } else { f32::INFINITY }
+                let minimum = planes.iter().map(|(_, offset)| *offset).fold(f32::INFINITY, f32::min);
+                if minimum > 0.0 { radius * (1.0 + range / minimum) } else { f32::INFINITY }
             }
             _ => radius + range,
         }
@@ -296,7 +296,7 @@ fn surface_lanes<S: Simd>(simd: S, shape: &Shape, local: Vec3x8<S>) -> (f32x8<S>
 
 constants! {
     /// Distance from the centre of a ball below which there is no direction \[m\].
-    const LEAST_RADIUS: f32 = 1.0e-12;
+    const MINIMUM_RADIUS: f32 = 1.0e-12;
 }
 
 /// Distance from a ball around the origin.
@@ -304,7 +304,7 @@ constants! {
 fn round<S: Simd>(simd: S, local: Vec3x8<S>, radius: f32) -> (f32x8<S>, Vec3x8<S>) {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
     let length = dot(local, local).sqrt();
-    let off_centre = length.simd_gt(lanes::splat(simd, LEAST_RADIUS));
+    let off_centre = length.simd_gt(lanes::splat(simd, MINIMUM_RADIUS));
     let scale = one / select(off_centre, length, one);
     (length - radius, choose(off_centre, times(local, scale), [zero, one, zero]))
 }

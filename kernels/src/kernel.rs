@@ -11,9 +11,10 @@ use crate::{
 pub use crate::need::Need;
 
 /// Columns that only the twin of a kernel reads or writes.
-#[cfg(all(test, feature = "gpu"))]
+#[cfg(feature = "gpu")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TwinAccess {
+    #[cfg(test)]
     pub(crate) reads: &'static [Column],
     pub(crate) writes: &'static [Column],
 }
@@ -50,7 +51,7 @@ pub struct Kernel {
     #[cfg(all(test, feature = "gpu"))]
     pub(crate) twin_bound: f64,
     /// Columns that the twin reads and writes beyond [`Self::reads`] and [`Self::writes`].
-    #[cfg(all(test, feature = "gpu"))]
+    #[cfg(feature = "gpu")]
     pub(crate) twin_access: TwinAccess,
     /// The passes of the WGSL twin, in order.
     #[cfg(feature = "gpu")]
@@ -82,8 +83,12 @@ impl Kernel {
             bound: 0.0,
             #[cfg(all(test, feature = "gpu"))]
             twin_bound: 0.0,
-            #[cfg(all(test, feature = "gpu"))]
-            twin_access: TwinAccess { reads: &[], writes: &[] },
+            #[cfg(feature = "gpu")]
+            twin_access: TwinAccess {
+                #[cfg(test)]
+                reads: &[],
+                writes: &[],
+            },
             #[cfg(feature = "gpu")]
             twin: &[],
             #[cfg(feature = "gpu")]
@@ -125,8 +130,9 @@ macro_rules! declare {
             bound: $bound,
             #[cfg(all(test, feature = "gpu"))]
             twin_bound: $crate::kernel::declare!(@first $($twin_bound,)? $bound),
-            #[cfg(all(test, feature = "gpu"))]
+            #[cfg(feature = "gpu")]
             twin_access: $crate::kernel::TwinAccess {
+                #[cfg(test)]
                 reads: &[$($($crate::columns::Column::$twin_read),*)?],
                 writes: &[$($($crate::columns::Column::$twin_write),*)?],
             },

@@ -25,6 +25,7 @@ pub mod periodic;
 pub mod reduce;
 pub mod smoothing;
 pub mod stage;
+pub mod step;
 mod sweep;
 #[cfg(test)]
 mod testing;
@@ -77,7 +78,7 @@ kernels! {
     /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
     couple {
         controls, saturation, wetting, pores, interior, suction, zero_distance, control_velocity, drag,
-        velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction, node_velocity,
+        velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction,
         drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
     } shared {
         pub(crate) compliance, pub(crate) impulses, #[cfg(feature = "gpu")] pub weights,

@@ -188,8 +188,8 @@ impl FluidParams {
     pub fn prompt_roughness(&self, step: f32) -> f32 {
         let delayed = self.roughness * step / (step + ROUGHNESS_DELAY * self.roughness.sqrt());
         let at_once = PROMPT_ROUGHNESS * step * step;
-        let most = if at_once > delayed { at_once } else { delayed };
-        if most < self.roughness { most } else { self.roughness }
+        let maximum = if at_once > delayed { at_once } else { delayed };
+        if maximum < self.roughness { maximum } else { self.roughness }
     }
 }
 
@@ -278,7 +278,7 @@ layout! {
         /// Rate at which a full sponge takes water to its own velocity, mu phi / (rho K) \[1/s\].
         pub drag_rate: f32,
         /// The same per speed of the water beside the sponge, `c_F phi^2 / sqrt(K)` \[1/m\].
-        pub inertial_drag: f32,
+        pub inertial_drag_rate: f32,
         /// Whether porosity and permeability fall as the sponge is compressed.
         pub pores_close: bool,
         /// Suction of a saturated node \[Pa\].

@@ -65,7 +65,7 @@ fn begin() {
     clock.status = STATUS_DONE;
     clock.rounds = 0u;
     clock.is_converged = 0u;
-    clock.most_rounds = vec4<u32>(0u);
+    clock.maximum_rounds = vec4<u32>(0u);
     for (var k = 0u; k < EXTREME_COUNT; k += 1u) {
         extremes[k] = 0u;
     }

@@ -25,7 +25,7 @@ fn end_round() {
 
 fn note_rounds() {
     let place = repetition.index - 1u;
-    clock.most_rounds[place] = max(clock.most_rounds[place], clock.rounds);
+    clock.maximum_rounds[place] = max(clock.maximum_rounds[place], clock.rounds);
 }
 
 @compute @workgroup_size(1)

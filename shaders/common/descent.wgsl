@@ -169,7 +169,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
 }
 
 // The way to the minimum of the energy without obstacles.
-fn least(local: Local, x: vec3<f32>, node_target: vec4<f32>, step: f32) -> Quadratic {
+fn minimum(local: Local, x: vec3<f32>, node_target: vec4<f32>, step: f32) -> Quadratic {
     let inertia = node_target.w / (step * step);
     let stiffness = local.stiffness + diagonal(inertia);
     let inverse = inverse_of(stiffness);
@@ -188,7 +188,7 @@ fn react(quadratic: Quadratic, depth: f32, normal: vec3<f32>, slide: vec3<f32>, 
     var direction = normal + along * (friction / length);
     let plain = dot(normal, quadratic.inverse * normal);
     var compliance = dot(normal, quadratic.inverse * direction);
-    if (compliance <= plain * LEAST_COMPLIANCE) {
+    if (compliance <= plain * MINIMUM_COMPLIANCE) {
         direction = normal;
         compliance = plain;
     }

@@ -20,8 +20,8 @@ fn contact_edge(sponge: u32) -> f32 {
 fn pair_of(a: vec3<f32>, b: vec3<f32>, normal_a: vec3<f32>, normal_b: vec3<f32>) -> Pair {
     let weight_a = sqrt(dot(normal_a, normal_a));
     let weight_b = sqrt(dot(normal_b, normal_b));
-    let least = LEAST_FACING + RIM_FACING * (1.0 - max(weight_a, weight_b));
-    let facing = -dot(normal_a, normal_b) / (weight_a * weight_b) - least;
+    let minimum = MINIMUM_FACING + RIM_FACING * (1.0 - max(weight_a, weight_b));
+    let facing = -dot(normal_a, normal_b) / (weight_a * weight_b) - minimum;
     let towards = normal_b - normal_a;
     let normal = towards / sqrt(dot(towards, towards));
     let apart = a - b;

@@ -2,7 +2,7 @@
 
 // Volume fraction, and its slope into the surface, at a distance.
 fn share_at(distance: f32) -> vec2<f32> {
-    let depth = clamp(1.0 - distance / params.boundary_range, 0.0, GREATEST_DEPTH);
+    let depth = clamp(1.0 - distance / params.boundary_range, 0.0, MAXIMUM_DEPTH);
     let square = depth * depth;
     let fifth = square * square * depth;
     return vec2<f32>(fifth * depth, fifth * (6.0 / params.boundary_range)) * params.boundary_share;

@@ -7,7 +7,7 @@ fn received_drag(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> vec4<f32>
         end = control_fluid[first];
     }
     var sum = vec4<f32>(0.0);
-    for (var k = lane & 31u; k < end; k += 32u) {
+    for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let other = control_fluid[first + 1u + k];
         let apart = own.xyz - fluid_position[other].xyz;
         let weight = scale * shape(closeness(params.coupling, dot(apart, apart)));

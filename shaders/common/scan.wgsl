@@ -7,11 +7,11 @@ struct Scan {
     all: vec4<u32>,
 }
 
-var<workgroup> scanned: array<vec4<u32>, 256>;
+var<workgroup> scanned: array<vec4<u32>, GROUP_THREADS>;
 
 fn group_scan(lane: u32, own: vec4<u32>) -> Scan {
     scanned[lane] = own;
-    for (var step = 1u; step < 256u; step = step * 2u) {
+    for (var step = 1u; step < GROUP_THREADS; step = step * 2u) {
         workgroupBarrier();
         var other = vec4<u32>(0u);
         if (lane >= step) {

@@ -9,7 +9,7 @@ struct Scan {
 }
 
 // One for every subgroup.
-var<workgroup> scanned: array<vec4<u32>, 256>;
+var<workgroup> scanned: array<vec4<u32>, GROUP_THREADS>;
 
 fn group_scan(lane: u32, own: vec4<u32>) -> Scan {
     let size = subgroupAdd(1u);
@@ -20,7 +20,7 @@ fn group_scan(lane: u32, own: vec4<u32>) -> Scan {
     }
     workgroupBarrier();
     var result = Scan(within, vec4<u32>(0u));
-    for (var other = 0u; other < 256u / size; other += 1u) {
+    for (var other = 0u; other < GROUP_THREADS / size; other += 1u) {
         let part = scanned[other];
         result.all += part;
         if (other < subgroup) {

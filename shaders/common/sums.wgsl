@@ -1,6 +1,6 @@
 // GroupSums and largest values over the threads of a group, always in the same order.
 
-var<workgroup> shared_rows: array<vec4<f32>, 256>;
+var<workgroup> shared_rows: array<vec4<f32>, GROUP_THREADS>;
 
 fn no_sums() -> GroupSums {
     let zero = vec4<f32>(0.0);

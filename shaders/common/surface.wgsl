@@ -7,7 +7,7 @@ struct Surface {
 
 fn round_surface(local: vec3<f32>, radius: f32) -> Surface {
     let length = sqrt(dot(local, local));
-    if (length > LEAST_RADIUS) {
+    if (length > MINIMUM_RADIUS) {
         return Surface(local * (1.0 / length), length - radius);
     }
     return Surface(vec3<f32>(0.0, 1.0, 0.0), length - radius);

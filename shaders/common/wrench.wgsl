@@ -1,7 +1,7 @@
 // Sums over the threads of a workgroup, always in the same order.
 
-var<workgroup> impulses: array<vec3<f32>, 256>;
-var<workgroup> angular_impulses: array<vec3<f32>, 256>;
+var<workgroup> impulses: array<vec3<f32>, GROUP_THREADS>;
+var<workgroup> angular_impulses: array<vec3<f32>, GROUP_THREADS>;
 var<workgroup> any_touches: atomic<u32>;
 
 struct Wrench {
@@ -28,7 +28,7 @@ fn group_touches(lane: u32, touches: bool) -> bool {
 fn group_sum(lane: u32, own: Wrench) -> Wrench {
     impulses[lane] = own.impulse;
     angular_impulses[lane] = own.angular;
-    for (var half = 128u; half > 0u; half = half / 2u) {
+    for (var half = GROUP_THREADS / 2u; half > 0u; half = half / 2u) {
         workgroupBarrier();
         if (lane < half) {
             impulses[lane] += impulses[lane + half];

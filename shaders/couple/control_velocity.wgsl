@@ -12,7 +12,7 @@
 @group(0) @binding(6) var<storage, read> control_unfiltered: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_velocity: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -31,13 +31,13 @@ fn main(
         end = control_fluid[first];
     }
     var part = 0.0;
-    for (var k = lane & 31u; k < end; k += 32u) {
+    for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let other = control_fluid[first + 1u + k];
         let apart = own.xyz - fluid_position[other].xyz;
         part += scale * shape(closeness(params.coupling, dot(apart, apart))) * weight_inside(fluid_interior[other]);
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;
-    if (!is_row || (lane & 31u) != 0u) {
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let before = control_unfiltered[row];

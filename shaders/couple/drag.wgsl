@@ -1,4 +1,4 @@
-// #include smoothing, drag
+// #include smoothing, drag, weighted_velocity
 // Drag of the sponge on the particles: one sweep for the impulse of each on the sponge; `drag.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -28,17 +28,7 @@ fn main(
         fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let point = fluid_position[row].xyz;
-    var slot = row;
-    var sum = vec4<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
-        let there = control_position[other];
-        let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
-        sum += weight * control_velocity[other];
-    }
+    let sum = weighted_velocity(row, rows, end);
     let inverse = weight_inside(fluid_interior[row]);
     let rate = fluid_drag_rate[row].x * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;

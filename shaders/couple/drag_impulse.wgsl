@@ -1,4 +1,4 @@
-// #include smoothing, drag
+// #include smoothing, drag, weighted_velocity
 // Drag impulse that every particle loses to the sponge, at the present velocities of the nodes; `drag_impulse.rs` has the
 // formulas.
 
@@ -29,25 +29,15 @@ fn main(
         fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let point = fluid_position[row].xyz;
-    var slot = row;
-    var sum = vec3<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
-        let there = control_position[other];
-        let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
-        sum += weight * control_velocity[other].xyz;
-    }
+    let sum = weighted_velocity(row, rows, end);
     let inverse = weight_inside(fluid_interior[row]);
-    let beside = fluid_velocity[row].xyz - sum * inverse;
+    let relative = fluid_velocity[row].xyz - sum.xyz * inverse;
     // The speed that the drag leaves.
-    let speed = length(beside);
+    let speed = length(relative);
     let slowed = 1.0 + fluid_drag_rate[row].x * clock.step;
     let root = sqrt(slowed * slowed + 4.0 * clock.step * fluid_drag_rate[row].y * speed);
     let rate = (fluid_drag_rate[row].x + fluid_drag_rate[row].y * (2.0 * speed / (slowed + root))) * clock.step;
     // The column has impulses and masses over chi.
     let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
-    fluid_drag[row] = vec4<f32>(beside * strength, strength);
+    fluid_drag[row] = vec4<f32>(relative * strength, strength);
 }

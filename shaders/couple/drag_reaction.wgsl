@@ -1,4 +1,4 @@
-// #include smoothing, control_group
+// #include smoothing, control_group, drag_on_node
 // Drag impulses on the nodes, and their moments; `drag_reaction.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -11,7 +11,7 @@
 @group(0) @binding(7) var<storage, read_write> node_drag: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -23,30 +23,11 @@ fn main(
     let row = control_row(group, groups, lane);
     let is_row = row < params.node_rows;
     let own = control_position[min(row, params.node_rows - 1u)];
-    let scale = own.w * params.coupling.value;
-    let first = row * (params.control_fluid_capacity + 1u);
-    var end = 0u;
-    if (is_row) {
-        end = control_fluid[first];
-    }
-    var part = vec4<f32>(0.0);
-    var turning = vec3<f32>(0.0);
-    for (var k = lane & 31u; k < end; k += 32u) {
-        let other = control_fluid[first + 1u + k];
-        let apart = own.xyz - fluid_position[other].xyz;
-        let weight = scale * shape(closeness(params.coupling, dot(apart, apart)));
-        let impulse = weight * fluid_drag[other];
-        part += impulse;
-        turning -= cross(apart, impulse.xyz);
-    }
-    let sum = control_sum(lane, part);
-    // The memory of the sum is used again.
-    workgroupBarrier();
-    let moment = control_sum(lane, vec4<f32>(turning, 0.0));
-    if (!is_row || (lane & 31u) != 0u) {
+    let drag = drag_on_node(own, row, is_row, lane);
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let node = control_node[row];
-    node_drag[node] = sum;
-    node_drag_moment[node] = moment;
+    node_drag[node] = drag.impulse;
+    node_drag_moment[node] = drag.moment;
 }

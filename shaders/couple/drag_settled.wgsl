@@ -1,18 +1,33 @@
-// Fixes the drag of the step: nodes no longer move fluid with them; `drag_settled.rs` has the reason.
+// #include smoothing, control_group, drag_on_node
+// Drag impulses on the nodes, for the last time in a step; `drag_settled.rs` has the reason.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read_write> node_drag: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_drag: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_node: array<u32>;
+@group(0) @binding(6) var<storage, read> control_fluid: array<u32>;
+@group(0) @binding(7) var<storage, read_write> node_drag: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.node_rows) {
+    if (clock.running == 0u) {
         return;
     }
-    node_drag[row].w = 0.0;
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let own = control_position[min(row, params.node_rows - 1u)];
+    let drag = drag_on_node(own, row, is_row, lane);
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
+        return;
+    }
+    let node = control_node[row];
+    node_drag[node] = vec4<f32>(drag.impulse.xyz, 0.0);
+    node_drag_moment[node] = drag.moment;
 }

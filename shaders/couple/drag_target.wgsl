@@ -13,7 +13,7 @@
 @group(0) @binding(8) var<storage, read> node_free: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_target: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -26,13 +26,13 @@ fn main(
     let is_row = row < params.node_rows;
     let own = control_position[min(row, params.node_rows - 1u)];
     let received = received_drag(own, row, is_row, lane);
-    if (!is_row || (lane & 31u) != 0u) {
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let node = control_node[row];
     let start = node_free[node];
     var end = start;
-    if (start.w > 0.0 && received.w > LEAST_DRAG_MASS) {
+    if (start.w > 0.0 && received.w > MINIMUM_DRAG_MASS) {
         let velocity = control_velocity[row].xyz + received.xyz / received.w;
         let mass = start.w + received.w;
         let by_fluid = own.xyz + velocity * clock.step;

@@ -17,7 +17,7 @@
 @group(0) @binding(9) var<storage, read> node_wetting: array<vec4<f32>>;
 
 fn following(porosity: f32) -> f32 {
-    return sqrt(min(FOLLOWING * (1.0 - porosity) / porosity, GREATEST_FOLLOWING));
+    return sqrt(min(FOLLOWING * (1.0 - porosity) / porosity, MAXIMUM_FOLLOWING));
 }
 
 @compute @workgroup_size(GROUP)

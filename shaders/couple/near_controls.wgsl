@@ -11,7 +11,7 @@
 @group(0) @binding(6) var<storage, read_write> control_fluid: array<u32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
-var<workgroup> found: array<u32, 256>;
+var<workgroup> found: array<u32, GROUP_THREADS>;
 
 // Visits the rows of cells of one thread: counts the points within the radius, and writes them from `slot` on, up to `last`
 // if that is not before it.
@@ -62,7 +62,7 @@ fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
     return count;
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -71,11 +71,11 @@ fn main(
     if (clock.running == 0u) {
         return;
     }
-    let row = group_of(group, groups) * 8u + lane / 32u;
+    let row = group_of(group, groups) * CONTROLS_PER_GROUP + lane / CONTROL_THREADS;
     let is_row = row < params.node_rows;
     let query = control_position[min(row, params.node_rows - 1u)];
     let point = query.xyz;
-    let sub = lane & 31u;
+    let sub = lane % CONTROL_THREADS;
     var own = 0u;
     // A node of a sleeping sponge has no volume, and no particle near it.
     if (is_row && query.w > 0.0) {
@@ -95,7 +95,7 @@ fn main(
     if (own > 0u) {
         own = visit(point, sub, first + 1u + before, first + capacity);
     }
-    if (sub == 31u) {
+    if (sub == CONTROL_THREADS - 1u) {
         let all = before + own;
         control_fluid[first] = all;
         if (all > capacity) {

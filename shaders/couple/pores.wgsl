@@ -24,7 +24,7 @@ fn main(
         return;
     }
     if (sponge.pores_close == 0u) {
-        node_pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity);
+        node_pores[row] = vec4<f32>(1.0, sponge.drag_rate, sponge.inertial_drag_rate, sponge.porosity);
         return;
     }
     let tets = node_stars[base + STAR_TETS];
@@ -53,8 +53,8 @@ fn main(
         }
     }
     let volume = 2.0 * sum / (sponge.edge * sponge.edge * sponge.edge);
-    let least = (1.0 - sponge.porosity) / (1.0 - min(LEAST_POROSITY, sponge.porosity));
-    let ratio = clamp(volume / all, least, GREATEST_VOLUME_RATIO);
+    let minimum = (1.0 - sponge.porosity) / (1.0 - min(MINIMUM_POROSITY, sponge.porosity));
+    let ratio = clamp(volume / all, minimum, MAXIMUM_VOLUME_RATIO);
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);
@@ -62,7 +62,7 @@ fn main(
     node_pores[row] = vec4<f32>(
         ratio,
         sponge.drag_rate * opening / permeability * ratio,
-        sponge.inertial_drag * (opening * opening) / sqrt(permeability) * ratio,
+        sponge.inertial_drag_rate * (opening * opening) / sqrt(permeability) * ratio,
         porosity,
     );
     if (sponge.wetting.swelling > 0.0) {

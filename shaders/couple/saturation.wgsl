@@ -15,7 +15,7 @@
 @group(0) @binding(9) var<storage, read_write> control_suction: array<f32>;
 @group(0) @binding(10) var<storage, read_write> node_saturation: array<f32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -33,12 +33,12 @@ fn main(
         end = control_fluid[first];
     }
     var part = 0.0;
-    for (var k = lane & 31u; k < end; k += 32u) {
+    for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let apart = own.xyz - fluid_position[control_fluid[first + 1u + k]].xyz;
         part += shape(closeness(params.coupling, dot(apart, apart)));
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;
-    if (!is_row || (lane & 31u) != 0u) {
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let node = control_node[row];

@@ -12,7 +12,7 @@
 @group(0) @binding(8) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_acceleration: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -32,7 +32,7 @@ fn main(
         end = control_fluid[first];
     }
     var part = vec3<f32>(0.0);
-    for (var k = lane & 31u; k < end; k += 32u) {
+    for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let other = control_fluid[first + 1u + k];
         let particle = fluid_position[other];
         let apart = before - particle.xyz;
@@ -44,7 +44,7 @@ fn main(
         part += (moved.w * (u_after * u_after * u_after)) * apart_after;
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0)).xyz;
-    if (!is_row || (lane & 31u) != 0u) {
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let force = sum * (solid.w * params.solid.gradient * params.particle_mass);

@@ -10,7 +10,7 @@
 @group(0) @binding(6) var<storage, read> control_unfiltered: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_velocity: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -23,7 +23,7 @@ fn main(
     let is_row = row < params.node_rows;
     let own = control_position[min(row, params.node_rows - 1u)];
     let received = received_drag(own, row, is_row, lane).xyz;
-    if (!is_row || (lane & 31u) != 0u) {
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let before = control_unfiltered[row];

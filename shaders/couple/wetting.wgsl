@@ -46,6 +46,6 @@ fn main(
     control_saturation[row] = saturation;
     control_suction[row] = pressure * traits.suction * control_position[row].w;
     node_saturation[node] = saturation;
-    node_wetting[node] = vec4<f32>(wetness, filled, receding, max(mobility, LEAST_MOBILITY));
+    node_wetting[node] = vec4<f32>(wetness, filled, receding, max(mobility, MINIMUM_MOBILITY));
     node_stars[node * STAR_WORDS + STAR_WETNESS] = bitcast<u32>(wetness);
 }

@@ -15,7 +15,7 @@
 @group(0) @binding(9) var<storage, read> node_sponge: array<u32>;
 @group(0) @binding(10) var<storage, read_write> node_acceleration: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -33,13 +33,13 @@ fn main(
         end = control_fluid[first];
     }
     var part = vec3<f32>(0.0);
-    for (var k = lane & 31u; k < end; k += 32u) {
+    for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let apart = point - fluid_position[control_fluid[first + 1u + k]].xyz;
         let u = closeness(params.coupling, dot(apart, apart));
         part += (u * u * u) * apart;
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0)).xyz;
-    if (!is_row || (lane & 31u) != 0u) {
+    if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
     let volume = params.particle_mass / params.rest_density;

@@ -17,7 +17,7 @@ fn exclusive(values: vec4<u32>, before: u32) -> vec4<u32> {
     return vec4<u32>(before, y, z, z + values.z);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -29,7 +29,7 @@ fn main(
         return;
     }
     var start = 0u;
-    if (pages > FEW_PAGES) {
+    if (pages > ONE_GROUP_PAGES) {
         start = page_sums[page];
     } else {
         // Few pages: each adds up those before it.
@@ -42,17 +42,17 @@ fn main(
     // Four tiles of 1024 values at once.
     let first = page * (PAGE_CELLS / 4u) + lane;
     let a = counts[first];
-    let b = counts[first + 256u];
+    let b = counts[first + GROUP_THREADS];
     let c = counts[first + 512u];
     let d = counts[first + 768u];
     let scan = group_scan(lane, vec4<u32>(total(a), total(b), total(c), total(d)));
     let before = exclusive(scan.all, start) + scan.before;
     starts[first] = exclusive(a, before.x);
-    starts[first + 256u] = exclusive(b, before.y);
+    starts[first + GROUP_THREADS] = exclusive(b, before.y);
     starts[first + 512u] = exclusive(c, before.z);
     starts[first + 768u] = exclusive(d, before.w);
     counts[first] = vec4<u32>(0u);
-    counts[first + 256u] = vec4<u32>(0u);
+    counts[first + GROUP_THREADS] = vec4<u32>(0u);
     counts[first + 512u] = vec4<u32>(0u);
     counts[first + 768u] = vec4<u32>(0u);
 }

@@ -6,7 +6,7 @@
 @group(0) @binding(1) var<uniform> grid: Grid;
 @group(0) @binding(2) var<storage, read_write> page_sums: array<u32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;

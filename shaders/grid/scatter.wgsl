@@ -10,7 +10,7 @@
 @group(0) @binding(5) var<storage, read_write> grouped: array<u32>;
 @group(0) @binding(6) var<storage, read_write> page_sums: array<u32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -10,7 +10,7 @@
 @group(0) @binding(6) var<storage, read> node_wetting: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> tet_weight: array<f32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -47,9 +47,9 @@ fn main(
             + sponge.volume_modulus * (ratio - 1.0) * (ratio - 1.0);
         if (solver == SOLVER_VBD) {
             // mu (|F|^2 - 3 - 2 ln J) + (lambda - mu) (J - 1)^2, in differences from rest.
-            let least = max(ratio, POLYNOMIAL_RATIO);
-            let beyond = ratio / least - 1.0;
-            let logarithm = log(least) + beyond - 0.5 * beyond * beyond;
+            let minimum = max(ratio, POLYNOMIAL_RATIO);
+            let beyond = ratio / minimum - 1.0;
+            let logarithm = log(minimum) + beyond - 0.5 * beyond * beyond;
             let first_order = lengths.x + lengths.y + lengths.z - logarithm;
             energy = sponge.mu * (dot(lengths, lengths) + 2.0 * first_order)
                 + (sponge.lambda - sponge.mu) * (ratio - 1.0) * (ratio - 1.0);

@@ -5,10 +5,10 @@
 @group(0) @binding(1) var<storage, read> partial_sums: array<GroupSums>;
 @group(0) @binding(2) var<storage, read_write> totals: array<GroupSums>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(local_invocation_index) lane: u32) {
     var own = no_sums();
-    for (var group = lane; group < summands.groups; group += 256u) {
+    for (var group = lane; group < summands.groups; group += GROUP_THREADS) {
         let sums = partial_sums[group];
         own.a += sums.a;
         own.b += sums.b;

@@ -7,10 +7,10 @@
 @group(0) @binding(3) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> sponge_boxes: array<vec4<f32>>;
 
-var<workgroup> lows: array<vec3<f32>, 128>;
-var<workgroup> highs: array<vec3<f32>, 128>;
+var<workgroup> lows: array<vec3<f32>, SPONGE_THREADS>;
+var<workgroup> highs: array<vec3<f32>, SPONGE_THREADS>;
 
-@compute @workgroup_size(128)
+@compute @workgroup_size(SPONGE_THREADS)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
@@ -19,7 +19,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var high = vec3<f32>(-3.0e38);
     for (var color = 0u; color < VERTEX_COLORS; color += 1u) {
         let range = sponge_ranges[group.x * RANGES + color];
-        for (var row = range.x + lane; row < range.y; row += 128u) {
+        for (var row = range.x + lane; row < range.y; row += SPONGE_THREADS) {
             low = min(low, node_position[row].xyz);
             high = max(high, node_position[row].xyz);
         }

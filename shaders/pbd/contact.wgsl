@@ -40,7 +40,7 @@ fn walls(start: vec3<f32>, old: vec3<f32>, friction: f32) -> vec3<f32> {
     return wall(point, old, vec3<f32>(0.0, 0.0, -1.0), high.z - point.z, friction);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

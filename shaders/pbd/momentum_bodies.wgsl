@@ -17,20 +17,20 @@
 // The nearest body at the end of the step, if it is that near; else a row beyond all bodies.
 fn touched(point: vec3<f32>, margin: f32) -> u32 {
     var found = params.body_rows;
-    var least = margin;
+    var minimum = margin;
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
         // The body is at its place of the beginning of the step, and so is the point in the body's frame.
         let distance = body_surface(body, point - body_velocity(body, point) * clock.step).distance;
-        if (body.touches_nodes != 0u && distance < least) {
+        if (body.touches_nodes != 0u && distance < minimum) {
             found = index;
-            least = distance;
+            minimum = distance;
         }
     }
     return found;
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

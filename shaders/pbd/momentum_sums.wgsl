@@ -24,7 +24,7 @@ struct Sums {
     angular: vec3<f32>,
 }
 
-var<workgroup> sums: array<Sums, 128>;
+var<workgroup> sums: array<Sums, SPONGE_THREADS>;
 
 // Whether a sponge is corrected together with another.
 fn is_joined(own: u32, other: u32) -> bool {
@@ -66,7 +66,7 @@ fn join(a: Sums, b: Sums) -> Sums {
     );
 }
 
-@compute @workgroup_size(128)
+@compute @workgroup_size(SPONGE_THREADS)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u || sponges.all[group.x].solver != SOLVER_VBD) {
         return;
@@ -82,7 +82,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         let sponge = index / VERTEX_COLORS;
         if (sponge == group.x || is_joined(group.x, sponge)) {
             let range = sponge_ranges[sponge * RANGES + index % VERTEX_COLORS];
-            for (var row = range.x + lane; row < range.y; row += 128u) {
+            for (var row = range.x + lane; row < range.y; row += SPONGE_THREADS) {
                 own = join(own, term(row, origin));
             }
         }
@@ -119,7 +119,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         let c = cross(scaled[0], scaled[1]);
         let determinant = dot(scaled[0], a);
         let angular = (all.angular - cross(centre, all.momentum)) / trace;
-        if (determinant > LEAST_DETERMINANT) {
+        if (determinant > MINIMUM_DETERMINANT) {
             turn = vec3<f32>(dot(a, angular), dot(b, angular), dot(c, angular)) / determinant;
         }
     }

@@ -23,7 +23,7 @@ fn is_near(sponge: u32, x: vec3<f32>) -> bool {
     return false;
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -58,7 +58,7 @@ fn main(
     let length = sqrt(dot(sum, sum));
     let area = length / 6.0;
     let edge = sponges.all[sponge].edge;
-    if (area > LEAST_NODE_AREA * edge * edge) {
+    if (area > MINIMUM_NODE_AREA * edge * edge) {
         node_normal[row] = vec4<f32>(sum * (weight / length), area);
     }
 }

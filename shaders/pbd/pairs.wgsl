@@ -42,7 +42,7 @@ fn insert(row: u32, found: u32, other: u32) {
     node_pairs[(place + 1u) * pair_grid.rows + row] = other;
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -12,7 +12,7 @@
 @group(0) @binding(8) var<storage, read_write> node_predicted: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> body_node_wrenches: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

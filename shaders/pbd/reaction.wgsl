@@ -17,8 +17,8 @@ fn is_near(point: vec3<f32>, old: vec3<f32>, margin: f32) -> bool {
     if (params.has_walls != 0u) {
         let low = point - params.wall_low;
         let high = params.wall_high - point;
-        let least = min(low, high);
-        if (min(least.x, min(least.y, least.z)) < margin) {
+        let minimum = min(low, high);
+        if (min(minimum.x, min(minimum.y, minimum.z)) < margin) {
             return true;
         }
     }
@@ -33,7 +33,7 @@ fn is_near(point: vec3<f32>, old: vec3<f32>, margin: f32) -> bool {
     return false;
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -61,7 +61,7 @@ fn main(
         local = local_energy(row, x.xyz, old, sponge, clock.step);
     }
     if (near) {
-        quadratic = least(local, x.xyz, node_target[row], clock.step);
+        quadratic = minimum(local, x.xyz, node_target[row], clock.step);
     }
     let low = params.wall_low;
     let high = params.wall_high;

@@ -56,7 +56,7 @@ fn correct(
 }
 
 fn inverse_length(length: f32) -> f32 {
-    return select(1.0, 1.0 / length, length > LEAST_STRETCH);
+    return select(1.0, 1.0 / length, length > MINIMUM_STRETCH);
 }
 
 fn stretch(compliance: f32, damping: f32) {
@@ -95,7 +95,7 @@ fn volume(compliance: f32, damping: f32, limit: bool) {
     let by_e = cross(f, d);
     let by_f = cross(d, e);
     let ratio = dot(d, by_d);
-    let constraint = select(ratio - 1.0, min(ratio - LEAST_VOLUME_RATIO, 0.0), limit);
+    let constraint = select(ratio - 1.0, min(ratio - MINIMUM_VOLUME_RATIO, 0.0), limit);
     correct(constraint, -(by_d + by_f), by_d - by_f, by_e + by_f, by_f - by_e, compliance, damping);
 }
 

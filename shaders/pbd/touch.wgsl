@@ -13,7 +13,7 @@
 @group(0) @binding(9) var<storage, read_write> node_touch_stiffness: array<vec4<f32>>;
 @group(0) @binding(10) var<storage, read_write> node_touch_between: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -12,7 +12,7 @@ fn set_bit(sponge: u32) {
     atomicOr(&bits[sponge / 32u], 1u << (sponge % 32u));
 }
 
-@compute @workgroup_size(128)
+@compute @workgroup_size(SPONGE_THREADS)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
@@ -23,7 +23,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     workgroupBarrier();
     for (var color = 0u; color < VERTEX_COLORS; color += 1u) {
         let range = sponge_ranges[group.x * RANGES + color];
-        for (var row = range.x + lane; row < range.y; row += 128u) {
+        for (var row = range.x + lane; row < range.y; row += SPONGE_THREADS) {
             set_bit(u32(node_touch[row].w));
             set_bit(u32(node_touch_stiffness[row].w));
         }

@@ -12,7 +12,7 @@
 @group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_predicted: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -30,7 +30,7 @@ fn main(
     }
     let old = node_position[row].xyz;
     let local = local_energy(row, x.xyz, old, sponge, clock.step);
-    let quadratic = least(local, x.xyz, node_target[row], clock.step);
+    let quadratic = minimum(local, x.xyz, node_target[row], clock.step);
     var relaxation = 1.0;
     let edges = quadratic.way / sponge.edge;
     let short = (NO_RELAXATION_WAY * NO_RELAXATION_WAY - dot(edges, edges)) * 4.0 / (3.0 * NO_RELAXATION_WAY * NO_RELAXATION_WAY);
@@ -50,7 +50,7 @@ fn main(
 
 // Adds a way to a point with stochastic rounding, with a probability in proportion to the remainder; see `vbd.rs`.
 fn moved(point: vec3<f32>, way: vec3<f32>) -> vec3<f32> {
-    let digit = max(abs(point), vec3<f32>(LEAST_COORDINATE)) * EPSILON;
+    let digit = max(abs(point), vec3<f32>(MINIMUM_COORDINATE)) * EPSILON;
     let parts = way / digit * ROUNDING_PARTS + 0.5;
     return point + (way + (parts - floor(parts) - 0.5) * digit);
 }

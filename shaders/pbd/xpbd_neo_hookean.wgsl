@@ -10,7 +10,7 @@
 @group(0) @binding(6) var<storage, read> tet_weight: array<f32>;
 @group(0) @binding(7) var<storage, read_write> node_predicted: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -40,7 +40,7 @@ fn main(
     let area_e = cross(f, d);
     let area_f = cross(d, e);
     let square = dot(d, d) + dot(e, e) + dot(f, f);
-    let inverse = 1.0 / select(1.0, square, square > LEAST_SQUARE);
+    let inverse = 1.0 / select(1.0, square, square > MINIMUM_SQUARE);
     let by_norm = array<vec3<f32>, 4>(-(d + f), d - f, e + f, f - e);
     let apart_d = area_d - d;
     let apart_e = area_e - e;

@@ -7,23 +7,23 @@
 @group(0) @binding(3) var<storage, read> body_node_wrenches: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> body_wrenches: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let body = group.x;
     if (clock.running == 0u || body >= params.body_rows) {
         return;
     }
     var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
-    let fluid_groups = (params.fluid_rows + 255u) / 256u;
-    for (var k = lane; k < fluid_groups; k += 256u) {
+    let fluid_groups = (params.fluid_rows + GROUP_THREADS - 1u) / GROUP_THREADS;
+    for (var k = lane; k < fluid_groups; k += GROUP_THREADS) {
         let slot = (k * params.body_rows + body) * 2u;
         own.impulse += body_fluid_wrenches[slot].xyz;
         own.angular += body_fluid_wrenches[slot + 1u].xyz;
     }
     let fluid = group_sum(lane, own);
     own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
-    let node_groups = (params.node_rows + 255u) / 256u;
-    for (var k = lane; k < node_groups; k += 256u) {
+    let node_groups = (params.node_rows + GROUP_THREADS - 1u) / GROUP_THREADS;
+    for (var k = lane; k < node_groups; k += GROUP_THREADS) {
         let slot = (k * params.body_rows + body) * 2u;
         own.impulse += body_node_wrenches[slot].xyz;
         own.angular += body_node_wrenches[slot + 1u].xyz;

@@ -13,7 +13,7 @@
 @group(0) @binding(5) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -39,7 +39,7 @@ fn main(
         let push = pressure * gradient;
         sum -= push;
         let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-        let is_slot = group_of(group, groups) * 256u < rows;
+        let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
             let impulse = push * (clock.step * params.particle_mass);

@@ -8,7 +8,7 @@
 @group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -28,7 +28,7 @@ fn main(
         let body = at_end(body_states[index]);
         let push = own.w * body_share(body, own.xyz).xyz;
         let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-        let is_slot = group_of(group, groups) * 256u < rows;
+        let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
         if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
             let impulse = push * (clock.step * params.particle_mass);
             let all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position, impulse)));

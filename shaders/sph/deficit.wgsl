@@ -13,7 +13,7 @@
 
 // Volume fraction of a surface at a distance, as in `boundary.rs`.
 fn share_of(distance: f32) -> f32 {
-    let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, GREATEST_DEPTH);
+    let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, MAXIMUM_DEPTH);
     let cube = depth * depth * depth;
     return params.cohesion_share * cube * cube;
 }
@@ -34,7 +34,7 @@ fn share_at(point: vec3<f32>) -> f32 {
 
 fn weight(lacks: f32) -> f32 {
     let falling = lacks * (1.0 - DEFICIT_FALL * lacks);
-    return select(falling, max(falling, LEAST_DEFICIT_WEIGHT), lacks > 0.5 / DEFICIT_FALL);
+    return select(falling, max(falling, MINIMUM_DEFICIT_WEIGHT), lacks > 0.5 / DEFICIT_FALL);
 }
 
 @compute @workgroup_size(GROUP)

@@ -52,13 +52,13 @@ fn main(
         }
         let wall = fluid_boundary[row];
         own -= wall.xyz;
-        let least = params.lattice_diagonal / LATTICE_DIAGONAL_RATIO;
+        let minimum = params.lattice_diagonal / LATTICE_DIAGONAL_RATIO;
         // The lists hold the particle itself, which is no pair.
         let rough = (pairs - gradient) * prompt_roughness();
-        let diagonal = max(dot(own, own) + others, least) * (clock.step * clock.step) + rough;
-        let most = params.correction_speed * clock.step / params.spacing;
+        let diagonal = max(dot(own, own) + others, minimum) * (clock.step * clock.step) + rough;
+        let maximum = params.correction_speed * clock.step / params.spacing;
         let share = shapes * (params.smoothing.value * volume) + wall.w;
-        let compression = min(share - 1.0 + fluid_acceleration[row].w, most);
+        let compression = min(share - 1.0 + fluid_acceleration[row].w, maximum);
         fluid_factors[row] = vec4<f32>(own, compression);
         fluid_pressure_rows[row] = vec4<f32>(before.w * params.rest_density, 0.0, diagonal, compression);
     }

@@ -32,7 +32,7 @@ fn walls(point: vec3<f32>, speed: vec3<f32>) -> vec3<f32> {
     );
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
@@ -63,7 +63,7 @@ fn main(
         }
         sum += surface.normal * push;
         let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-        let is_slot = group_of(group, groups) * 256u < params.fluid_rows;
+        let is_slot = group_of(group, groups) * GROUP_THREADS < params.fluid_rows;
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, push > 0.0)) {
             let impulse = surface.normal * (-push * (clock.step * params.particle_mass));

@@ -8,7 +8,7 @@
 @group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
 @group(0) @binding(5) var<storage, read_write> extremes: array<u32, EXTREME_COUNT>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
@@ -17,7 +17,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let groups = arrayLength(&solve_sums) / 2u;
     var own = vec4<f32>(0.0);
     var pressures = 0.0;
-    for (var k = lane; k < groups; k += 256u) {
+    for (var k = lane; k < groups; k += GROUP_THREADS) {
         own += solve_sums[k * 2u];
         pressures += solve_sums[k * 2u + 1u].x;
     }
@@ -41,7 +41,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (rounds > 1u && sums.z > 0.0 && below > 0.0) {
         let ratio = above / below;
         if (is_finite(ratio)) {
-            fluid_pressure_solve.length = clamp(ratio, LEAST_LENGTH, GREATEST_LENGTH);
+            fluid_pressure_solve.length = clamp(ratio, MINIMUM_LENGTH, MAXIMUM_LENGTH);
         }
     }
 }

@@ -5,14 +5,14 @@
 @group(0) @binding(1) var<storage, read> viscosity_sums: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read_write> fluid_viscosity_solve: ViscositySolve;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(local_invocation_index) lane: u32) {
     if (clock.running == 0u) {
         return;
     }
     // Sums of missing groups stay zero.
     var own = vec4<f32>(0.0);
-    for (var k = lane; k < arrayLength(&viscosity_sums); k += 256u) {
+    for (var k = lane; k < arrayLength(&viscosity_sums); k += GROUP_THREADS) {
         own += viscosity_sums[k];
     }
     let sums = group_row(lane, own, false);

@@ -12,7 +12,7 @@
 @group(0) @binding(6) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

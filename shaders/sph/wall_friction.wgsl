@@ -26,7 +26,7 @@ fn wall_friction(point: vec3<f32>, v: vec3<f32>) -> vec3<f32> {
     return v * vec3<f32>(rates.y + rates.z, rates.x + rates.z, rates.x + rates.y);
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,

@@ -40,7 +40,7 @@ pub(crate) struct Device {
     shares: Shares,
     /// Stages of the reduced steps while parts sleep, in the order of [`Awake::ALL`]; none where the device does not run the
     /// whole step.
-    lesser: Vec<Vec<Stage>>,
+    reduced: Vec<Vec<Stage>>,
     /// Awake parts of the next steps.
     awake: Awake,
     /// Columns that are read back for the host.
@@ -71,7 +71,7 @@ struct On {
     /// One for every share of the device, in order.
     programs: Vec<Program>,
     /// One for every reduced plan that was used.
-    lesser: Vec<Option<Program>>,
+    reduced: Vec<Option<Program>>,
     profile: Option<Profile>,
 }
 
@@ -96,12 +96,12 @@ impl Device {
             let segments = plan.shares(&[]).segments;
             segments.into_iter().flat_map(|segment| segment.stages).collect()
         };
-        let lesser = if shares.are_all_on_gpu() { plans.0.iter().map(stages).collect() } else { Vec::new() };
+        let reduced = if shares.are_all_on_gpu() { plans.0.iter().map(stages).collect() } else { Vec::new() };
         Self {
             gpu,
             limits,
             shares,
-            lesser,
+            reduced,
             awake: Awake::EVERYTHING,
             looked_at,
             wants_times,
@@ -120,7 +120,7 @@ impl Device {
             gpu: Arc::clone(&self.gpu),
             limits: self.limits,
             shares: self.shares.clone(),
-            lesser: self.lesser.clone(),
+            reduced: self.reduced.clone(),
             awake: self.awake,
             looked_at: self.looked_at.clone(),
             wants_times: self.wants_times,
@@ -209,8 +209,8 @@ impl Device {
         let programs =
             shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
-        let lesser = self.lesser.iter().map(|_| None).collect();
-        self.resident = Some(On { resident, programs, lesser, profile });
+        let reduced = self.reduced.iter().map(|_| None).collect();
+        self.resident = Some(On { resident, programs, reduced, profile });
         if self.has_all() {
             forget_lists(host);
         } else {
@@ -245,9 +245,9 @@ impl Device {
     pub(crate) fn advance(&mut self, host: &mut Columns, steps: u32) -> Result<Answer, GpuError> {
         self.leave(host);
         let refused = || GpuError::Refused { reason: "no state was uploaded".to_owned() };
-        let On { resident, programs, lesser, profile } = self.resident.as_mut().ok_or_else(refused)?;
+        let On { resident, programs, reduced, profile } = self.resident.as_mut().ok_or_else(refused)?;
         let index = self.awake.index();
-        let program = match self.lesser.get(index).zip(lesser.get_mut(index)) {
+        let program = match self.reduced.get(index).zip(reduced.get_mut(index)) {
             Some((stages, program)) if index > 0 => match program {
                 Some(program) => program,
                 None => program.insert(resident.program_of(stages.clone())?),

@@ -67,8 +67,8 @@ impl World {
         let mut bounds = [0; Bound::ALL.len()];
         while end - self.clock.time > TIME_RESOLUTION && !self.sleep_until(end) {
             self.fill_on_device(end, &mut report, &mut bounds)?;
-            let most = (0..bounds.len()).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
-            report.bound = Bound::ALL[most];
+            let maximum = (0..bounds.len()).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
+            report.bound = Bound::ALL[maximum];
         }
         self.clock.frames += 1;
         report.time = self.clock.time;

@@ -10,7 +10,7 @@ use sorb_kernels::{
 
 use super::{Device, device::looked_at};
 use crate::{
-    schedule::{Offload, Place, Placement, Plan, Transfer},
+    schedule::{Offload, Place, Placement, Plan, Transfer, step::RIGID},
     world::{Options, World, WorldError},
 };
 
@@ -163,7 +163,7 @@ impl Request<'_> {
         let wrenches = "clock, bodies.fluid_wrenches, bodies.node_wrenches";
         vec![
             transfer(first, true, "bodies.states", bodies * 144),
-            transfer(Some("rigid::step"), false, wrenches, clock + bodies * 64),
+            transfer(Some(RIGID.name), false, wrenches, clock + bodies * 64),
         ]
     }
 }

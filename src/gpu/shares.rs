@@ -1,13 +1,12 @@
 //! The shares of CPU and device in a step, and the transfers between them.
 
-use sorb_kernels::{column::Life, columns::Column, kernel::Kernel, stage::Stage};
+use sorb_kernels::{
+    column::Life, columns::Column, couple::weights::sources, kernel::Kernel, kernel_named, stage::Stage,
+};
 
 use crate::schedule::{
     Offload, Place, PlaceError, Plan, PlanLine, Verdict, offload::place_in, order::Part, plan::Work,
 };
-
-/// Kernels that use the cells of `grid::sort_fluid`, which are not transferred: they run where the sort does.
-const BESIDE_SORT: [&str; 2] = ["grid::fluid_neighbors", "couple::controls"];
 
 /// Consecutive kernels at one place.
 #[derive(Clone, Debug)]
@@ -51,16 +50,6 @@ impl Segment {
     }
 }
 
-/// Values beside lists are not transferred: each side computes them from lists and points.
-const WEIGHTS: [(Column, Column, &[Column]); 3] = [
-    (Column::FluidControlWeights, Column::FluidControls, POINTS),
-    (Column::ControlFluidWeights, Column::ControlFluid, POINTS),
-    (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted]),
-];
-
-/// Inputs of the weights of the coupling, beside lists.
-const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
-
 /// Columns with an up-to-date copy, by place.
 #[derive(Clone, Debug)]
 struct Fresh {
@@ -89,16 +78,13 @@ impl Fresh {
             return Vec::new();
         }
         here.push(column);
-        let Some((_, lists, points)) = WEIGHTS.iter().find(|(weights, ..)| *weights == column) else {
-            return vec![column];
-        };
+        let Some((lists, points)) = sources(column) else { return vec![column] };
         // A device computes weights where it needs them: points suffice. The host has to compute them first.
-        let mut sources = points.to_vec();
+        let mut inputs = points.to_vec();
         if place == Place::Cpu {
-            sources.push(*lists);
+            inputs.push(lists);
         }
-        let mut sent: Vec<Column> =
-            sources.into_iter().flat_map(|source| self.bring(source, place)).collect();
+        let mut sent: Vec<Column> = inputs.into_iter().flat_map(|source| self.bring(source, place)).collect();
         if place == Place::Cpu {
             sent.push(column);
         }
@@ -118,7 +104,7 @@ impl Fresh {
 /// their identity.
 fn moved(kernel: &Kernel) -> (Vec<Column>, Vec<Column>) {
     let (mut reads, mut writes) = (kernel.reads.to_vec(), kernel.writes.to_vec());
-    if kernel.name == "sph::advect" {
+    if kernel.returns_fluid() {
         reads.push(Column::FluidId);
         writes.push(Column::FluidId);
     }
@@ -136,52 +122,61 @@ impl Plan {
     /// # Errors
     /// Kernels are asked for at places where they cannot be.
     pub(crate) fn kernels_on_gpu(&self, offload: &Offload) -> Result<Vec<&'static str>, PlaceError> {
-        const SORT: &str = "grid::sort_fluid";
-        let kernels: Vec<&'static Kernel> = self
-            .lines()
-            .iter()
-            .filter(|line| line.verdict == Verdict::Runs)
-            .filter_map(|line| match line.work {
-                Work::Kernel(kernel) => Some(kernel),
-                Work::Host(_) => None,
-            })
-            .collect();
-        let names = kernels.iter().map(|kernel| kernel.name);
+        let kernel = |line: &PlanLine| match line.work {
+            Work::Kernel(kernel) => (line.verdict == Verdict::Runs).then_some(kernel),
+            Work::Host(_) => None,
+        };
+        let kernels: Vec<&'static Kernel> = self.lines().iter().filter_map(kernel).collect();
         match offload {
             Offload::Cpu => Ok(Vec::new()),
-            Offload::Gpu | Offload::Auto => Ok(names.collect()),
-            Offload::From(first) => {
-                let first = if *first == BESIDE_SORT[0] { SORT } else { self.first_of_rounds(first) };
-                let all: Vec<_> = names.skip_while(|name| *name != first).collect();
-                let is_sorted_there = all.contains(&SORT);
-                let stays = |name: &&str| is_sorted_there || !BESIDE_SORT.contains(name);
-                Ok(all.into_iter().filter(stays).collect())
-            }
-            Offload::Each(list) => {
-                let is_known = |name: &str| sorb_kernels::kernel_named(name).is_some();
-                if let Some((name, _)) = list.iter().find(|(name, _)| !is_known(name)) {
-                    return Err(PlaceError::Unknown(name));
-                }
-                let place = |name: &str| {
-                    let kernel = kernels.iter().find(|kernel| kernel.name == name);
-                    kernel.map(|kernel| place_in(list, kernel))
-                };
-                for name in BESIDE_SORT {
-                    let (here, there) = (place(name), place(SORT));
-                    if let (Some(place), true) = (here, here.is_some() && there.is_some() && here != there) {
-                        return Err(PlaceError::BesideSort { kernel: name, place, sort: SORT });
-                    }
-                }
-                for group in self.rounds() {
-                    let mut places = group.iter().map(|line| (line.name, place(line.name)));
-                    let Some((with, there)) = places.next() else { continue };
-                    if let Some((kernel, Some(place))) = places.find(|(_, here)| *here != there) {
-                        return Err(PlaceError::Apart { kernel, place, with });
-                    }
-                }
-                Ok(names.filter(|name| place(name) == Some(Place::Gpu)).collect())
+            Offload::Gpu | Offload::Auto => Ok(kernels.iter().map(|kernel| kernel.name).collect()),
+            Offload::From(first) => Ok(self.kernels_from(first, &kernels)),
+            Offload::Each(list) => self.kernels_of_list(list, &kernels),
+        }
+    }
+
+    /// A kernel and all active kernels after it.
+    fn kernels_from(&self, first: &'static str, kernels: &[&'static Kernel]) -> Vec<&'static str> {
+        let first = self.first_of_rounds(first);
+        let Some(first) = kernels.iter().position(|kernel| kernel.name == first) else { return Vec::new() };
+        // A search right after the sort includes it.
+        let follows = first > 0 && kernels[first].searches_fluid() && kernels[first - 1].sorts_fluid();
+        let all = &kernels[first - usize::from(follows)..];
+        // The cells are not transferred.
+        let is_sorted_there = all.iter().any(|kernel| kernel.sorts_fluid());
+        let stays = |kernel: &&&Kernel| is_sorted_there || !kernel.searches_fluid();
+        all.iter().filter(stays).map(|kernel| kernel.name).collect()
+    }
+
+    /// The active kernels that a list places on a GPU.
+    fn kernels_of_list(
+        &self,
+        list: &[(&'static str, Place)],
+        kernels: &[&'static Kernel],
+    ) -> Result<Vec<&'static str>, PlaceError> {
+        if let Some((name, _)) = list.iter().find(|(name, _)| kernel_named(name).is_none()) {
+            return Err(PlaceError::Unknown(name));
+        }
+        let place = |kernel: &Kernel| place_in(list, kernel);
+        if let Some(sort) = kernels.iter().find(|kernel| kernel.sorts_fluid()) {
+            let mut searches = kernels.iter().filter(|kernel| kernel.searches_fluid());
+            if let Some(kernel) = searches.find(|kernel| place(kernel) != place(sort)) {
+                return Err(PlaceError::BesideSort {
+                    kernel: kernel.name,
+                    place: place(kernel),
+                    sort: sort.name,
+                });
             }
         }
+        for group in self.rounds() {
+            let in_group = |kernel: &&&Kernel| group.iter().any(|line| line.name == kernel.name);
+            let mut members = kernels.iter().filter(in_group);
+            let Some(with) = members.next() else { continue };
+            if let Some(kernel) = members.find(|kernel| place(kernel) != place(with)) {
+                return Err(PlaceError::Apart { kernel: kernel.name, place: place(kernel), with: with.name });
+            }
+        }
+        Ok(kernels.iter().filter(|kernel| place(kernel) == Place::Gpu).map(|kernel| kernel.name).collect())
     }
 
     /// Groups of active lines that are repeated until they have converged.
@@ -244,11 +239,7 @@ fn shares_of(parts: &[Part], on_gpu: &[&str], fresh: &mut Fresh, looked_at: &[Co
                 segment.needs.extend(fresh.bring(column, place));
             }
             writes.into_iter().for_each(|column| fresh.write(column, place));
-            match kernel.name {
-                "grid::sort_fluid" => is_sorted = true,
-                "sph::advect" => is_sorted = false,
-                _ => {}
-            }
+            is_sorted = kernel.sorts_fluid() || is_sorted && !kernel.returns_fluid();
         }
         segment.stages.push(stage.clone());
     }

@@ -172,10 +172,10 @@ impl Flat {
         }
         let along = ((v1 - v0) * (y2 - y0) - (v2 - v0) * (y1 - y0)) / area;
         let down = ((v2 - v0) * (x1 - x0) - (v1 - v0) * (x2 - x0)) / area;
-        let (least, most) = (v0.min(v1).min(v2), v0.max(v1).max(v2));
+        let (minimum, maximum) = (v0.min(v1).min(v2), v0.max(v1).max(v2));
         let start = v0 + down * (centre - y0);
         for x in range((low - 0.5).ceil(), (high - 0.5).floor(), width) {
-            put(x, (start + along * (x as f32 + 0.5 - x0)).clamp(least, most));
+            put(x, (start + along * (x as f32 + 0.5 - x0)).clamp(minimum, maximum));
         }
     }
 }

@@ -108,7 +108,7 @@ fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -
             let reach = (scale / pixel.depth).clamp(1.0, 14.0);
             let taps = super::colour::index(reach);
             let (at, limit) = if sideways { (x, width) } else { (y, height) };
-            let (mut depth, mut thick, mut speed, mut total) = (0.0, 0.0, 0.0, 0.0);
+            let (mut depth, mut thickness, mut speed, mut total) = (0.0, 0.0, 0.0, 0.0);
             for other in at.saturating_sub(taps)..(at + taps + 1).min(limit) {
                 let near = if sideways { pixels[y * width + other] } else { pixels[other * width + x] };
                 // A pixel far in front belongs to another sheet of water. One far behind counts as just behind.
@@ -118,12 +118,13 @@ fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -
                 let distance = other.abs_diff(at) as f32 / (reach + 1.0);
                 let weight = (1.0 - distance * distance).max(0.0);
                 depth += weight * near.depth.min(pixel.depth + apart);
-                thick += weight * near.thickness;
+                thickness += weight * near.thickness;
                 speed += weight * near.speed;
                 total += weight;
             }
             if total > 0.0 {
-                (pixel.depth, pixel.thickness, pixel.speed) = (depth / total, thick / total, speed / total);
+                (pixel.depth, pixel.thickness, pixel.speed) =
+                    (depth / total, thickness / total, speed / total);
             }
         }
     });

@@ -19,7 +19,7 @@ use super::{BodyKind, RigidEngine, Wrench};
 use crate::scene::Scene;
 
 /// Smallest inertia of a body in contact, over that of what it displaces.
-const LEAST_INERTIA: f64 = 0.25;
+const MINIMUM_INERTIA: f64 = 0.25;
 
 /// Inertia factors of light bodies.
 #[derive(Clone, Debug)]
@@ -73,8 +73,8 @@ impl LightBodies {
 
 /// m / m*.
 fn share(density: f32, displaced: f32) -> f64 {
-    let least = LEAST_INERTIA * f64::from(displaced);
-    if f64::from(density) < least { f64::from(density) / least } else { 1.0 }
+    let minimum = MINIMUM_INERTIA * f64::from(displaced);
+    if f64::from(density) < minimum { f64::from(density) / minimum } else { 1.0 }
 }
 
 #[cfg(all(test, feature = "rigid"))]

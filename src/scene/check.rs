@@ -84,8 +84,8 @@ fn table(schema: &'static Json, members: &Table, path: &str, problems: &mut Vec<
 fn array(schema: &'static Json, elements: &[Value], value: &Value, path: &str, problems: &mut Vec<Problem>) {
     let count = |bound: &str| schema.get(bound).and_then(Json::as_u64);
     let length = elements.len() as u64;
-    if count("minItems").is_some_and(|least| length < least)
-        || count("maxItems").is_some_and(|most| length > most)
+    if count("minItems").is_some_and(|minimum| length < minimum)
+        || count("maxItems").is_some_and(|maximum| length > maximum)
     {
         problems.push(wrong_type(path, value, expected(schema, "array")));
         return;

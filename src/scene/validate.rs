@@ -279,12 +279,12 @@ fn wetting(sponge: &Sponge, table: &str, scene: &Scene, problems: &mut Vec<Probl
 }
 
 fn lattice_fits(sponge: &Sponge, fluid: &Fluid, table: &str, problems: &mut Vec<Problem>) {
-    let (least, most) = EDGE_OVER_SPACING;
+    let (minimum, maximum) = EDGE_OVER_SPACING;
     let ratio = sponge.edge / fluid.spacing;
     // A thousandth covers the rounding of decimals.
-    if !(0.999 * least..=1.001 * most).contains(&ratio) {
+    if !(0.999 * minimum..=1.001 * maximum).contains(&ratio) {
         let spacing = number_text(fluid.spacing);
-        let rule = format!("must be {least} to {most} times `fluid.spacing` = {spacing}");
+        let rule = format!("must be {minimum} to {maximum} times `fluid.spacing` = {spacing}");
         problems.push(Problem::rule(format!("{table}.edge"), number_text(sponge.edge), rule));
     }
 }

@@ -1,11 +1,8 @@
 //! Reduced steps while parts of a scene sleep.
 
-use sorb_kernels::{columns::Column, contents::Contents};
+use sorb_kernels::{columns::Column, contents::Contents, step::Phase};
 
-use super::{
-    plan::{Plan, PlanError},
-    step::Phase,
-};
+use super::plan::{Plan, PlanError};
 
 /// The awake parts, as far as phases depend on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

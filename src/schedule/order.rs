@@ -1,11 +1,8 @@
 //! A plan in execution order: without skipped phases, with repetitions written out.
 
-use sorb_kernels::stage::Stage;
+use sorb_kernels::{stage::Stage, step::HostPhase};
 
-use super::{
-    plan::{Plan, PlanLine, Verdict, Work},
-    step::HostPhase,
-};
+use super::plan::{Plan, PlanLine, Verdict, Work};
 
 /// Something that runs in a step.
 #[derive(Clone, Debug)]

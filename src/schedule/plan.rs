@@ -2,12 +2,16 @@
 
 use std::fmt;
 
-use sorb_kernels::{column::Life, columns::Column, contents::Contents, kernel::Kernel, need::Need};
-
-use super::{
-    offload::{Place, Placement},
+use sorb_kernels::{
+    column::Life,
+    columns::Column,
+    contents::Contents,
+    kernel::Kernel,
+    need::Need,
     step::{HostPhase, Phase, Times},
 };
+
+use super::offload::{Place, Placement};
 
 /// Decision about a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -210,7 +210,8 @@ fn sponge_params(scene: &Scene, sponge: &scene::Sponge) -> SpongeParams {
         self_contact: sponge.self_contact,
         porosity: sponge.porosity,
         drag_rate: viscosity * sponge.porosity / (density * sponge.permeability),
-        inertial_drag: sponge.forchheimer * sponge.porosity * sponge.porosity / sponge.permeability.sqrt(),
+        inertial_drag_rate: sponge.forchheimer * sponge.porosity * sponge.porosity
+            / sponge.permeability.sqrt(),
         pores_close: scene.coupling() == scene::Coupling::Porous,
         entry_pressure: sponge.entry_pressure,
         saturation_gain: sponge.saturation_gain,

@@ -56,7 +56,7 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
 /// Whole numbers of particles along the axes, close to the given ones: as many particles as possible, but no more than fit.
 /// A pressure solve presses out a surplus particle in the first step.
 fn filling(wanted: [f32; 3]) -> [u32; 3] {
-    let most = wanted.iter().product::<f32>() * 1.001;
+    let maximum = wanted.iter().product::<f32>() * 1.001;
     let corner = |bits: u32| {
         let mut counts = [1; 3];
         for (axis, count) in counts.iter_mut().enumerate() {
@@ -65,7 +65,7 @@ fn filling(wanted: [f32; 3]) -> [u32; 3] {
         counts
     };
     let particles = |counts: &[u32; 3]| counts.iter().product::<u32>();
-    let fitting = (0..8).map(corner).filter(|counts| particles(counts) as f32 <= most);
+    let fitting = (0..8).map(corner).filter(|counts| particles(counts) as f32 <= maximum);
     fitting.max_by_key(particles).unwrap_or_else(|| corner(0))
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::class::{COLOR_COUNT, VERTEX_COLOR_COUNT, VERTEX_COLOR_SLOT};
+use super::class::{COLORS, VERTEX_COLOR_SLOT, VERTEX_COLORS};
 use super::lattice::{Lattice, first_after};
 
 /// Tets of one colour and one sponge that touch nodes of no other chunk of that colour.
@@ -11,7 +11,7 @@ pub struct TetChunk {
     /// The tets, never empty.
     pub tets: Range<u32>,
     /// Nodes from the first to the last that the chunk touches, for each vertex colour.
-    pub nodes: [Range<u32>; VERTEX_COLOR_COUNT],
+    pub nodes: [Range<u32>; VERTEX_COLORS],
     /// The sponge.
     pub sponge: u32,
 }
@@ -23,7 +23,7 @@ pub struct TetChunk {
 /// colour, so that `split_at_mut` can distribute rows of nodes. The division depends only on the lattice and `target_tets`
 /// (0 counts as 1).
 #[must_use]
-pub fn chunks(lattice: &Lattice, target_tets: usize) -> [Vec<TetChunk>; COLOR_COUNT] {
+pub fn chunks(lattice: &Lattice, target_tets: usize) -> [Vec<TetChunk>; COLORS] {
     std::array::from_fn(|color| {
         let end = lattice.color_start[color + 1];
         let mut cut = Vec::new();

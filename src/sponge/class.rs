@@ -3,11 +3,11 @@
 /// Number of classes: three directions of the A edge, two of the gap to the B edge, two signs.
 pub const TET_CLASS_COUNT: usize = 12;
 
-/// Number of tet colours: class times parity of the cell; the minimum, since 24 tets meet in a node.
-pub const COLOR_COUNT: usize = 2 * TET_CLASS_COUNT;
+/// Colours of tets are class times parity of the cell, the minimum, since 24 tets meet in a node. Vertex colours are A even, A
+/// odd, B even, B odd.
+pub use sorb_kernels::pbd::lattice::{COLORS, VERTEX_COLORS};
 
-/// Number of vertex colours: A even, A odd, B even, B odd.
-pub const VERTEX_COLOR_COUNT: usize = 4;
+const _: () = assert!(COLORS == 2 * TET_CLASS_COUNT, "a colour for each class and parity");
 
 /// Local frame of each class: columns `d`, `o e`, `s f` of a proper rotation, entries 0 and +-1.
 ///
@@ -26,11 +26,11 @@ pub const CLASS_OFFSET: [[[i32; 3]; 4]; TET_CLASS_COUNT] = class_offsets();
 ///
 /// For a cell of parity `q`, slot 0 is A of parity `q` and slot 1 is A of the other parity. Of slots 2 and 3 the one with an
 /// even sum of offsets is B of parity `q`, the other one B of the other parity.
-pub const SLOT_VERTEX_COLOR: [[u8; 4]; COLOR_COUNT] = slot_vertex_colors();
+pub const SLOT_VERTEX_COLOR: [[u8; 4]; COLORS] = slot_vertex_colors();
 
 /// Slot that holds a vertex colour: `VERTEX_COLOR_SLOT[color][vertex_color]`, the inverse of
 /// [`SLOT_VERTEX_COLOR`].
-pub const VERTEX_COLOR_SLOT: [[u8; 4]; COLOR_COUNT] = vertex_color_slots();
+pub const VERTEX_COLOR_SLOT: [[u8; 4]; COLORS] = vertex_color_slots();
 
 const fn class_frames() -> [[[i32; 3]; 3]; TET_CLASS_COUNT] {
     let mut frames = [[[0; 3]; 3]; TET_CLASS_COUNT];
@@ -70,11 +70,11 @@ const fn class_offsets() -> [[[i32; 3]; 4]; TET_CLASS_COUNT] {
     offsets
 }
 
-const fn slot_vertex_colors() -> [[u8; 4]; COLOR_COUNT] {
+const fn slot_vertex_colors() -> [[u8; 4]; COLORS] {
     let offsets = class_offsets();
-    let mut colors = [[0; 4]; COLOR_COUNT];
+    let mut colors = [[0; 4]; COLORS];
     let mut color = 0;
-    while color < COLOR_COUNT {
+    while color < COLORS {
         let mut slot = 0;
         while slot < 4 {
             let offset = offsets[color / 2][slot];
@@ -89,11 +89,11 @@ const fn slot_vertex_colors() -> [[u8; 4]; COLOR_COUNT] {
     colors
 }
 
-const fn vertex_color_slots() -> [[u8; 4]; COLOR_COUNT] {
+const fn vertex_color_slots() -> [[u8; 4]; COLORS] {
     let colors = slot_vertex_colors();
-    let mut slots = [[0; 4]; COLOR_COUNT];
+    let mut slots = [[0; 4]; COLORS];
     let mut color = 0;
-    while color < COLOR_COUNT {
+    while color < COLORS {
         let mut slot = 0;
         while slot < 4 {
             slots[color][colors[color][slot as usize] as usize] = slot;

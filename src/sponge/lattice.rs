@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::class::{COLOR_COUNT, VERTEX_COLOR_COUNT};
+use super::class::{COLORS, VERTEX_COLORS};
 use super::error::LatticeError;
 use super::grid::Grid;
 use super::limits::check;
@@ -69,14 +69,14 @@ pub struct Lattice {
     /// Whether the node lies on the outer surface.
     pub node_surface: Vec<bool>,
     /// First node of each vertex colour (A even, A odd, B even, B odd), then the number of nodes.
-    pub vertex_color_start: [u32; VERTEX_COLOR_COUNT + 1],
+    pub vertex_color_start: [u32; VERTEX_COLORS + 1],
     /// Nodes of each tet, positively oriented, in the slots of [`CLASS_OFFSET`](super::CLASS_OFFSET).
     pub tets: Vec<[u32; 4]>,
     /// Volume that each tet stands for over its own \[1\]: 1 inside, 2 in the face of a block, more at its edges. Its
     /// elastic energy and its pores count with that volume, at the strain of the tet.
     pub tet_weight: Vec<f32>,
     /// First tet of each colour (`class * 2 + parity`), then the number of tets.
-    pub color_start: [u32; COLOR_COUNT + 1],
+    pub color_start: [u32; COLORS + 1],
     /// Sponge of each tet.
     pub tet_sponge: Vec<u32>,
     /// Slab of each tet: the lattice index k of its cell.
@@ -174,7 +174,7 @@ impl Lattice {
         self.tet_slab.reserve_exact(count);
         self.tet_weight.reserve_exact(count);
         let mut next = 0;
-        for color in 0..COLOR_COUNT {
+        for color in 0..COLORS {
             let [class, odd] = [color / 2, color % 2];
             for (index, grid) in (0..).zip(grids) {
                 let deltas = grid.deltas()[class];

@@ -34,8 +34,7 @@ mod tests;
 pub use crate::scene::Axis;
 pub use chunk::{TetChunk, chunks};
 pub use class::{
-    CLASS_FRAME, CLASS_OFFSET, COLOR_COUNT, SLOT_VERTEX_COLOR, TET_CLASS_COUNT, VERTEX_COLOR_COUNT,
-    VERTEX_COLOR_SLOT,
+    CLASS_FRAME, CLASS_OFFSET, COLORS, SLOT_VERTEX_COLOR, TET_CLASS_COUNT, VERTEX_COLOR_SLOT, VERTEX_COLORS,
 };
 pub use error::LatticeError;
 pub use lattice::{Lattice, LatticeSponge, SpongeSummary};

@@ -1,6 +1,6 @@
 //! Connectivity: the pieces into which a mask has cut a sponge.
 
-use super::class::VERTEX_COLOR_COUNT;
+use super::class::VERTEX_COLORS;
 use super::lattice::Lattice;
 
 /// Connected components of the nodes.
@@ -18,7 +18,7 @@ pub struct Pieces {
 /// and rotate about it like a hinge.
 #[must_use]
 pub fn pieces(lattice: &Lattice) -> Pieces {
-    let count = lattice.vertex_color_start[VERTEX_COLOR_COUNT];
+    let count = lattice.vertex_color_start[VERTEX_COLORS];
     let mut parent: Vec<u32> = (0..count).collect();
     for tet in &lattice.tets {
         for &node in &tet[1..] {

@@ -263,7 +263,7 @@ fn steps_far_beyond_what_is_stable() {
     for name in ["ball_drop", "dry", "water"] {
         for factor in [10.0, 100.0] {
             let mut world = busy(name);
-            let (mut fastest, mut most, mut refused) = (0.0_f32, 0, false);
+            let (mut fastest, mut maximum, mut refused) = (0.0_f32, 0, false);
             for _ in 0..50 {
                 let long = factor * world.steps.stable(&world.params, &world.clock).0;
                 world.params.step = long;
@@ -277,16 +277,16 @@ fn steps_far_beyond_what_is_stable() {
                 }
                 assert_eq!(result, Ok(()), "{name} x{factor}");
                 fastest = fastest.max(world.clock.fluid_speed).max(world.clock.node_speed);
-                most = most.max(outside(&world));
+                maximum = maximum.max(outside(&world));
             }
             if refused {
-                println!("| {name} | {factor} | {fastest:.1} m/s | {most} outside | refused |");
+                println!("| {name} | {factor} | {fastest:.1} m/s | {maximum} outside | refused |");
                 continue;
             }
             assert!(is_finite(&world), "{name} x{factor}");
             // Afterwards the world continues, or reports the step that it would need.
             let after = survives(&mut world, 0.5);
-            println!("| {name} | {factor} | {fastest:.1} m/s | {most} outside | {after:?} |");
+            println!("| {name} | {factor} | {fastest:.1} m/s | {maximum} outside | {after:?} |");
             let is_refused = after.as_ref().is_err_and(|text| text.contains("asks for a step of"));
             assert!(after.is_ok() || (factor > 10.0 && is_refused), "{name} x{factor}: {after:?}");
         }

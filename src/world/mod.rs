@@ -23,6 +23,7 @@ use sorb_kernels::{
     contents::Contents,
     cpu::Cpu,
     params::Params,
+    step::{POROUS_STEP, STEP},
 };
 
 use crate::{
@@ -30,7 +31,7 @@ use crate::{
     gpu::Gpu,
     rigid::{LightBodies, RigidEngine},
     scene::Scene,
-    schedule::{Offload, POROUS_STEP, Plans, Runner, STEP},
+    schedule::{Offload, Plans, Runner},
     setup::Setup,
     sponge::Lattice,
     stores::Stores,

@@ -116,7 +116,7 @@ fn a_thin_wall_sweeps_through() {
                     format!("{}: a wall of {thickness} mm at {speed} m/s, steps up to {step} ms", scene.name);
                 let mut scene = swept(scene.clone(), 1e-3 * thickness, speed);
                 scene.time.maximum_step = 1e-3 * step;
-                let figure = Figure { name: "behind the wall %", of: behind, most: 0.0 };
+                let figure = Figure { name: "behind the wall %", of: behind, maximum: 0.0 };
                 // The work of the wall is not counted.
                 let (fastest, excess) = (f64::from(5.0 * speed).max(1.5 * WAVE), None);
                 let case = Case::new(name, scene, f64::from((WAY.1 - WAY.0) / speed) + 0.1);
@@ -133,7 +133,7 @@ const CUP: (f32, f32) = (0.03, 0.002);
 /// A closed cup, half full, shaken along a diagonal.
 fn cup(speed: f32) -> Scene {
     let centre = Vec3::new(0.0, 0.1, 0.0);
-    let (inner, thick) = CUP;
+    let (inner, thickness) = CUP;
     let corner = Vec3::new(-0.1, 0.0, -0.1);
     let mut scene = pool().in_box(corner, Vec3::new(0.1, 0.2, 0.1));
     scene.name = "cup".to_owned();
@@ -143,10 +143,10 @@ fn cup(speed: f32) -> Scene {
     }
     for axis in 0..3 {
         for (name, sign) in [("low", -1.0), ("high", 1.0)] {
-            let mut half_extents = Vec3::splat(inner + 2.0 * thick);
-            half_extents[axis] = thick;
+            let mut half_extents = Vec3::splat(inner + 2.0 * thickness);
+            half_extents[axis] = thickness;
             let mut place = centre;
-            place[axis] += sign * (inner + thick);
+            place[axis] += sign * (inner + thickness);
             let motions = shaken(Vec3::new(0.6, 0.6, 0.53) * speed, 0.05 / speed, 10);
             let shape = ShapeKind::Cuboid { half_extents };
             scene = scene.with_body(Body::kinematic(&format!("{name}{axis}"), shape, place, motions));
@@ -188,7 +188,7 @@ fn a_cup_is_shaken() {
     for (speed, step, known) in CUPS.iter().filter(|(_, step, _)| *step >= pick(1.0, 0.0)) {
         let times = speed / 0.1;
         let name = format!("cup: shaken at {speed} m/s, {times:.0} times a second, steps up to {step} ms");
-        let figure = Figure { name: "spilled %", of: spilled, most: 0.0 };
+        let figure = Figure { name: "spilled %", of: spilled, maximum: 0.0 };
         let mut scene = cup(*speed);
         scene.time.maximum_step = 1e-3 * step;
         let fastest = f64::from(4.0 * speed).max(3.0);

@@ -13,7 +13,7 @@ use crate::{common, energy::Budget};
 const LOOK: f64 = 1.0 / 60.0;
 
 /// Largest number of steps of a case: one that needs more is stuck.
-const MOST_STEPS: u64 = 400_000;
+const MAXIMUM_STEPS: u64 = 400_000;
 
 /// A check of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,7 +24,7 @@ pub(crate) enum Check {
     Built,
     /// No step is refused.
     Step,
-    /// No more steps than [`MOST_STEPS`].
+    /// No more steps than [`MAXIMUM_STEPS`].
     Effort,
     /// Everything is finite and in the box, and no particle is lost.
     Healthy,
@@ -45,7 +45,7 @@ pub(crate) enum Check {
 pub(crate) struct Figure {
     pub(crate) name: &'static str,
     pub(crate) of: fn(&World) -> f64,
-    pub(crate) most: f64,
+    pub(crate) maximum: f64,
 }
 
 /// A case with its bounds.
@@ -154,7 +154,7 @@ fn run(case: &Case, outcome: &mut Outcome) -> Result<(), (Check, String)> {
             outcome.fastest = f64::from(report.maximum_speed);
             outcome.is_node = fastest(world.node_velocities()) >= fastest(world.particle_velocities());
         }
-        if outcome.steps > MOST_STEPS {
+        if outcome.steps > MAXIMUM_STEPS {
             return Err((Check::Effort, format!("{} steps of {:e} s", outcome.steps, report.step)));
         }
         if report.time < next && report.time < case.seconds {
@@ -214,8 +214,8 @@ fn judge(case: &Case, world: &World, outcome: &mut Outcome) {
     if let Some(figure) = case.figure {
         let value = (figure.of)(world);
         outcome.figure = Some(value);
-        if !within(value, figure.most) {
-            outcome.breaks(Check::Figure, format!("{} {value:.3}, bound {}", figure.name, figure.most));
+        if !within(value, figure.maximum) {
+            outcome.breaks(Check::Figure, format!("{} {value:.3}, bound {}", figure.name, figure.maximum));
         }
     }
 }
@@ -263,7 +263,7 @@ mod controls {
         assert_eq!(breaks(&Case { fastest: 0.5, ..good.clone() }), [Check::Speed]);
         assert_eq!(breaks(&Case { excess: Some(-1.0), ..good.clone() }), [Check::Energy]);
         assert_eq!(breaks(&Case { excess: Some(f64::NAN), ..good.clone() }), [Check::Energy]);
-        let figure = Figure { name: "nothing", of: |_| f64::NAN, most: 1.0 };
+        let figure = Figure { name: "nothing", of: |_| f64::NAN, maximum: 1.0 };
         assert_eq!(breaks(&Case { figure: Some(figure), ..good.clone() }), [Check::Figure]);
         assert_eq!(breaks(&Case { recovery: Some((1.0, 1.0)), ..good.clone() }), [Check::Recovery]);
         let mut refused = good.clone();

@@ -85,12 +85,9 @@ fn surface(world: &World) -> f64 {
 
 /// The largest of a sequence; NaN if one of them is NaN.
 pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(
-        f64::NEG_INFINITY,
-        |most, value| {
-            if value <= most || most.is_nan() { most } else { value }
-        },
-    )
+    values.into_iter().fold(f64::NEG_INFINITY, |maximum, value| {
+        if value <= maximum || maximum.is_nan() { maximum } else { value }
+    })
 }
 
 #[test]

@@ -55,17 +55,17 @@ pub(crate) fn crushed(mut scene: Scene, axes: &[usize], gap: f32) -> Scene {
     // Away from the floor, so that a plate fits below.
     scene.sponges[0].position.y = 0.036;
     let sponge = &scene.sponges[0];
-    let (centre, half, thick) = (sponge.position + 0.5 * sponge.size(), 0.5 * sponge.size(), 0.004);
+    let (centre, half, thickness) = (sponge.position + 0.5 * sponge.size(), 0.5 * sponge.size(), 0.004);
     for axis in axes {
         for (name, sign) in [("low", -1.0_f32), ("high", 1.0)] {
             let mut unit = Vec3::ZERO;
             unit[*axis] = sign;
             let mut half_extents = Vec3::splat(0.03);
-            half_extents[*axis] = thick;
+            half_extents[*axis] = thickness;
             let way = half[*axis] - 0.5 * gap;
             let motion = |velocity: Vec3, start: f32| Motion::Linear { velocity, start, end: start + 0.2 };
             let motions = vec![motion(-unit * (way / 0.2), 0.0), motion(unit * (way / 0.2), 0.3)];
-            let position = centre + unit * (half[*axis] + thick);
+            let position = centre + unit * (half[*axis] + thickness);
             let shape = ShapeKind::Cuboid { half_extents };
             scene = scene.with_body(Body::kinematic(&format!("{name}{axis}"), shape, position, motions));
         }

@@ -47,17 +47,17 @@ pub fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
 
 /// Argument of the smallest value over a range, to a thousandth of the range: a scan, then a finer one around the best.
 #[must_use]
-pub fn least(range: (f64, f64), mut value: impl FnMut(f64) -> f64) -> f64 {
+pub fn minimum(range: (f64, f64), mut value: impl FnMut(f64) -> f64) -> f64 {
     let (mut low, mut high) = range;
     let mut best = low;
     for _ in 0..2 {
         let step = (high - low) / 40.0;
-        let mut least = f64::INFINITY;
+        let mut minimum = f64::INFINITY;
         for index in 0..=40 {
             let x = low + step * f64::from(index);
             let found = value(x);
-            if found < least {
-                (least, best) = (found, x);
+            if found < minimum {
+                (minimum, best) = (found, x);
             }
         }
         (low, high) = ((best - step).max(range.0), (best + step).min(range.1));
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn the_least_of_a_parabola_and_the_period_of_a_zigzag_are_found() {
-        assert!((least((0.0, 2.0), |x| (x - 0.7) * (x - 0.7)) - 0.7).abs() < 2e-3);
+        assert!((minimum((0.0, 2.0), |x| (x - 0.7) * (x - 0.7)) - 0.7).abs() < 2e-3);
         let zigzag: Vec<_> = (0..40).map(|i| (f64::from(i), if i % 4 < 2 { -1.0 } else { 1.0 })).collect();
         let crossings = upward_crossings(&zigzag, 0.0);
         assert!(

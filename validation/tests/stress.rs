@@ -90,20 +90,20 @@ fn unhealthy(world: &World, particles: usize) -> Option<String> {
 fn crushed(mut scene: Scene, axes: &[usize], gap: f32) -> Scene {
     let sponge = &scene.sponges[0];
     let centre = sponge.position + 0.5 * sponge.size();
-    let (half, thick) = (0.5 * sponge.size(), 0.004);
+    let (half, thickness) = (0.5 * sponge.size(), 0.004);
     let mut plates = Vec::new();
     for axis in axes {
         for (name, sign) in [("low", -1.0_f32), ("high", 1.0)] {
             let mut unit = Vec3::ZERO;
             unit[*axis] = sign;
             let mut half_extents = Vec3::splat(0.03);
-            half_extents[*axis] = thick;
+            half_extents[*axis] = thickness;
             // Plates of several axes pass each other: each is as wide as the sponge.
             let way = half[*axis] - 0.5 * gap;
             let motion = |velocity: Vec3, start: f32| Motion::Linear { velocity, start, end: start + 0.2 };
             let closes = motion(-unit * (way / 0.2), 0.0);
             let opens = motion(unit * (way / 0.2), 0.3);
-            let position = centre + unit * (half[*axis] + thick);
+            let position = centre + unit * (half[*axis] + thickness);
             let shape = ShapeKind::Cuboid { half_extents };
             plates.push(Body::kinematic(&format!("{name}{axis}"), shape, position, vec![closes, opens]));
         }

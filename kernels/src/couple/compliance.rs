@@ -7,10 +7,10 @@ constants! {
     /// (docs/porous.md).
     const FOLLOWING: f32 = 0.7;
     /// The most that it follows, over the water beside it \[1\].
-    const GREATEST_FOLLOWING: f32 = 1.0;
+    const MAXIMUM_FOLLOWING: f32 = 1.0;
 }
 
 /// Root of the compliance of the material around a node, over that of the water \[1\].
 pub(crate) fn following(porosity: f32) -> f32 {
-    (FOLLOWING * (1.0 - porosity) / porosity).min(GREATEST_FOLLOWING).sqrt()
+    (FOLLOWING * (1.0 - porosity) / porosity).min(MAXIMUM_FOLLOWING).sqrt()
 }

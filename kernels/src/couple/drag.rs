@@ -23,7 +23,7 @@ use crate::{
     vector::{minus, plus, times},
 };
 
-use super::impulses::weight_inside;
+use super::impulses::{weight_inside, weighted};
 
 declare! {
     needs: [Fluid, Sponge],
@@ -55,17 +55,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     continue;
                 }
                 let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
-                let mut sum = [zero; 4];
-                for (entry, weight) in group.iter().zip(&weights[lists.range(row)]) {
-                    let [ux, uy, uz, shared] = lanes::gather_rows(simd, control_velocity, entry);
-                    let weight = lanes::load(simd, weight, 0);
-                    sum = [
-                        sum[0] + weight * ux,
-                        sum[1] + weight * uy,
-                        sum[2] + weight * uz,
-                        sum[3] + weight * shared,
-                    ];
-                }
+                let sum = weighted(simd, control_velocity, group, &weights[lists.range(row)]);
                 let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
                 let sponge = times([sum[0], sum[1], sum[2]], inverse);
                 let [rate, _, _, _] = lanes::load_rows(simd, drag_rate, first + row);

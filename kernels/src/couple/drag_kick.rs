@@ -1,20 +1,32 @@
-//! Subtracts from the particles the drag impulses that the nodes received.
+//! Applies the drag to the particles: they lose the impulses that the nodes gain.
 //!
 //! ```text
 //! v_i -= J_i / m
 //! ```
 
-use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
+use crate::{
+    columns::{Columns, Fluid},
+    cpu::Cpu,
+    kernel::declare,
+    params::Params,
+};
 
 declare! {
-    needs: [Fluid, Sponge, Incompressible, Porous],
+    needs: [Fluid, Sponge],
     reads: [FluidVelocity, FluidInterior, FluidDrag],
     writes: [FluidVelocity],
-    oracle: crate::oracle::porous::drag_kick,
-    bound: 4e-6,
-    twin: [pass("couple::exchange_fluid", Fluid)],
+    oracle: crate::oracle::couple::drag_kick,
+    bound: 2e-6,
+    twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    super::impulses::kick(cpu, params, &mut columns.fluid);
+    let Fluid { velocity, drag, interior, .. } = &mut columns.fluid;
+    let inverse_mass = 1.0 / params.fluid.particle_mass;
+    cpu.for_chunks(&mut velocity[..], |first, velocity| {
+        for ((v, drag), chi) in velocity.iter_mut().zip(&drag[first..]).zip(&interior[first..]) {
+            let scale = chi * inverse_mass;
+            (0..3).for_each(|axis| v[axis] -= drag[axis] * scale);
+        }
+    });
 }

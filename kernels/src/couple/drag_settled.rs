@@ -1,31 +1,24 @@
-//! Fixes the drag of the step: nodes no longer move fluid with them.
+//! Drag impulses on the nodes, for the last time in a step: nodes no longer move fluid with them.
 //!
 //! ```text
-//! k_a = 0
+//! D_a and M_a as in couple::drag_reaction,   k_a = 0
 //! ```
 //!
 //! While the drag responds to the rigid motion of a sponge, `pbd::momentum` moves the mass of the fluid as well. The last
 //! motion must leave the nodes with the impulses that the particles lose, to rounding. It therefore moves the sponge alone,
 //! and the drag is not computed again.
 
-use crate::{
-    columns::{Columns, lane},
-    cpu::Cpu,
-    kernel::declare,
-    params::Params,
-};
+use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
 declare! {
     needs: [Fluid, Solver(Vbd), Incompressible, Porous],
-    reads: [NodeDrag],
-    writes: [NodeDrag],
+    reads: [FluidPosition, FluidDrag, ControlNode, ControlPosition, ControlFluid, ControlFluidWeights],
+    writes: [NodeDrag, NodeDragMoment],
     oracle: crate::oracle::porous::drag_settled,
-    bound: 1e-12,
-    twin: [pass(NAME, Nodes)],
+    bound: 2e-5,
+    twin: [pass(NAME, Controls)],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
-    cpu.for_chunks(&mut columns.nodes.drag[..], |_, drag| {
-        drag.iter_mut().for_each(|row| row[lane::nodes::drag::MASS] = 0.0)
-    });
+    super::impulses::on_nodes(cpu, columns, false);
 }

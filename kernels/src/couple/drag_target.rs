@@ -38,7 +38,7 @@ declare! {
     twin: [pass(NAME, Controls)],
     constants: {
         /// Mass below which nothing is pulled \[kg\]: far below that of any particle, and its inverse is a number.
-        const LEAST_DRAG_MASS: f32 = 1.0e-20;
+        const MINIMUM_DRAG_MASS: f32 = 1.0e-20;
     },
 }
 
@@ -54,7 +54,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
             for row in (0..moved.len()).step_by(LANES) {
                 let [jx, jy, jz, mass] = received(simd, drag, lists.group(row), &weights[lists.range(row)]);
-                let is_pulled = mass.simd_gt(lanes::splat(simd, LEAST_DRAG_MASS));
+                let is_pulled = mass.simd_gt(lanes::splat(simd, MINIMUM_DRAG_MASS));
                 let inverse = select(is_pulled, one / select(is_pulled, mass, one), zero);
                 let [ux, uy, uz, _] = lanes::load_rows(simd, velocity, first + row);
                 let step = lanes::splat(simd, step);

@@ -1,10 +1,10 @@
-//! Applies the drag: particles lose what nodes gain.
+//! Applies the drag to the nodes: they gain what `couple::drag_kick` takes from the particles.
 //!
 //! ```text
-//! v_i -= J_i / m,   u_a = u0_a + sum_i w_ia J_i / m_a
+//! u_a = u0_a + sum_i w_ia J_i / m_a
 //! ```
 //!
-//! Both sides use the same `J_i`, so that momentum is kept at any number of sweeps of the filter.
+//! Both use the same `J_i`, so that momentum is kept at any number of sweeps of the filter.
 
 use crate::{
     columns::Columns,
@@ -14,25 +14,22 @@ use crate::{
     params::Params,
 };
 
-use super::impulses::{kick, received};
+use super::impulses::received;
 
 declare! {
     needs: [Fluid, Sponge],
-    reads: [
-        FluidVelocity, FluidInterior, FluidDrag, ControlNode, ControlUnfiltered, ControlFluid,
-        ControlFluidWeights, NodeVelocity,
-    ],
-    writes: [FluidVelocity, ControlVelocity, NodeVelocity],
+    reads: [FluidDrag, ControlNode, ControlUnfiltered, ControlFluid, ControlFluidWeights, NodeVelocity],
+    writes: [ControlVelocity, NodeVelocity],
     oracle: crate::oracle::couple::exchange,
     bound: 2e-6,
     twin_bound: 5e-6,
     // Weights are computed where they are needed.
     twin_reads: [FluidPosition, ControlPosition],
-    twin: [pass(NAME, Controls), pass("couple::exchange_fluid", Fluid)],
+    twin: [pass(NAME, Controls)],
 }
 
-fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let (fluid, controls, nodes) = (&mut columns.fluid, &mut columns.controls, &mut columns.nodes);
+fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
+    let (fluid, controls, nodes) = (&columns.fluid, &mut columns.controls, &mut columns.nodes);
     let (unfiltered, drag) = (&controls.unfiltered, &fluid.drag);
     cpu.for_chunks(&mut controls.velocity[..], |first, velocity| {
         let (lists, weights) = (controls.fluid.chunk(first), controls.fluid_weights.chunk(first));
@@ -44,7 +41,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             }
         });
     });
-    kick(cpu, params, fluid);
     for (node, velocity) in controls.node.iter().zip(&controls.velocity) {
         let v = &mut nodes.velocity[*node as usize];
         (v[0], v[1], v[2]) = (velocity[0], velocity[1], velocity[2]);

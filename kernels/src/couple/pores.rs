@@ -32,9 +32,9 @@ declare! {
     twin: [pass(NAME, Nodes)],
     constants: {
         /// Porosity below which pores do not get narrower: the lattice can be crushed flat, pores cannot.
-        pub(crate) const LEAST_POROSITY: f32 = 0.15;
+        pub(crate) const MINIMUM_POROSITY: f32 = 0.15;
         /// Volume over that at rest beyond which pores do not get wider: the material would vanish, and drag with it.
-        pub(crate) const GREATEST_VOLUME_RATIO: f32 = 10.0;
+        pub(crate) const MAXIMUM_VOLUME_RATIO: f32 = 10.0;
     },
 }
 
@@ -104,13 +104,13 @@ fn places<S: Simd>(simd: S, position: &[[f32; 4]], rows: &[u32; LANES]) -> Vec3x
 /// J, beta J \[1/s\], gamma J \[1/m\] and porosity of a node.
 fn of_node(sponge: &SpongeParams, volume: f32, weight: f32) -> [f32; 4] {
     if !sponge.pores_close {
-        return [1.0, sponge.drag_rate, sponge.inertial_drag, sponge.porosity];
+        return [1.0, sponge.drag_rate, sponge.inertial_drag_rate, sponge.porosity];
     }
     // Volume ratio at the smallest porosity.
-    let least = (1.0 - sponge.porosity) / (1.0 - LEAST_POROSITY.min(sponge.porosity));
+    let minimum = (1.0 - sponge.porosity) / (1.0 - MINIMUM_POROSITY.min(sponge.porosity));
     let ratio = volume / weight;
-    let ratio = if ratio > least { ratio } else { least };
-    let ratio = if ratio < GREATEST_VOLUME_RATIO { ratio } else { GREATEST_VOLUME_RATIO };
+    let ratio = if ratio > minimum { ratio } else { minimum };
+    let ratio = if ratio < MAXIMUM_VOLUME_RATIO { ratio } else { MAXIMUM_VOLUME_RATIO };
     let porosity = 1.0 - (1.0 - sponge.porosity) / ratio;
     let opening = porosity / sponge.porosity;
     let crowding = (1.0 - sponge.porosity) / (1.0 - porosity);
@@ -118,7 +118,7 @@ fn of_node(sponge: &SpongeParams, volume: f32, weight: f32) -> [f32; 4] {
     [
         ratio,
         sponge.drag_rate * opening / permeability * ratio,
-        sponge.inertial_drag * (opening * opening) / permeability.sqrt() * ratio,
+        sponge.inertial_drag_rate * (opening * opening) / permeability.sqrt() * ratio,
         porosity,
     ]
 }

@@ -8,6 +8,22 @@ use crate::{
     smoothing::Wendland,
 };
 
+/// Columns of values beside lists, with the lists and the positions that they are computed from.
+const SOURCES: [(Column, Column, &[Column]); 3] = [
+    (Column::FluidControlWeights, Column::FluidControls, POINTS),
+    (Column::ControlFluidWeights, Column::ControlFluid, POINTS),
+    (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted]),
+];
+
+const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
+
+/// Lists and positions that a column of values is computed from. Host and device each compute it, so that it is not transferred. None
+/// for other columns.
+#[must_use]
+pub fn sources(column: Column) -> Option<(Column, &'static [Column])> {
+    SOURCES.iter().find(|(values, ..)| *values == column).map(|(_, lists, points)| (*lists, *points))
+}
+
 /// Computes node volume times W for all entries of the lists that a column of weights belongs to, as `couple::interior` and
 /// `couple::saturation` do; other columns are left alone.
 pub fn weigh(params: &Params, columns: &mut Columns, column: Column) {

@@ -34,13 +34,15 @@ declare! {
     ],
     writes: [ControlSaturation, ControlSuction, NodeSaturation, NodeWetting],
     oracle: crate::oracle::wetting::wetting,
-    bound: 5e-5,
+    // Changes of the saturation of a hundredth over a band of a tenth: rounding of the saturation counts a thousand times.
+    bound: 2e-4,
+    twin_bound: 5e-5,
     twin: [pass(NAME, Nodes)],
     constants: {
         /// Change of the saturation over which the suction goes from that of advancing water to that of receding water.
         pub const SCANNING_BAND: f32 = 0.1;
         /// Least mobility: drag stays finite where a kernel reaches into dry pores.
-        pub(crate) const LEAST_MOBILITY: f32 = 1.0e-3;
+        pub(crate) const MINIMUM_MOBILITY: f32 = 1.0e-3;
     },
 }
 
@@ -95,7 +97,7 @@ fn of_node(sponge: &SpongeParams, before: [f32; 4], saturation: f32, step: f32) 
     for _ in 1..own.exponent {
         mobility *= filled;
     }
-    let mobility = if mobility > LEAST_MOBILITY { mobility } else { LEAST_MOBILITY };
+    let mobility = if mobility > MINIMUM_MOBILITY { mobility } else { MINIMUM_MOBILITY };
     let receding = receding + (saturation_before - filled) * (1.0 / SCANNING_BAND);
     let receding = if receding > 0.0 { receding } else { 0.0 };
     let receding = if receding < 1.0 { receding } else { 1.0 };

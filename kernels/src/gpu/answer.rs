@@ -63,7 +63,7 @@ pub struct Answer {
     /// Rounds of repetitions that end when they have converged, of all steps since the time was set.
     pub rounds: u32,
     /// Most rounds that each of them took in these steps, in their order.
-    pub(super) most_rounds: [u32; REPETITIONS],
+    pub(super) maximum_rounds: [u32; REPETITIONS],
     /// The repetition, counted from 1, of which more rounds are needed than were handed in, and how many it had.
     pub(super) unfinished: Option<(usize, u32)>,
     /// Lengths of lists that did not fit.
@@ -161,7 +161,7 @@ layout! {
         /// How many steps every bound limited, in the order of [`Bound::ALL`].
         bounds: [[u32; 4]; 3],
         /// Most rounds of a step in this batch, of each repetition.
-        most_rounds: [u32; REPETITIONS],
+        maximum_rounds: [u32; REPETITIONS],
         /// Rounds of the present repetition so far, see `rounds.wgsl`.
         rounds: u32,
         /// Whether it has converged; what is left of its rounds leaves at once.
@@ -221,7 +221,7 @@ impl Answer {
                 .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
                 .collect(),
             rounds: clock.all_rounds,
-            most_rounds: clock.most_rounds,
+            maximum_rounds: clock.maximum_rounds,
             unfinished: has_status(Status::Unfinished).then_some((clock.unfinished as usize, clock.rounds)),
             longest: has_status(Status::ListFull).then_some(clock.longest),
         }

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::groups::GROUP_THREADS;
 use crate::{
     grid::cells::Domain,
     layout::{constants, layout},
@@ -11,7 +12,7 @@ constants! {
     /// Cells of a page, which a group adds up.
     pub(super) const PAGE_CELLS: u32 = 4096;
     /// Pages up to which each adds up those before it.
-    pub(super) const FEW_PAGES: u32 = 256;
+    pub(super) const ONE_GROUP_PAGES: u32 = GROUP_THREADS;
 }
 
 layout! {
@@ -40,9 +41,9 @@ const SMALLEST_TORUS: u32 = 64;
 impl Grid {
     /// Cells of half the radius: a dense grid over a box, or a torus where there is no box or it has more cells than the
     /// points are worth, or than `most` allows.
-    pub(super) fn new(domain: Domain, radius: f32, points: usize, most: u64) -> Self {
+    pub(super) fn new(domain: Domain, radius: f32, points: usize, maximum: u64) -> Self {
         let edge = 0.5 * radius;
-        let most = most.min(CELLS_PER_POINT * points as u64).max(u64::from(SMALLEST_TORUS).pow(3));
+        let maximum = maximum.min(CELLS_PER_POINT * points as u64).max(u64::from(SMALLEST_TORUS).pow(3));
         let (origin, extent) = match domain {
             Domain::Bounded { minimum, maximum } => (minimum, (maximum - minimum).max(Vec3::ZERO)),
             Domain::Unbounded => (Vec3::ZERO, Vec3::INFINITY),
@@ -50,7 +51,7 @@ impl Grid {
         let mut size = [0, 1, 2].map(|axis| ((extent[axis] / edge).floor() + 1.0).min(1.0e6) as u32);
         let mut wrap = [false; 3];
         let cells = |size: [u32; 3]| size.iter().map(|size| u64::from(*size)).product::<u64>();
-        while cells(size) > most {
+        while cells(size) > maximum {
             let longest = (0..3).max_by_key(|axis| size[*axis]).unwrap_or(0);
             if size[longest] <= SMALLEST_TORUS {
                 break;

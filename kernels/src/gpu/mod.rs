@@ -18,6 +18,8 @@ mod answer;
 mod cells;
 mod device;
 mod error;
+mod facts;
+mod groups;
 pub(crate) mod layout;
 mod pack;
 mod pipeline;

@@ -7,7 +7,7 @@ use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 
 use super::{device::Gpu, error::GpuError, wgsl};
 
-/// The constant of `layout.wgsl` for the threads of a group.
+/// The constant of `rows.wgsl` for the threads of a group.
 const GROUP: &str = "GROUP";
 
 /// Whether the groups of a pass can have any number of threads; else they have 256, or one.

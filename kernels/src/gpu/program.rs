@@ -5,8 +5,9 @@ use std::sync::Arc;
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 
 use super::{
-    cells::FEW_PAGES,
+    cells::ONE_GROUP_PAGES,
     error::GpuError,
+    groups::{CONTROLS_PER_GROUP, GROUP_THREADS, SMALL_GROUP_ROWS, SMALL_GROUP_THREADS},
     layout::Value,
     pack::{BATCH_STRIDE, BATCHES, Batch, Repetition},
     pipeline::{Pipeline, has_any_group},
@@ -19,11 +20,6 @@ use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS, stage::Sta
 pub(super) const REPETITIONS: usize = 4;
 /// Rounds that are encoded before it is known how many are needed.
 const FIRST_ROUNDS: u32 = 4;
-/// Threads of a group.
-pub(super) const GROUP: u32 = 256;
-/// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP`].
-pub(super) const SMALL_GROUP: u32 = 64;
-pub(super) const FEW_ROWS: u64 = 65_536;
 
 /// A pass bound to its buffers.
 #[derive(Debug)]
@@ -74,9 +70,9 @@ impl Program {
         parts.iter().map(|part| part.len()).sum::<usize>() + self.finish.len()
     }
 
-    /// Whether one of these kernels runs.
-    pub(super) fn runs(&self, name: &str) -> bool {
-        self.stages.iter().flat_map(Stage::kernels).any(|kernel| kernel.name == name)
+    /// Whether a kernel with a property runs.
+    pub(super) fn runs(&self, has: impl Fn(&Kernel) -> bool) -> bool {
+        self.stages.iter().flat_map(Stage::kernels).any(|kernel| has(kernel))
     }
 
     /// The passes of a step in order, from the repetition `index` on if `index` is above 0: of that one `more` rounds.
@@ -144,21 +140,20 @@ impl Resident {
     /// As [`Self::program`], or there are too many repetitions.
     pub fn program_of(&self, stages: Vec<Stage>) -> Result<Program, GpuError> {
         let mut step = Vec::new();
-        let mut before = "";
+        let mut before: Option<&Kernel> = None;
         let mut repetitions = 0;
-        let searches = |stage: &Stage| stage.kernels().iter().any(|kernel| kernel.name == "couple::controls");
-        let searches_again = stages.iter().any(searches);
+        let kernels = stages.iter().flat_map(Stage::kernels);
+        let last_search = kernels.filter(|kernel| kernel.searches_fluid()).last().map(|kernel| kernel.name);
         for stage in &stages {
             let mut dispatches = Vec::new();
             for kernel in stage.kernels() {
-                // The search has every pair at hand and sums up the density.
-                let is_done = kernel.name == "sph::density" && before == "grid::fluid_neighbors";
-                let is_checked_later = searches_again && kernel.name == "grid::fluid_neighbors";
+                let is_done = before.is_some_and(|before| kernel.is_done_by(before));
+                let is_checked_later = kernel.searches_fluid() && last_search != Some(kernel.name);
                 let is_needed = |pass: &&Pass| !(is_done || is_checked_later && **pass == CHECK);
                 for pass in kernel.twin.iter().filter(is_needed) {
                     self.bind(kernel.name, pass, None, &mut dispatches)?;
                 }
-                before = kernel.name;
+                before = Some(kernel);
             }
             match stage {
                 Stage::Run(_) => match step.last_mut() {
@@ -235,9 +230,13 @@ impl Resident {
         };
         for color in batches {
             let (group, count) = match self.threads(pass.rows, color) {
-                Threads::Groups(count) => (GROUP, count),
+                Threads::Groups(count) => (GROUP_THREADS, count),
                 Threads::Single(rows) => {
-                    let group = if any_group && rows < FEW_ROWS { SMALL_GROUP } else { GROUP };
+                    let group = if any_group && rows < SMALL_GROUP_ROWS {
+                        SMALL_GROUP_THREADS
+                    } else {
+                        GROUP_THREADS
+                    };
                     (group, rows.div_ceil(u64::from(group)))
                 }
             };
@@ -292,10 +291,10 @@ impl Resident {
             Rows::FluidOrNodes => threads(fluid.max(nodes)),
             Rows::Colors | Rows::VertexColors => threads(self.batches[color].count as usize),
             Rows::Sponges => groups(self.params.sponges.len() as u64),
-            Rows::Controls => groups(nodes.div_ceil(8) as u64),
-            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > u64::from(FEW_PAGES))),
-            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > u64::from(FEW_PAGES))),
-            Rows::PairScan => groups(u64::from(self.grids[2].pages() > u64::from(FEW_PAGES))),
+            Rows::Controls => groups(nodes.div_ceil(CONTROLS_PER_GROUP as usize) as u64),
+            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > u64::from(ONE_GROUP_PAGES))),
+            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > u64::from(ONE_GROUP_PAGES))),
+            Rows::PairScan => groups(u64::from(self.grids[2].pages() > u64::from(ONE_GROUP_PAGES))),
             Rows::PairPages => groups(self.grids[2].pages()),
             Rows::FluidPages => groups(self.grids[0].pages()),
             Rows::ControlPages => groups(self.grids[1].pages()),
@@ -305,11 +304,11 @@ impl Resident {
 
     /// Groups in two dimensions, none larger than the device allows.
     fn lines(&self, count: u64) -> [u32; 2] {
-        let most = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
-        if count <= most {
+        let maximum = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
+        if count <= maximum {
             return [count as u32, 1];
         }
-        let lines = count.div_ceil(most);
+        let lines = count.div_ceil(maximum);
         [count.div_ceil(lines) as u32, lines as u32]
     }
 }

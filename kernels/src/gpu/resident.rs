@@ -9,9 +9,9 @@ use super::{
     cells::{Grid, PAGE_CELLS},
     device::Gpu,
     error::GpuError,
+    groups::{maximum_groups, wrench_bytes},
     layout::Value,
     pack::{self, BATCH_STRIDE, BATCHES, Batch, Capacities, DeviceBody, NodeTraits, SPONGES, StepParams},
-    program::{FEW_ROWS, GROUP, SMALL_GROUP},
     stars::{self, RANGES},
     sums::{GroupSums, sum_groups},
 };
@@ -26,13 +26,7 @@ use crate::{
 };
 
 /// Most cells of a grid: their counts and starts are one binding each.
-const MOST_CELLS: u64 = 1 << 28;
-
-/// Most groups of a pass over this many rows: groups are small where there are few rows.
-fn most_groups(rows: u64) -> u64 {
-    let small = rows.min(FEW_ROWS).div_ceil(u64::from(SMALL_GROUP));
-    small.max(rows.div_ceil(u64::from(GROUP)))
-}
+const MAXIMUM_CELLS: u64 = 1 << 28;
 
 /// Columns on a device. State stays there from step to step.
 #[derive(Debug)]
@@ -77,17 +71,18 @@ impl Resident {
         }
         let rows = columns.rows;
         // Counts and starts are padded to pages.
-        let most = (gpu.limits.max_storage_buffer_binding_size / 4).saturating_sub(8192).min(MOST_CELLS);
+        let maximum =
+            (gpu.limits.max_storage_buffer_binding_size / 4).saturating_sub(8192).min(MAXIMUM_CELLS);
         let fluid = params.fluid.list_radius();
         let grids = [
-            Grid::new(params.domain, fluid, rows.fluid, most),
-            Grid::new(params.domain, params.coupling.support_radius, rows.nodes, most),
+            Grid::new(params.domain, fluid, rows.fluid, maximum),
+            Grid::new(params.domain, params.coupling.support_radius, rows.nodes, maximum),
             // Where nothing can touch, its buffers are empty and no pass takes it.
             Grid::new(
                 params.domain,
                 if params.has_touch() { pair_radius(params) } else { 1.0 },
                 rows.nodes,
-                most,
+                maximum,
             ),
         ];
         let (batches, tet_sponge) = pack::batches(&columns.nodes.topology);
@@ -159,7 +154,7 @@ impl Resident {
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
-        let thick = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
+        let viscous_rows = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
         let touching = if self.params.has_touch() { nodes } else { 0 };
         let stars = stars::star_words(&columns.nodes, self.rows.nodes, self.params.has_touch());
@@ -168,7 +163,6 @@ impl Resident {
         let page_sums = |cells: u64| 4 * cells / u64::from(PAGE_CELLS);
         let sponges = self.params.sponges.len() as u64;
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
-        let groups = |rows: u64| rows.div_ceil(256) * bodies * 32;
         let planes = pack::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         let own = vec![
@@ -182,9 +176,9 @@ impl Resident {
             ("extremes", 4 * Extreme::ALL.len() as u64, plain),
             ("convergence", 16, plain),
             ("fluid_pressure_solve", Solve::BYTES, plain),
-            ("solve_sums", most_groups(solved) * 32, plain),
+            ("solve_sums", maximum_groups(solved) * 32, plain),
             ("fluid_viscosity_solve", ViscositySolve::BYTES, plain),
-            ("viscosity_sums", most_groups(thick) * 16, plain),
+            ("viscosity_sums", maximum_groups(viscous_rows) * 16, plain),
             ("fluid_cells", fluid * 4, plain),
             ("fluid_slots", fluid * 4, plain),
             ("fluid_grouped", fluid * 4, plain),
@@ -218,8 +212,8 @@ impl Resident {
             ("control_fluid", list(controls, self.capacities[2]), plain),
             ("body_states", bodies * DeviceBody::BYTES, plain),
             ("planes", planes * 16, plain),
-            ("body_fluid_wrenches", groups(fluid), plain),
-            ("body_node_wrenches", groups(nodes), plain),
+            ("body_fluid_wrenches", wrench_bytes(self.rows.fluid, self.rows.bodies) as u64, plain),
+            ("body_node_wrenches", wrench_bytes(self.rows.nodes, self.rows.bodies) as u64, plain),
             ("body_wrenches", bodies * WRENCH_BYTES, plain),
             ("node_mass", nodes * 4, plain),
             ("partial_sums", sum_groups(self.rows) * GroupSums::BYTES, plain),
@@ -233,9 +227,9 @@ impl Resident {
     fn allocate(&mut self, name: &'static str, size: u64, usage: BufferUsages) -> Result<(), GpuError> {
         let size = size.max(DeviceBody::BYTES).next_multiple_of(16);
         let limits = &self.gpu.limits;
-        let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        if size > most {
-            let reason = format!("the adapter binds at most {most} bytes");
+        let maximum = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        if size > maximum {
+            let reason = format!("the adapter binds at most {maximum} bytes");
             return Err(GpuError::OutOfMemory { buffer: name, needed: size, reason });
         }
         let usage = usage | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
@@ -361,9 +355,9 @@ pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
     // Two nodes per cell of the lattice.
     let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
     let pitch = 0.5 * f64::from(edge).powi(3);
-    let entries = |radius: f32, volume: f64, most: usize| {
+    let entries = |radius: f32, volume: f64, maximum: usize| {
         let entries = (1.5 * ball(radius) / volume).ceil() as u32;
-        entries.next_multiple_of(8).max(32).min(most.next_multiple_of(8) as u32)
+        entries.next_multiple_of(8).max(32).min(maximum.next_multiple_of(8) as u32)
     };
     let radius = params.coupling.support_radius;
     [

@@ -20,7 +20,7 @@ use crate::{
 static HALVING: Shader = Shader {
     name: "test::halving",
     source: concat!(
-        include_str!("../../../shaders/common/layout.wgsl"),
+        include_str!("../../../shaders/common/rows.wgsl"),
         "
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<storage, read_write> fluid_density: array<f32>;
@@ -109,7 +109,7 @@ fn rounds_end_when_they_have_converged_however_many_are_encoded() {
         let expected = [0.5_f32.powi(NEEDED as i32), steps as f32].map(f32::to_bits);
         assert_eq!(found, expected, "{planned} {steps}");
         assert_eq!((answer.outcome, answer.steps), (Outcome::Done, steps), "{planned}");
-        assert_eq!((answer.rounds, answer.most_rounds[0]), (steps * NEEDED, NEEDED), "{planned} {steps}");
+        assert_eq!((answer.rounds, answer.maximum_rounds[0]), (steps * NEEDED, NEEDED), "{planned} {steps}");
     }
 }
 
@@ -118,6 +118,6 @@ fn rounds_end_at_the_maximum() {
     for planned in [1, 3, 5] {
         let (found, answer) = halved(5, planned, 3);
         assert_eq!(found, [0.5_f32.powi(5), 3.0].map(f32::to_bits), "{planned}");
-        assert_eq!((answer.rounds, answer.most_rounds[0]), (15, 5), "{planned}");
+        assert_eq!((answer.rounds, answer.maximum_rounds[0]), (15, 5), "{planned}");
     }
 }

@@ -10,6 +10,7 @@ use super::{
     program::{Dispatch, Program},
     resident::Resident,
 };
+use crate::{columns::Column, kernel::Kernel};
 
 /// Steps of one submission.
 const STEPS_AT_ONCE: u32 = 16;
@@ -39,10 +40,10 @@ impl Resident {
     /// Forgets the extremes that kernels are about to find, and keeps those that were found before them.
     fn clear_extremes(&self, program: &Program) {
         let mut stale = vec![Extreme::Neighbors, Extreme::Controls, Extreme::ControlFluid, Extreme::Pairs];
-        if program.runs("sph::kick") {
+        if program.runs(|kernel| kernel.renews(Column::FluidExtremes)) {
             stale.extend([Extreme::FluidSpeed, Extreme::FluidAcceleration, Extreme::FluidRow]);
         }
-        if program.runs("pbd::velocity") {
+        if program.runs(|kernel| kernel.renews(Column::NodeExtremes)) {
             stale.extend([Extreme::NodeSpeed, Extreme::NodeRow]);
         }
         stale.into_iter().for_each(|extreme| self.write_extreme(extreme, 0));
@@ -71,14 +72,14 @@ impl Resident {
                 self.submit(&parts, true, None)?;
                 answer = self.listen()?;
             }
-            program.expect(answer.most_rounds);
+            program.expect(answer.maximum_rounds);
             let Some(longest) = answer.longest else { break };
             self.lengthen(longest)?;
         }
-        if program.runs("grid::sort_fluid") {
+        if program.runs(Kernel::sorts_fluid) {
             self.sorted = true;
         }
-        if program.runs("sph::advect") {
+        if program.runs(Kernel::returns_fluid) {
             self.sorted = false;
         }
         Ok(())
@@ -106,7 +107,7 @@ impl Resident {
             let answer = self.listen()?;
             to_do -= to_do.min(answer.steps - self.steps);
             self.steps = answer.steps;
-            program.expect(answer.most_rounds);
+            program.expect(answer.maximum_rounds);
             if let Some(longest) = answer.longest {
                 self.lengthen(longest)?;
                 self.has_begun = false;
@@ -235,5 +236,52 @@ impl Resident {
         let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
         let (clock, wrenches) = words.split_at(Clock::WORDS);
         Ok(Answer::new(&Clock::take(clock), bytemuck::cast_slice(wrenches)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        clock::{Bound, StepLimits},
+        gpu::Gpu,
+        grid,
+        tests::scene::{FULL, Scene},
+    };
+
+    #[test]
+    fn lengths_of_lists_in_an_earlier_step_are_forgotten() {
+        let scene = Scene::new(FULL);
+        let limits = StepLimits {
+            courant: 0.25,
+            edge: f32::INFINITY,
+            has_fluid: true,
+            minimum: 1e-9,
+            constant: 1.0,
+            constant_bound: Bound::Maximum,
+        };
+        let fail = |error: GpuError| -> ! { panic!("{error}") };
+        let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| fail(error)));
+        let mut columns = scene.columns.clone();
+        let mut resident =
+            Resident::new(&gpu, &columns, &scene.params, limits).unwrap_or_else(|error| fail(error));
+        let search = [&grid::sort_fluid::KERNEL, &grid::fluid_neighbors::KERNEL];
+        let reads: Vec<Column> = search.iter().flat_map(|kernel| kernel.reads).copied().collect();
+        resident.upload(&mut columns, &reads, false).unwrap_or_else(|error| fail(error));
+        let mut program = resident.program(&search).unwrap_or_else(|error| fail(error));
+        let before = resident.capacities;
+        for extreme in [Extreme::Neighbors, Extreme::Controls, Extreme::ControlFluid, Extreme::Pairs] {
+            resident.write_extreme(extreme, 1 << 12);
+            resident.run_kernels(&mut program, 1e-4).unwrap_or_else(|error| fail(error));
+            assert_eq!(resident.capacities, before, "{extreme:?}");
+        }
+        // Negative control: without clearing, the step stops for a list that is too long.
+        resident.write_extreme(Extreme::Neighbors, 1 << 12);
+        resident.set_step(1e-4);
+        resident.submit(&program.parts(0, 0), true, None).unwrap_or_else(|error| fail(error));
+        let answer = resident.listen().unwrap_or_else(|error| fail(error));
+        assert!(answer.longest.is_some());
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{
     error::GpuError,
+    groups::groups_of,
     layout::Value,
     pack::Summands,
     resident::Resident,
@@ -34,7 +35,7 @@ constants! {
 
 /// Groups of the largest of the stores that are summed up.
 pub(super) fn sum_groups(rows: RowCounts) -> u64 {
-    rows.fluid.max(rows.nodes).max(rows.tets).div_ceil(256) as u64
+    groups_of(rows.fluid.max(rows.nodes).max(rows.tets)) as u64
 }
 
 /// Sums over the particles, for a mass of one each.
@@ -114,7 +115,7 @@ impl Resident {
         for (place, pass) in SUMS.iter().enumerate() {
             let mut dispatches = Vec::new();
             self.bind("measure", pass, None, &mut dispatches)?;
-            let groups = self.rows_of_sums(place).div_ceil(256) as u32;
+            let groups = groups_of(self.rows_of_sums(place)) as u32;
             let summands = self.uniform("summands", &Summands { groups, place: place as u32 })?;
             self.bind("measure", &TOTAL, Some(("summands", &summands)), &mut dispatches)?;
             parts.push(dispatches);

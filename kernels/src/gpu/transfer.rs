@@ -1,8 +1,11 @@
 //! Columns to the device and back.
 
+use std::collections::BTreeSet;
+
 use super::{
     answer::Extreme as Word,
     error::GpuError,
+    groups::wrench_bytes,
     layout::Value,
     pack::DeviceBody,
     resident::{Resident, capacities},
@@ -13,6 +16,7 @@ use crate::{
     column::{Plain, PlainMut, padded},
     columns::{Column, Columns, RowCounts},
     contents::Contents,
+    couple::weights::sources,
     cpu::CHUNK,
     grid::neighbors::Neighbors,
     params::Params,
@@ -88,9 +92,6 @@ fn is_there(params: &Params, rows: RowCounts, column: Column) -> bool {
     column.need().is_none_or(|need| need.missing(&contents).is_none())
 }
 
-/// What weights of the coupling are functions of.
-const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
-
 impl Resident {
     /// Sends columns to the device; those that it does not hold ([`Column::is_on_host_only`]) are left out. `sorted` says that the
     /// particles are in the order of this step already, for kernels that come after `grid::sort_fluid`.
@@ -100,9 +101,8 @@ impl Resident {
     pub fn upload(&mut self, columns: &mut Columns, which: &[Column], sorted: bool) -> Result<(), GpuError> {
         self.sorted = sorted;
         // Weights are computed where they are needed, from the points on both sides.
-        let weighs =
-            |column: &Column| matches!(column, Column::FluidControlWeights | Column::ControlFluidWeights);
-        let points = if which.iter().any(weighs) { POINTS } else { &[] };
+        let points: BTreeSet<_> =
+            which.iter().filter_map(|column| sources(*column)).flat_map(|(_, points)| points).collect();
         for column in which.iter().chain(points) {
             if is_plain(*column) {
                 let rows = self.rows_of(*column);
@@ -255,10 +255,10 @@ impl Resident {
     }
 
     fn wrench_buffer(&self, column: Column) -> Option<(&'static str, usize)> {
-        let groups = |rows: usize| rows.div_ceil(256) * self.rows.bodies * 32;
+        let bytes = |rows| wrench_bytes(rows, self.rows.bodies);
         match column {
-            Column::BodyFluidWrenches => Some(("body_fluid_wrenches", groups(self.rows.fluid))),
-            Column::BodyNodeWrenches => Some(("body_node_wrenches", groups(self.rows.nodes))),
+            Column::BodyFluidWrenches => Some(("body_fluid_wrenches", bytes(self.rows.fluid))),
+            Column::BodyNodeWrenches => Some(("body_node_wrenches", bytes(self.rows.nodes))),
             _ => None,
         }
     }
@@ -379,7 +379,6 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
 #[must_use]
 pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
     let count = rows.of(column.store()) as u64;
-    let groups = |rows: usize| rows.div_ceil(256) as u64 * count * 32;
     if !is_there(params, rows, column) {
         return 0;
     }
@@ -394,8 +393,8 @@ pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {
         Column::FluidPressureSolve => Solve::BYTES,
         Column::FluidViscositySolve => ViscositySolve::BYTES,
         Column::BodyStates => count * DeviceBody::BYTES,
-        Column::BodyFluidWrenches => groups(rows.fluid),
-        Column::BodyNodeWrenches => groups(rows.nodes),
+        Column::BodyFluidWrenches => wrench_bytes(rows.fluid, rows.bodies) as u64,
+        Column::BodyNodeWrenches => wrench_bytes(rows.nodes, rows.bodies) as u64,
         _ => 0,
     }
 }

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use super::{
     answer::{Clock, Extreme, Status},
     cells::{self, Grid},
+    groups,
     layout::{Constant, Enumeration, Shape, Struct},
     pack::{self, Batch, DeviceBody, NodeTraits, Repetition, ShapeKind, StepParams, Summands},
     stars,
@@ -28,6 +29,7 @@ const CONSTANTS: &[&[Constant]] = &[
     clock::CONSTANTS,
     couple::compliance::CONSTANTS,
     couple::impulses::CONSTANTS,
+    groups::CONSTANTS,
     pack::CONSTANTS,
     params::CONSTANTS,
     pbd::descent::CONSTANTS,
@@ -194,5 +196,15 @@ mod tests {
         for shader in sorb_shaders::SHADERS.iter().chain(sorb_shaders::SUBGROUP_SHADERS) {
             parsed(&complete(shader.source));
         }
+    }
+
+    #[test]
+    fn shaders_declare_no_constants() {
+        let declares = |source: &str| source.lines().any(|line| line.trim_start().starts_with("const "));
+        for shader in sorb_shaders::SHADERS.iter().chain(sorb_shaders::SUBGROUP_SHADERS) {
+            assert!(!declares(shader.source), "{}: declare it in Rust, by `constants!`", shader.name);
+        }
+        // Negative control.
+        assert!(declares("fn half() -> f32 {\n    const HALF: f32 = 0.5;\n    return HALF;\n}"));
     }
 }

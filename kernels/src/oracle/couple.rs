@@ -257,11 +257,9 @@ pub(crate) fn exchange(params: &Params, columns: &mut Columns) {
         let node = columns.controls.node[control] as usize;
         columns.nodes.velocity[node] = keep(columns.nodes.velocity[node], new);
     }
-    kick(params, columns);
 }
 
-/// Subtracts the impulses of the drag from the particles.
-pub(crate) fn kick(params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_kick(params: &Params, columns: &mut Columns) {
     for particle in 0..columns.rows.fluid {
         let chi = f64::from(columns.fluid.interior[particle]);
         let lost = chi * vector(columns.fluid.drag[particle]) / f64::from(params.fluid.particle_mass);

@@ -82,10 +82,10 @@ fn local(
         let sum = |columns: &[DVec3; 3]| -> DVec3 { (0..3).map(|k| columns[k] * n[k]).sum() };
         let slope = sum(&cofactor);
         let square: f64 = n.iter().map(|n| n * n).sum();
-        let least = ratio.max(0.2);
-        let logarithm = (1.0 / least) - (ratio - least) / (least * least);
+        let minimum = ratio.max(0.2);
+        let logarithm = (1.0 / minimum) - (ratio - minimum) / (minimum * minimum);
         force -= volume * (mu * sum(&f) + ((lambda - mu) * (ratio - 1.0) - mu * logarithm) * slope);
-        let bulk = lambda - mu + mu / (least * least);
+        let bulk = lambda - mu + mu / (minimum * minimum);
         stiffness += volume * (mu * square * DMat3::IDENTITY + bulk * outer(slope, slope));
         // The viscous part: twice mu and lambda - mu times the strain since the beginning of the step.
         let g = columns_of(before, *tet, edge);
@@ -105,7 +105,7 @@ fn local(
 }
 
 /// Minimum of the energy without obstacles, and the stiffness with inertia.
-fn least(
+fn minimum(
     params: &Params,
     nodes: &Nodes,
     node: usize,
@@ -186,8 +186,8 @@ fn react(
     }
     let compliance = stiffness.inverse();
     let slanted = normal + friction * along.normalize_or_zero();
-    let least = 0.1 * normal.dot(compliance * normal);
-    let direction = if normal.dot(compliance * slanted) > least { slanted } else { normal };
+    let minimum = 0.1 * normal.dot(compliance * normal);
+    let direction = if normal.dot(compliance * slanted) > minimum { slanted } else { normal };
     let size = depth / normal.dot(compliance * direction);
     *point += size * (compliance * direction);
     size * direction
@@ -228,7 +228,7 @@ pub(crate) fn vbd(params: &Params, columns: &mut Columns) {
             && descends(params, &columns.nodes, node)
         {
             let at = (&places[..], &before[..]);
-            let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
+            let (mut point, stiffness) = minimum(params, &columns.nodes, node, at, &incidence[node]);
             let way = point - places[node];
             let further = relaxation(params, (&columns.nodes, node), &places, &incidence[node], way);
             let relaxed = places[node] + way * further;
@@ -304,7 +304,7 @@ pub(crate) fn reaction(params: &Params, columns: &mut Columns) {
         reaction[node] = row(DVec3::ZERO, 1.0 / w);
         if is_near(params, columns, node, places[node]) {
             let at = (&places[..], &before[..]);
-            let (mut point, stiffness) = least(params, &columns.nodes, node, at, &incidence[node]);
+            let (mut point, stiffness) = minimum(params, &columns.nodes, node, at, &incidence[node]);
             let (by_bodies, by_walls) = push(params, columns, node, stiffness, &mut point);
             for (body, force) in by_bodies.iter().enumerate() {
                 let centre = columns.bodies.states.0[body].state.position.as_dvec3();

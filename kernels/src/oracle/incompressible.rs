@@ -181,10 +181,10 @@ pub(crate) fn factors(params: &Params, columns: &mut Columns) {
             rough += if *j == i { 0.0 } else { *c * prompt_roughness(params) };
             share += volume * smoothing(params.fluid.smoothing.support_radius, offset.length());
         }
-        let most = f64::from(solve.correction_speed) * step / spacing;
+        let maximum = f64::from(solve.correction_speed) * step / spacing;
         let compression = (share - 1.0
             + f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]))
-        .min(most);
+        .min(maximum);
         let wide = (own.length_squared() + others).max(f64::from(solve.lattice_diagonal) / 3.0);
         let diagonal = wide * step * step + rough;
         fluid.factors[i] = row(own, compression);
@@ -210,12 +210,12 @@ fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
 pub(crate) fn pressure_update(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
-    let most = 100.0 * f64::from(solve.correction_speed).powi(2);
+    let maximum = 100.0 * f64::from(solve.correction_speed).powi(2);
     let length = f64::from(fluid.pressure_solve.length());
     let density = f64::from(params.fluid.rest_density);
     for i in 0..columns.rows.fluid {
         let [pressure, _, diagonal, compression] = fluid.pressure_rows[i].map(f64::from);
-        let next = (pressure + length * compression / diagonal).clamp(0.0, most);
+        let next = (pressure + length * compression / diagonal).clamp(0.0, maximum);
         fluid.pressure_rows[i][0] = next as f32;
         fluid.pressure_rows[i][1] = (next - pressure) as f32;
         fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE] = (next

@@ -90,7 +90,7 @@ pub(crate) fn solid_reaction(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(crate) fn node_velocity(params: &Params, columns: &mut Columns) {
+fn node_velocities(params: &Params, columns: &mut Columns) {
     columns.controls.velocity = vec![[0.0; 4]; columns.nodes.position.len()];
     for control in 0..columns.rows.nodes {
         let node = columns.controls.node[control] as usize;
@@ -116,19 +116,20 @@ pub(crate) fn pores(params: &Params, columns: &mut Columns) {
         let sponge = &params.sponges[nodes.sponge[node] as usize];
         let porosity = f64::from(sponge.porosity);
         let rest = f64::from(sponge.edge).powi(3) / 12.0;
-        let least = (1.0 - porosity) / (1.0 - porosity.min(0.15));
-        let ratio = if sponge.pores_close { (volume / weights / rest).clamp(least, 10.0) } else { 1.0 };
+        let minimum = (1.0 - porosity) / (1.0 - porosity.min(0.15));
+        let ratio = if sponge.pores_close { (volume / weights / rest).clamp(minimum, 10.0) } else { 1.0 };
         let now = 1.0 - (1.0 - porosity) / ratio;
         // K / K_0.
         let permeability = (now / porosity).powi(3) * ((1.0 - porosity) / (1.0 - now)).powi(2);
         let linear = f64::from(sponge.drag_rate) * (now / porosity) / permeability;
-        let inertial = f64::from(sponge.inertial_drag) * (now / porosity).powi(2) / permeability.sqrt();
+        let inertial = f64::from(sponge.inertial_drag_rate) * (now / porosity).powi(2) / permeability.sqrt();
         let ratio = ratio / wetting::size(sponge, nodes, node).powi(3);
         nodes.pores[node] = [ratio, linear * ratio, inertial * ratio, now].map(|value| value as f32);
     }
 }
 
 pub(crate) fn drag_impulse(params: &Params, columns: &mut Columns) {
+    node_velocities(params, columns);
     let pairs = Pairs::new(params, columns);
     columns.fluid.drag = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
@@ -196,12 +197,9 @@ pub(crate) fn drag_reaction(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(crate) fn drag_settled(_params: &Params, columns: &mut Columns) {
+pub(crate) fn drag_settled(params: &Params, columns: &mut Columns) {
+    drag_reaction(params, columns);
     for drag in &mut columns.nodes.drag {
         drag[lane::nodes::drag::MASS] = 0.0;
     }
-}
-
-pub(crate) fn drag_kick(params: &Params, columns: &mut Columns) {
-    super::couple::kick(params, columns);
 }

@@ -355,7 +355,7 @@ pub(super) fn local<S: Simd>(
 
 /// The way to the minimum of an energy without obstacles, and its Hessian, with the target of the node.
 #[inline(always)]
-pub(super) fn least<S: Simd>(
+pub(super) fn minimum<S: Simd>(
     simd: S,
     Local { force, mut stiffness, .. }: Local<S>,
     (x, target, mass): (Vec3x8<S>, Vec3x8<S>, f32x8<S>),

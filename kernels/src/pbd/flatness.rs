@@ -6,10 +6,10 @@ use glam::DVec3;
 const FACE: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// Flatness of a rim over that of a face: below the first a node belongs to a rim, above the second to a face.
-const RIM: f64 = 0.75;
-const WHOLE: f64 = 0.95;
+const RIM_FLATNESS: f64 = 0.75;
+const FACE_FLATNESS: f64 = 0.95;
 /// Weight of nodes of a rim: their normal counts only where they meet another rim.
-const LEAST: f64 = 1.0e-3;
+const RIM_WEIGHT: f64 = 1.0e-3;
 
 /// For every node 1 on a face of the sponge at rest, nearly 0 on rims and at corners, 0 inside.
 ///
@@ -46,7 +46,7 @@ pub fn flatness(tets: &[[u32; 4]], rest: &[[f32; 4]]) -> Vec<f32> {
             return 0.0;
         }
         let over_face = sum.length() / size * std::f64::consts::SQRT_2;
-        ((over_face - RIM) / (WHOLE - RIM)).clamp(LEAST, 1.0) as f32
+        ((over_face - RIM_FLATNESS) / (FACE_FLATNESS - RIM_FLATNESS)).clamp(RIM_WEIGHT, 1.0) as f32
     };
     sums.into_iter().map(flatness).collect()
 }

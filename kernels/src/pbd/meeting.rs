@@ -12,7 +12,7 @@ use crate::{
 
 constants! {
     /// Scalar product of the normals, of opposite sign, above which two surfaces face each other \[1\].
-    const LEAST_FACING: f32 = 0.1;
+    const MINIMUM_FACING: f32 = 0.1;
     /// What is added to it for two nodes of rims, whose normals are known less well \[1\].
     const RIM_FACING: f32 = 0.6;
     /// How far the tangent planes of a pair may have passed each other, in edges.
@@ -48,7 +48,7 @@ impl Pair {
             return None;
         }
         let (p_a, p_b) = (n_a.dot(n_a).sqrt(), n_b.dot(n_b).sqrt());
-        let facing = across / (p_a * p_b) - (LEAST_FACING + RIM_FACING * (1.0 - p_a.max(p_b)));
+        let facing = across / (p_a * p_b) - (MINIMUM_FACING + RIM_FACING * (1.0 - p_a.max(p_b)));
         if facing <= 0.0 {
             return None;
         }

@@ -56,7 +56,7 @@ declare! {
     ],
     constants: {
         /// Determinant of the inertia over the cube of its trace below which a sponge cannot be turned about some axis.
-        const LEAST_DETERMINANT: f64 = 1.0e-12;
+        const MINIMUM_DETERMINANT: f64 = 1.0e-12;
     },
 }
 
@@ -322,7 +322,7 @@ impl Sums {
         let angular = self.angular_momentum - centre.cross(self.momentum);
         let determinant = inertia.determinant();
         // A sponge of nodes in one line cannot be turned about it.
-        let turns = determinant > LEAST_DETERMINANT * trace.powi(3);
+        let turns = determinant > MINIMUM_DETERMINANT * trace.powi(3);
         let angular_velocity = if turns { inertia.inverse() * angular } else { DVec3::ZERO };
         Motion { centre, velocity: self.momentum / mass, angular_velocity }
     }

@@ -27,7 +27,7 @@ constants! {
     /// Distance that nodes keep from bodies, in edges: what lies on the floor does not slip under a body that stands on it.
     pub(super) const CLEARANCE: f32 = 1.0e-3;
     /// Smallest part of the compliance along the normal that friction may leave.
-    const LEAST_COMPLIANCE: f32 = 0.1;
+    const MINIMUM_COMPLIANCE: f32 = 0.1;
     /// How close to an obstacle, in edges, a node is looked at.
     pub(super) const OBSTACLE_MARGIN: f32 = 1.0e-2;
 }
@@ -304,7 +304,7 @@ fn react<S: Simd>(
     let slanted = plus(normal, times(along, scale));
     let (by_slanted, by_normal) = (product(&quadratic.inverse, slanted), product(&quadratic.inverse, normal));
     let (with, without) = (dot(normal, by_slanted), dot(normal, by_normal));
-    let tilted = select(with.simd_gt(without * LEAST_COMPLIANCE), one, zero);
+    let tilted = select(with.simd_gt(without * MINIMUM_COMPLIANCE), one, zero);
     let plain = one - tilted;
     let direction = plus(times(slanted, tilted), times(normal, plain));
     let compliance = plus(times(by_slanted, tilted), times(by_normal, plain));

@@ -12,7 +12,7 @@
 //!
 //! ```text
 //! n = (p_b n_b - p_a n_a) / |..|,   g = n . (x_a - x_b),   t^2 = |x_a - x_b|^2 - g^2
-//! c = -n_a . n_b - LEAST_FACING - RIM_FACING (1 - max(p_a, p_b)) > 0,   -PAIR_OVERLAP e < g < PAIR_GAP e,   t < PAIR_REACH e
+//! c = -n_a . n_b - MINIMUM_FACING - RIM_FACING (1 - max(p_a, p_b)) > 0,   -PAIR_OVERLAP e < g < PAIR_GAP e,   t < PAIR_REACH e
 //! ```
 //!
 //! with e the larger of their edges. The normal of a node of a rim lies between those of two faces: where it meets a face,
@@ -59,7 +59,7 @@ declare! {
         /// Distance at rest of two nodes of one sponge, in edges, from which on they may touch.
         const SELF_CONTACT_DISTANCE: f32 = 4.0;
         /// Area of a node, over the square of the edge, below which it has no normal.
-        const LEAST_NODE_AREA: f32 = 1.0e-3;
+        const MINIMUM_NODE_AREA: f32 = 1.0e-3;
     },
 }
 
@@ -182,7 +182,7 @@ fn normal_of(group: &StarGroup, lane: usize, position: &[[f32; 4]], (edge, weigh
     let length = sum.dot(sum).sqrt();
     let area = length / 6.0;
     // Nor has what is not a number.
-    if area > LEAST_NODE_AREA * edge * edge {
+    if area > MINIMUM_NODE_AREA * edge * edge {
         let scale = weight / length;
         [sum.x * scale, sum.y * scale, sum.z * scale, area]
     } else {

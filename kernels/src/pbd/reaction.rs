@@ -12,7 +12,7 @@ use crate::{
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
     pbd::{
-        descent::{Material, constants_of, least, local},
+        descent::{Material, constants_of, local, minimum},
         meeting::Touch,
         obstacles::{OBSTACLE_MARGIN, Obstacles, array, vector},
         stars::{StarGroup, Stars},
@@ -140,7 +140,7 @@ impl Task<'_> {
         let mut energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
         self.touch.add(simd, &group.own, &mut energy);
         let (elastic, stiffness) = (energy.force, energy.stiffness);
-        let (way, quadratic) = least(simd, energy, (x, target, drawn), step);
+        let (way, quadratic) = minimum(simd, energy, (x, target, drawn), step);
         let point = plus(x, way);
         let mut contact = quadratic.contact((point, old), material, near);
         let pushed = vector(simd, &obstacles.push(&mut contact, Some(wrenches)));

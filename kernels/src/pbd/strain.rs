@@ -43,9 +43,9 @@ declare! {
     twin: [pass(NAME, Colors)],
     constants: {
         /// Length of an edge over that at rest below which it has no direction.
-        const LEAST_STRETCH: f32 = 1.0e-6;
+        const MINIMUM_STRETCH: f32 = 1.0e-6;
         /// Smallest volume over volume at rest that a tet is pressed to.
-        const LEAST_VOLUME_RATIO: f32 = 0.1;
+        const MINIMUM_VOLUME_RATIO: f32 = 0.1;
         /// Compliance of that constraint over that of the volume; not zero, which would divide by zero for held nodes.
         const LIMIT_COMPLIANCE: f32 = 1.0e-3;
     },
@@ -102,7 +102,7 @@ impl<S: Simd> Solver<S> {
         for column in 0..3 {
             let f = tet.columns(self.inverse_edge)[column];
             let length = dot(f, f).sqrt();
-            let is_long = length.simd_gt(lanes::splat(self.simd, LEAST_STRETCH));
+            let is_long = length.simd_gt(lanes::splat(self.simd, MINIMUM_STRETCH));
             let inverse = one / select(is_long, length, one);
             let n = times(f, inverse);
             let gradient = match column {
@@ -120,7 +120,7 @@ impl<S: Simd> Solver<S> {
         let (ratio, gradient) = self.volume_gradient(tet);
         self.correct(tet, ratio - one, gradient, volume, self.damping);
         let (ratio, gradient) = self.volume_gradient(tet);
-        let lacking = ratio - LEAST_VOLUME_RATIO;
+        let lacking = ratio - MINIMUM_VOLUME_RATIO;
         let zero = lanes::splat(self.simd, 0.0);
         let inverted = select(lacking.simd_lt(zero), lacking, zero);
         self.correct(tet, inverted, gradient, volume * LIMIT_COMPLIANCE, zero);

@@ -22,7 +22,7 @@ use crate::{
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::Params,
     pbd::{
-        descent::{Material, constants_of, least, local},
+        descent::{Material, constants_of, local, minimum},
         meeting::Touch,
         obstacles::{Obstacles, array, vector},
         stars::{StarGroup, Stars},
@@ -52,7 +52,7 @@ declare! {
         /// Parts of the last digit of a place that chance is taken from, see [`moved`] \[1\].
         const ROUNDING_PARTS: f32 = 4096.0;
         /// Smallest place that chance is scaled by, so that a way over its last digit is a number \[m\].
-        const LEAST_COORDINATE: f32 = 1.0e-6;
+        const MINIMUM_COORDINATE: f32 = 1.0e-6;
         const EPSILON: f32 = f32::EPSILON;
     },
 }
@@ -135,7 +135,7 @@ impl Task<'_> {
         let mut energy = local(simd, (group, &self.stars.shape), material, places, (x, old));
         self.touch.add(simd, &group.own, &mut energy);
         let strain = energy.strain;
-        let (way, quadratic) = least(simd, energy, (x, target, mass), self.params.step);
+        let (way, quadratic) = minimum(simd, energy, (x, target, mass), self.params.step);
         let point = moved(simd, x, way);
         let relaxed = moved(simd, x, times(way, relaxation(simd, material, strain, way)));
         let own = select(moves, lanes::splat(simd, 1.0), zero);
@@ -174,10 +174,10 @@ fn relaxation<S: Simd>(simd: S, material: &Material<S>, strain: f32x8<S>, way: V
 /// remainder of the way beyond a few thousandths of that digit.
 #[inline(always)]
 fn moved<S: Simd>(simd: S, points: Vec3x8<S>, way: Vec3x8<S>) -> Vec3x8<S> {
-    let (half, least) = (lanes::splat(simd, 0.5), lanes::splat(simd, LEAST_COORDINATE));
+    let (half, minimum) = (lanes::splat(simd, 0.5), lanes::splat(simd, MINIMUM_COORDINATE));
     let mut moved = points;
     for axis in 0..3 {
-        let digit = points[axis].abs().max(least) * EPSILON;
+        let digit = points[axis].abs().max(minimum) * EPSILON;
         let parts = way[axis] / digit * ROUNDING_PARTS + half;
         moved[axis] += way[axis] + (parts - parts.floor() - half) * digit;
     }

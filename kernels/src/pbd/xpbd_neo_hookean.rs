@@ -33,7 +33,7 @@ declare! {
     twin: [pass(NAME, Colors)],
     constants: {
         /// Square of the norm of a deformation below which it has no direction.
-        const LEAST_SQUARE: f32 = 1.0e-12;
+        const MINIMUM_SQUARE: f32 = 1.0e-12;
     },
 }
 
@@ -65,7 +65,7 @@ impl Law for NeoHookean {
         let f = tet.columns(scale);
         let area = [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])];
         let square = dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2]);
-        let inverse = one / select(square.simd_gt(splat(LEAST_SQUARE)), square, one);
+        let inverse = one / select(square.simd_gt(splat(MINIMUM_SQUARE)), square, one);
         let by_norm = gradient(f);
         let apart = gradient([minus(area[0], f[0]), minus(area[1], f[1]), minus(area[2], f[2])]);
         let change_of_ratio = dot(f[0], area[0]) - one;

@@ -40,7 +40,7 @@ declare! {
         /// 2.5 spreads the periods of drops least.
         const DEFICIT_FALL: f64 = 2.5;
         /// Weight of what lacks nearly everything, such as a particle alone: positive, so that it is drawn to others.
-        const LEAST_DEFICIT_WEIGHT: f64 = 0.01;
+        const MINIMUM_DEFICIT_WEIGHT: f64 = 0.01;
     },
 }
 
@@ -52,15 +52,15 @@ const SETTLED: f64 = 0.97;
 #[must_use]
 pub fn weight(deficit: f64) -> f64 {
     let falling = deficit * (1.0 - DEFICIT_FALL * deficit);
-    if deficit > 0.5 / DEFICIT_FALL { falling.max(LEAST_DEFICIT_WEIGHT) } else { falling }
+    if deficit > 0.5 / DEFICIT_FALL { falling.max(MINIMUM_DEFICIT_WEIGHT) } else { falling }
 }
 
 /// Energy density of a deficit over the stiffness \[1\].
 fn energy(deficit: f64) -> f64 {
     // Where the weight has fallen to the least.
-    let end = (1.0 + (1.0 - 4.0 * DEFICIT_FALL * LEAST_DEFICIT_WEIGHT).sqrt()) / (2.0 * DEFICIT_FALL);
+    let end = (1.0 + (1.0 - 4.0 * DEFICIT_FALL * MINIMUM_DEFICIT_WEIGHT).sqrt()) / (2.0 * DEFICIT_FALL);
     let e = deficit.min(end);
-    e * e * (0.5 - DEFICIT_FALL / 3.0 * e) + LEAST_DEFICIT_WEIGHT * (deficit - e)
+    e * e * (0.5 - DEFICIT_FALL / 3.0 * e) + MINIMUM_DEFICIT_WEIGHT * (deficit - e)
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -121,8 +121,8 @@ impl Task<'_> {
 #[inline(always)]
 fn weights<S: Simd>(simd: S, deficit: f32x8<S>) -> f32x8<S> {
     let falling = deficit * (lanes::splat(simd, 1.0) - deficit * lanes::splat(simd, DEFICIT_FALL as f32));
-    let least = falling.max(lanes::splat(simd, LEAST_DEFICIT_WEIGHT as f32));
-    select(deficit.simd_gt(lanes::splat(simd, (0.5 / DEFICIT_FALL) as f32)), least, falling)
+    let minimum = falling.max(lanes::splat(simd, MINIMUM_DEFICIT_WEIGHT as f32));
+    select(deficit.simd_gt(lanes::splat(simd, (0.5 / DEFICIT_FALL) as f32)), minimum, falling)
 }
 
 /// Stiffness \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\]: energy density over energy of

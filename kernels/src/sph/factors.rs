@@ -117,9 +117,9 @@ impl Task<'_> {
         let volume = fluid.particle_mass / fluid.rest_density;
         let (gradient, value) = (kernel.gradient_scale() * volume, kernel.value_scale() * volume);
         let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        let least = lanes::splat(simd, 1.0 / LATTICE_DIAGONAL_RATIO * self.solve.lattice_diagonal);
+        let minimum = lanes::splat(simd, 1.0 / LATTICE_DIAGONAL_RATIO * self.solve.lattice_diagonal);
         let prompt = fluid.prompt_roughness(step);
-        let most = lanes::splat(simd, self.solve.correction_speed * step / fluid.spacing);
+        let maximum = lanes::splat(simd, self.solve.correction_speed * step / fluid.spacing);
         for row in (0..factors.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.predicted, first + row);
             let mut own = [zero; 3];
@@ -140,9 +140,9 @@ impl Task<'_> {
             let own = [own[0] - gx, own[1] - gy, own[2] - gz];
             // The lists contain the particle itself, which is no pair.
             let rough = (pair_sum - gradient) * prompt;
-            let diagonal = (dot(own, own) + others).max(least) * (step * step) + rough;
+            let diagonal = (dot(own, own) + others).max(minimum) * (step * step) + rough;
             let [_, _, _, allowed] = lanes::load_rows(simd, self.acceleration, first + row);
-            let compression = (shape_sum * value + share - one + allowed).min(most);
+            let compression = (shape_sum * value + share - one + allowed).min(maximum);
             lanes::store_rows(factors, row, [own[0], own[1], own[2], compression]);
             let [_, _, _, before] = lanes::load_rows(simd, self.position, first + row);
             lanes::store_rows(pressure, row, [before * fluid.rest_density, zero, diagonal, compression]);

@@ -9,7 +9,7 @@ use crate::{
 
 constants! {
     /// Least distance over H.
-    const LEAST_FRICTION_DISTANCE: f32 = 0.125;
+    const MINIMUM_FRICTION_DISTANCE: f32 = 0.125;
 }
 
 /// f(y) \[1/s\], without the limit by the step; by rounding it may be slightly below zero at the end of its range.
@@ -18,7 +18,7 @@ pub(super) fn friction_rate<S: Simd>(simd: S, fluid: &FluidParams, distance: f32
     let radius = fluid.smoothing.support_radius;
     let kinematic = 90.0 * fluid.wall_viscosity / (fluid.rest_density * radius * radius);
     let q = distance * (1.0 / radius);
-    let q = q.max(lanes::splat(simd, LEAST_FRICTION_DISTANCE)).min(lanes::splat(simd, 1.0));
+    let q = q.max(lanes::splat(simd, MINIMUM_FRICTION_DISTANCE)).min(lanes::splat(simd, 1.0));
     let square = q * q;
     let fourth = square * square;
     let integral =

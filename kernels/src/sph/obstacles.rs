@@ -38,7 +38,7 @@ pub(crate) fn near(bodies: &[Body], points: &[[f32; 4]], range: f32) -> Vec<usiz
 
 constants! {
     /// Depth `1 - y / R` beyond which share and slope do not grow: a particle that a body has swallowed is pushed out, not shot.
-    const GREATEST_DEPTH: f32 = 1.25;
+    const MAXIMUM_DEPTH: f32 = 1.25;
 }
 
 /// The volume fraction of a surface as a function of the distance from it.
@@ -61,7 +61,7 @@ impl Profile {
     fn at<S: Simd>(self, simd: S, distance: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         let depth = lanes::splat(simd, 1.0) - distance * (1.0 / self.range);
         let depth = lanes::positive(simd, depth);
-        let deepest = lanes::splat(simd, GREATEST_DEPTH);
+        let deepest = lanes::splat(simd, MAXIMUM_DEPTH);
         let depth = lanes::select(depth.simd_gt(deepest), deepest, depth);
         let square = depth * depth;
         let fifth = square * square * depth;

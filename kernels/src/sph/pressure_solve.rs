@@ -28,11 +28,11 @@ constants! {
     /// left of an error becomes a velocity.
     const ERROR_PER_DISPLACEMENT: f32 = 0.02;
     /// Least tolerance: rounding to f32 leaves no less.
-    const LEAST_TOLERANCE: f32 = 1.0e-6;
+    const MINIMUM_TOLERANCE: f32 = 1.0e-6;
     /// Least length of a step.
-    const LEAST_LENGTH: f64 = 0.2;
+    const MINIMUM_LENGTH: f64 = 0.2;
     /// Greatest length of a step.
-    const GREATEST_LENGTH: f64 = 20.0;
+    const MAXIMUM_LENGTH: f64 = 20.0;
 }
 
 /// Sums over the rows of a chunk.
@@ -150,7 +150,7 @@ impl PressureSolve {
 
     /// Before the first iteration, with the root mean square of the displacements in spacings.
     pub(crate) fn begin_with(&mut self, displacement: f32, solve: &Incompressible) {
-        let tolerance = (displacement * ERROR_PER_DISPLACEMENT).max(LEAST_TOLERANCE).min(solve.tolerance);
+        let tolerance = (displacement * ERROR_PER_DISPLACEMENT).max(MINIMUM_TOLERANCE).min(solve.tolerance);
         self.state = Solve { length: FIRST_LENGTH, tolerance, ..Solve::default() };
     }
 
@@ -186,7 +186,7 @@ impl PressureSolve {
         let ratio = if state.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
         let is_usable = state.rounds > 1 && mixed > 0.0 && ratio.is_finite();
         state.length =
-            if is_usable { ratio.clamp(LEAST_LENGTH, GREATEST_LENGTH) as f32 } else { FIRST_LENGTH };
+            if is_usable { ratio.clamp(MINIMUM_LENGTH, MAXIMUM_LENGTH) as f32 } else { FIRST_LENGTH };
     }
 }
 

@@ -32,7 +32,7 @@ declare! {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(solve) = &params.fluid.incompressible else { return };
-    let most = SOUND_SPEED_RATIO * solve.correction_speed * (SOUND_SPEED_RATIO * solve.correction_speed);
+    let maximum = SOUND_SPEED_RATIO * solve.correction_speed * (SOUND_SPEED_RATIO * solve.correction_speed);
     let count = columns.rows.fluid;
     let Fluid { position, predicted, pressure_rows, pressure_solve, .. } = &mut columns.fluid;
     let (length, density) = (pressure_solve.length(), params.fluid.rest_density);
@@ -41,7 +41,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let [pressure, _, diagonal, compression] = *row;
             let next = pressure + length * compression / diagonal;
             let next = if next > 0.0 { next } else { 0.0 };
-            let next = if next < most { next } else { most };
+            let next = if next < maximum { next } else { maximum };
             row[0] = next;
             row[1] = next - pressure;
             predicted[lane::fluid::predicted::PRESSURE_CHANGE] =

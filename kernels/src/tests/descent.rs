@@ -138,9 +138,9 @@ fn a_sweep_never_raises_the_energy() {
             let f = [p1 - p0, p2 - p3, p2 + p3 - p0 - p1].map(|column| column / edge);
             let square: f64 = f.iter().map(|f| f.length_squared()).sum();
             let ratio = f[0].dot(f[1].cross(f[2]));
-            let least = ratio.max(0.2);
-            let beyond = ratio / least - 1.0;
-            let logarithm = least.ln() + beyond - 0.5 * beyond * beyond;
+            let minimum = ratio.max(0.2);
+            let beyond = ratio / minimum - 1.0;
+            let logarithm = minimum.ln() + beyond - 0.5 * beyond * beyond;
             f64::from(*weight) * edge.powi(3) / 24.0
                 * (mu * (square - 3.0 - 2.0 * logarithm) + (lambda - mu) * (ratio - 1.0).powi(2))
         };

@@ -49,7 +49,7 @@ fn exchange(scene: &mut Scene, sweeps: usize) {
     for _ in 0..sweeps {
         scene.run(&cpu, &["couple::velocity_filter", "couple::drag"]);
     }
-    scene.run(&cpu, &["couple::exchange"]);
+    scene.run(&cpu, &["couple::exchange", "couple::drag_kick"]);
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn drag_that_forgets_who_shares_a_node_is_not_stable() {
             .velocity
             .iter_mut()
             .for_each(|velocity| velocity[lane::controls::velocity::DRAG_SHARE] = 0.0);
-        scene.run(&best(), &["couple::drag", "couple::exchange"]);
+        scene.run(&best(), &["couple::drag", "couple::exchange", "couple::drag_kick"]);
     }
     assert!(motion(&scene).energy > 10.0 * first);
 }

@@ -1,6 +1,6 @@
 //! The same bits on every SIMD level and on any number of threads.
 
-use super::scene::{CHANNEL, FULL, Options, Scene, TORUS, best};
+use super::scene::{CHANNEL, FULL, Options, Scene, TORUS, best, orders};
 use crate::{
     KERNELS,
     columns::{Column, Columns},
@@ -86,8 +86,8 @@ fn kernels_without_work_do_no_harm() {
     let empty = Options { fluid: 0, sponges: false, bodies: false, walls: false, ..FULL };
     for options in [empty, Options { fluid: 9, ..empty }, Options { sponges: true, ..empty }] {
         let mut scene = Scene::new(options);
-        for name in super::scene::CHAIN {
-            let kernel = kernel_named(name).expect("the chain names kernels");
+        for name in orders(false).concat() {
+            let kernel = kernel_named(name).expect("a name of the table");
             (kernel.cpu)(&best(), &scene.params, &mut scene.columns);
         }
         let finite = |rows: &[[f32; 4]]| rows.iter().flatten().all(|value| value.is_finite());

@@ -93,7 +93,7 @@ fn pressure_and_central_viscosity_keep_angular_momentum() {
 /// Forces of suction on the particles and of the zero-distance constraints on the nodes.
 fn suction_balance(reaction: f32) -> Balance {
     let free = Options { bodies: false, ..FULL };
-    let mut scene = Scene::new(free).before("couple::suction", &best());
+    let mut scene = Scene::new(free).before("couple::zero_distance", &best());
     scene.params.sponges.iter_mut().for_each(|sponge| sponge.reaction = reaction);
     scene.columns.fluid.acceleration.fill([0.0; 4]);
     scene.columns.nodes.acceleration.fill([0.0; 4]);

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::{
     compare::errors,
     oracles::expected,
-    scene::{CHAIN, CHANNEL, Options, Scene, TORUS, best},
+    scene::{CHANNEL, Options, Scene, TORUS, best},
 };
 use crate::{
     KERNELS,
@@ -31,8 +31,8 @@ fn lattice(options: Options) -> Scene {
         (0..3).for_each(|axis| row[axis] = ((row[axis] / spacing).floor() + 0.5) * spacing);
     }
     fluid.velocity.fill([0.0; 4]);
-    scene.run(&best(), &CHAIN[..4]);
-    scene.run(&best(), &["sph::forces", "sph::surface_tension"]);
+    let search = ["grid::sort_fluid", "grid::fluid_neighbors", "sph::density"];
+    scene.run(&best(), &[&search[..], &["sph::pressure", "sph::forces", "sph::surface_tension"]].concat());
     scene
 }
 
@@ -105,7 +105,7 @@ fn moved(options: Options, offset: Vec3, fault: f32) -> (Scene, Vec<DVec3>, Vec<
         periodic.wrap(row);
     }
     scene.columns.fluid.position[300][0] += fault;
-    scene.run(&best(), CHAIN);
+    scene.step(&best());
     let columns = &scene.columns;
     let back = |x: DVec3| x - offset.as_dvec3();
     let positions = by_id(columns, &columns.fluid.position).into_iter().map(back).collect();

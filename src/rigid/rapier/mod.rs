@@ -13,7 +13,7 @@ use rapier3d::prelude::{
 use std::fmt;
 
 /// Largest number of rapier3d steps in one step.
-const MOST_PASSES: f32 = 32.0;
+const MAXIMUM_PASSES: f32 = 32.0;
 
 /// Distance along its path in which a body looks for contacts \[m\], at most the path of one step.
 ///
@@ -196,7 +196,7 @@ impl RapierEngine {
             let velocity = if body.is_dynamic() { body.linvel() } else { state.linear_velocity };
             fastest = fastest.max(velocity.length());
         }
-        (fastest * dt / self.parameters.length_unit).ceil().clamp(1.0, MOST_PASSES)
+        (fastest * dt / self.parameters.length_unit).ceil().clamp(1.0, MAXIMUM_PASSES)
     }
 
     /// Moves everything to the present time, `dt` after the last.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sponge::{COLOR_COUNT, TetChunk, chunks, ellipsoid};
+use crate::sponge::{COLORS, TetChunk, chunks, ellipsoid};
 
 /// The fault of the chunks of a colour, if any.
 fn fault(lattice: &Lattice, color: usize, cut: &[TetChunk], target: u32) -> Option<&'static str> {
@@ -113,7 +113,7 @@ fn rows_can_be_handed_out_without_overlap() {
     // A sweep that takes mutable rows by splitting alone: counts the tets at each node.
     let built = mixed();
     let mut count = vec![0; built.node_count()];
-    for color in 0..COLOR_COUNT {
+    for color in 0..COLORS {
         let cut = &chunks(&built, 20)[color];
         for vertex_color in 0..4 {
             let slot = usize::from(crate::sponge::VERTEX_COLOR_SLOT[color][vertex_color]);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sponge::{COLOR_COUNT, pieces};
+use crate::sponge::{COLORS, pieces};
 
 /// Tets of a block: four for each square between two cells.
 fn tets_of_block([x, y, z]: [u32; 3]) -> u32 {
@@ -85,7 +85,7 @@ fn node_volumes_sum_to_the_volume_of_the_tets() {
         assert_eq!(nodes.clone().count(), summary.node_count as usize);
         let corners: u32 = nodes.map(|node| mixed.node_tet_count[node]).sum();
         assert_eq!(corners, 4 * summary.tet_count);
-        let tets = (0..COLOR_COUNT).map(|color| mixed.tet_range(color, index).len()).sum::<usize>();
+        let tets = (0..COLORS).map(|color| mixed.tet_range(color, index).len()).sum::<usize>();
         assert_eq!(tets, summary.tet_count as usize);
         let by_color = (0..4).map(|color| mixed.node_range(color, index).len()).sum::<usize>();
         assert_eq!(by_color, summary.node_count as usize);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sponge::{CLASS_FRAME, CLASS_OFFSET, COLOR_COUNT};
+use crate::sponge::{CLASS_FRAME, CLASS_OFFSET, COLORS};
 
 /// Greatest distance of the local deformation gradient at rest from the frame of the class.
 fn rest_error([p0, p1, p2, p3]: [DVec3; 4], edge: f64, class: usize) -> f64 {
@@ -10,7 +10,7 @@ fn rest_error([p0, p1, p2, p3]: [DVec3; 4], edge: f64, class: usize) -> f64 {
 }
 
 fn tets_by_color(lattice: &Lattice) -> impl Iterator<Item = (usize, usize)> {
-    (0..COLOR_COUNT).flat_map(|color| {
+    (0..COLORS).flat_map(|color| {
         (lattice.color_start[color]..lattice.color_start[color + 1]).map(move |tet| (color, tet as usize))
     })
 }
@@ -135,8 +135,8 @@ fn open_edges(triangles: &[[u32; 3]]) -> (usize, usize) {
         directed.partition_point(|&other| other <= edge) - directed.partition_point(|&other| other < edge)
     };
     let open = directed.iter().filter(|&&[a, b]| count([a, b]) != count([b, a])).count();
-    let most = directed.iter().map(|&[a, b]| count([a, b]) + count([b, a])).max();
-    (open, most.unwrap_or(0))
+    let maximum = directed.iter().map(|&[a, b]| count([a, b]) + count([b, a])).max();
+    (open, maximum.unwrap_or(0))
 }
 
 fn enclosed(lattice: &Lattice, triangles: &[[u32; 3]]) -> f64 {
@@ -157,10 +157,10 @@ fn the_surface_is_closed_and_outward() {
             let range = summary.triangles.start as usize..summary.triangles.end as usize;
             assert!(built.triangle_sponge[range.clone()].iter().all(|&sponge| sponge == index));
             let triangles = &built.triangles[range];
-            let (open, most) = open_edges(triangles);
+            let (open, maximum) = open_edges(triangles);
             assert_eq!(open, 0, "sponge {index} has open edges");
             if index == 1 || built.sponges.len() == 1 {
-                assert_eq!(most, 2, "a block has two triangles at each edge");
+                assert_eq!(maximum, 2, "a block has two triangles at each edge");
             }
             let volume = enclosed(built, triangles);
             let tets = f64::from(summary.tet_count) * f64::from(summary.edge).powi(3) / 12.0;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sponge::{COLOR_COUNT, SLOT_VERTEX_COLOR, VERTEX_COLOR_SLOT};
+use crate::sponge::{COLORS, SLOT_VERTEX_COLOR, VERTEX_COLOR_SLOT};
 
 fn vertex_color(lattice: &Lattice, node: u32) -> Option<usize> {
     let starts = &lattice.vertex_color_start;
@@ -9,7 +9,7 @@ fn vertex_color(lattice: &Lattice, node: u32) -> Option<usize> {
 /// Colour and node of the first clash: two tets of one colour that share a node.
 fn clash(tets: &[[u32; 4]], color_start: &[u32], nodes: usize) -> Option<(usize, u32)> {
     let mut last_color = vec![usize::MAX; nodes];
-    for color in 0..COLOR_COUNT {
+    for color in 0..COLORS {
         for tet in &tets[color_start[color] as usize..color_start[color + 1] as usize] {
             for &node in tet {
                 if std::mem::replace(&mut last_color[node as usize], color) == color {
@@ -99,7 +99,7 @@ fn slots_follow_the_documented_rule() {
 #[test]
 fn rows_are_in_the_documented_order() {
     let built = mixed();
-    for color in 0..COLOR_COUNT {
+    for color in 0..COLORS {
         let range = built.color_start[color] as usize..built.color_start[color + 1] as usize;
         let keys = range.map(|tet| (built.tet_sponge[tet], built.tet_slab[tet]));
         assert!(keys.is_sorted(), "tets of colour {color}");
@@ -155,7 +155,7 @@ fn a_sponge_does_not_depend_on_its_neighbours() {
     let alone = cube(3);
     let both = lattice(&[sponge([3; 3], &block), sponge([2, 4, 3], &block)]);
     assert_eq!(both.sponges[0], alone.sponges[0]);
-    for color in 0..COLOR_COUNT {
+    for color in 0..COLORS {
         let [own, shared] = [&alone, &both].map(|built| {
             let range = built.tet_range(color, 0);
             let tets = &built.tets[range.start as usize..range.end as usize];

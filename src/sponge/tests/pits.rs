@@ -85,15 +85,15 @@ fn weights_are_one_inside_two_in_faces_and_more_at_edges() {
     };
     let mut seen = [0; 3];
     for tet in 0..built.tet_count() {
-        let (weight, [least, next, _]) = (built.tet_weight[tet], depth(tet));
-        if least > 0.3 {
+        let (weight, [minimum, next, _]) = (built.tet_weight[tet], depth(tet));
+        if minimum > 0.3 {
             assert_eq!(weight, 1.0);
             seen[0] += 1;
         } else if next > 1.1 {
             assert_eq!(weight, 2.0);
             seen[1] += 1;
         } else {
-            assert!(weight > 2.0 && weight <= 3.0, "{weight} at {least} and {next}");
+            assert!(weight > 2.0 && weight <= 3.0, "{weight} at {minimum} and {next}");
             seen[2] += 1;
         }
     }

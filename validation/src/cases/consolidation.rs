@@ -148,8 +148,8 @@ impl Vessel {
 
     /// Thin bars that hold the topmost nodes and let water pass.
     fn bars(&self) -> Vec<Body> {
-        let (half, thick) = (self.half(), 0.05 * self.edge);
-        let shape = ShapeKind::Cuboid { half_extents: DVec3::new(half, thick, thick).as_vec3() };
+        let (half, thickness) = (self.half(), 0.05 * self.edge);
+        let shape = ShapeKind::Cuboid { half_extents: DVec3::new(half, thickness, thickness).as_vec3() };
         let start = FILLS as f32;
         let push = Motion::Linear {
             velocity: Vec3::NEG_Y * self.layer.speed as f32,

@@ -9,7 +9,7 @@ use sorb::{
 use crate::{
     case::{Case, Failure, Figure, Setting, Subject},
     level::heights,
-    norms::{interpolated, least, mean, root_mean_square},
+    norms::{interpolated, mean, minimum, root_mean_square},
     references::martin_moyce::{BASE, FRONT, HEIGHT},
 };
 
@@ -55,7 +55,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     }
     // The gate of the experiment opened in a finite time, which is not recorded.
     let fronts: Vec<_> = samples.iter().map(|s| (s.time * (2.0 * GRAVITY / BASE).sqrt(), s.front)).collect();
-    let shift = least((0.0, GATE), |shift| front_error(&fronts, shift));
+    let shift = minimum((0.0, GATE), |shift| front_error(&fronts, shift));
     let heights: Vec<_> = samples
         .iter()
         .map(|s| (s.time * (GRAVITY / BASE).sqrt() + shift / f64::sqrt(2.0), s.height))

@@ -114,14 +114,17 @@ impl Duct {
 
     /// Four plates, which hold the nodes inside them.
     fn walls(&self, low: f64, high: f64) -> [Body; 4] {
-        let (half, thick) = (self.half(), 1.25 * self.edge);
+        let (half, thickness) = (self.half(), 1.25 * self.edge);
         let (middle, tall) = (0.5 * (low + high), 0.5 * (high - low));
         let plate = |name: &str, x: f64, z: f64| {
-            let along = half + 2.0 * thick;
-            let half_extents =
-                if x == 0.0 { DVec3::new(along, tall, thick) } else { DVec3::new(thick, tall, along) };
+            let along = half + 2.0 * thickness;
+            let half_extents = if x == 0.0 {
+                DVec3::new(along, tall, thickness)
+            } else {
+                DVec3::new(thickness, tall, along)
+            };
             let shape = ShapeKind::Cuboid { half_extents: half_extents.as_vec3() };
-            let place = DVec3::new(x * (half + thick), middle, z * (half + thick)).as_vec3();
+            let place = DVec3::new(x * (half + thickness), middle, z * (half + thickness)).as_vec3();
             Body { grip: true, ..Body::fixed(name, shape, place) }
         };
         [

@@ -10,7 +10,7 @@ use super::duct::{Duct, STIFF, pores, surface};
 use crate::{
     case::{Case, Failure, Figure, Setting, Subject},
     level::heights,
-    norms::{least, line, mean},
+    norms::{line, mean, minimum},
     references::darcy::{Pores, curve_error},
 };
 
@@ -64,7 +64,7 @@ fn washburn(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         }
         let reference: Vec<_> =
             (0..=400).map(|i| 1.2 * seconds * f64::from(i) / 400.0).map(|t| (t, driven.front(t))).collect();
-        let delay = least((0.0, 0.2 * seconds), |delay| curve_error(&reference, &curve, delay));
+        let delay = minimum((0.0, 0.2 * seconds), |delay| curve_error(&reference, &curve, delay));
         // Beyond two edges, where neither the start nor the smoothing of the suction matters.
         let points: Vec<_> = curve
             .iter()
@@ -113,7 +113,7 @@ fn bath(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         let outside = 4.0 * BATH_SIZE.0 * BATH_SIZE.0 - side * side;
         let reference = pores.bath(GRAVITY, pores.porosity * side * side / outside, seconds);
         // The part below the level starts dry as well.
-        let delay = least((0.0, 0.3), |delay| curve_error(&reference, &curve, delay));
+        let delay = minimum((0.0, 0.3), |delay| curve_error(&reference, &curve, delay));
         figures.push(Figure::error(
             format!("front at K {permeability:.0e}, L2, {:.0} ms late", 1e3 * delay),
             "1",

@@ -30,7 +30,7 @@ const BELOW: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
 
 /// Permeability \[m^2\] and Forchheimer coefficient at which most of the drag is inertial.
-const FAST: (f64, f64) = (1e-8, 0.5);
+const INERTIAL: (f64, f64) = (1e-8, 0.5);
 /// Heads at which its drag is measured, over the initial one, and the range around them.
 const HEADS: [f64; 3] = [0.7, 0.5, 0.3];
 const AROUND: f64 = 0.1;
@@ -63,7 +63,7 @@ fn slow(setting: &Setting, duct: &Duct, permeability: f64) -> Result<f64, Failur
 
 /// Drag over speed of fast water, at some heads.
 fn fast(setting: &Setting, duct: &Duct) -> Result<Vec<Figure>, Failure> {
-    let (permeability, coefficient) = FAST;
+    let (permeability, coefficient) = INERTIAL;
     let forchheimer = Forchheimer { pores: pores(permeability, 0.0), coefficient };
     let heads = heads(setting, duct, &forchheimer.pores, coefficient)?;
     let length = duct.top();

@@ -39,11 +39,11 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut world = setting.world(&scene)?;
     let measured = settled(setting, &mut world, MOVES + setting.pick(1.0, 0.5), 0.2)?;
     let found = width(&world, &measured);
-    let least = least_width(&Energy::of(&FOAM, &setting.solvers));
+    let minimum = equilibrium_width(&Energy::of(&FOAM, &setting.solvers));
     let foam = libm::pow(PRESSED, -FOAM.poisson);
     let name = |against: &str| format!("width over that at rest, against {against}");
     Ok(vec![
-        Figure::relative(name("the energy of the solver"), "1", least, found, SOLVER_BOUND),
+        Figure::relative(name("the energy of the solver"), "1", minimum, found, SOLVER_BOUND),
         Figure::relative(name("a foam"), "1", foam, found, 0.05),
     ])
 }
@@ -63,11 +63,12 @@ fn scene(cells: u32) -> Scene {
     };
     let way = (1.0 - PRESSED) * half;
     let plate = |name: &str, sign: f64| {
-        let thick = 0.5 * EDGE;
-        let shape = ShapeKind::Cuboid { half_extents: DVec3::new(2.0 * half, thick, 2.0 * half).as_vec3() };
+        let thickness = 0.5 * EDGE;
+        let shape =
+            ShapeKind::Cuboid { half_extents: DVec3::new(2.0 * half, thickness, 2.0 * half).as_vec3() };
         let velocity = Vec3::Y * (-sign * way / MOVES) as f32;
         let motion = Motion::Linear { velocity, start: 0.0, end: MOVES as f32 };
-        let place = Vec3::Y * (sign * (half + thick)) as f32;
+        let place = Vec3::Y * (sign * (half + thickness)) as f32;
         Body { friction: 0.0, ..Body::kinematic(name, shape, place, vec![motion]) }
     };
     scene.with_sponge(sponge).with_body(plate("low", -1.0)).with_body(plate("high", 1.0))
@@ -85,7 +86,7 @@ fn width(world: &World, places: &[DVec3]) -> f64 {
 }
 
 /// The transverse stretch without transverse stress, by bisection.
-fn least_width(energy: &Energy) -> f64 {
+fn equilibrium_width(energy: &Energy) -> f64 {
     let stress =
         |width: f64| energy.gradient(&DMat3::from_diagonal(DVec3::new(width, PRESSED, width))).x_axis.x;
     let (mut low, mut high) = (0.1, 2.0);

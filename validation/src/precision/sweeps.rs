@@ -15,14 +15,14 @@ impl Sweep {
     /// Solver, resolution and changes of all runs; the quick form has the two coarsest resolutions of every solver
     /// with two changes.
     pub(super) fn runs(&self, quick: bool) -> Vec<(&'static str, f64, &'static str)> {
-        let (most_resolutions, most_changes) = if quick { (2, 2) } else { (usize::MAX, usize::MAX) };
+        let (maximum_resolutions, maximum_changes) = if quick { (2, 2) } else { (usize::MAX, usize::MAX) };
         let mut runs: Vec<(&'static str, f64, &'static str)> = Vec::new();
         for (solver, resolutions, changes) in self.variants {
             if quick && runs.iter().any(|run| run.0 == *solver) {
                 continue;
             }
-            for resolution in resolutions.iter().take(most_resolutions) {
-                for changes in changes.iter().take(most_changes) {
+            for resolution in resolutions.iter().take(maximum_resolutions) {
+                for changes in changes.iter().take(maximum_changes) {
                     runs.push((*solver, *resolution, *changes));
                 }
             }
@@ -48,7 +48,7 @@ const POROUS: &[&str] = &[
 ];
 
 /// The same where runs are long.
-const POROUS_FINE: &[&str] = &["", "quality=fast"];
+const QUALITIES_OF_LONG_RUNS: &[&str] = &["", "quality=fast"];
 
 /// All sweeps.
 pub(super) const SWEEPS: &[Sweep] = &[
@@ -114,7 +114,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
         figures: &[("permeability for", 1.0)],
         variants: &[
             ("dfsph+vbd", &[0.4], POROUS),
-            ("dfsph+vbd", &[0.6], POROUS_FINE),
+            ("dfsph+vbd", &[0.6], QUALITIES_OF_LONG_RUNS),
             ("dfsph+vbd", &[0.8, 1.0], &[""]),
             ("wcsph+sbd", &[0.4], &[""]),
         ],
@@ -125,7 +125,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
         figures: &[("front at", 1.0)],
         variants: &[
             ("dfsph+vbd", &[1.0], POROUS),
-            ("dfsph+vbd", &[1.5], POROUS_FINE),
+            ("dfsph+vbd", &[1.5], QUALITIES_OF_LONG_RUNS),
             ("wcsph+sbd", &[1.0], &[""]),
         ],
     },

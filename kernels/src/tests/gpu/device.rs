@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    super::scene::{CHAIN, FULL, Options, Scene},
+    super::scene::{FULL, Options, Scene, orders},
     LIMITS, after_on_all, gpu,
 };
 use crate::{
@@ -17,8 +17,10 @@ use crate::{
     kernel_named,
 };
 
-fn chain(scene: &Scene) -> Vec<&'static Kernel> {
-    let all = CHAIN.iter().map(|name| kernel_named(name).expect("the chain names kernels"));
+/// The kernels of a step that have work.
+fn kernels_of(scene: &Scene) -> Vec<&'static Kernel> {
+    let [order, ..] = orders(scene.options.porous);
+    let all = order.into_iter().map(|name| kernel_named(name).expect("a name of the table"));
     all.filter(|kernel| scene.has_work(kernel)).collect()
 }
 
@@ -36,7 +38,7 @@ fn stepped(gpu: &Arc<Gpu>, scene: &Scene, steps: u32) -> (Columns, Outcome, u32)
     let lives = |column: &Column| column.life() != Life::Scratch;
     let uploaded: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
     resident.upload(&mut columns, &uploaded, false).unwrap_or_else(|error| fail(error));
-    let mut program = resident.program(&chain(scene)).unwrap_or_else(|error| fail(error));
+    let mut program = resident.program(&kernels_of(scene)).unwrap_or_else(|error| fail(error));
     resident.set_time(&Start {
         left: f32::MAX,
         fluid_speed: 1.0,

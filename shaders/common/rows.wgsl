@@ -2,7 +2,7 @@
 
 // Threads of a group, for passes whose threads have nothing to do with each other: with few rows, small groups keep more
 // of the device busy.
-override GROUP: u32 = 256u;
+override GROUP: u32 = GROUP_THREADS;
 
 // The row of a thread; groups beyond the limit of one dimension continue in the second.
 fn row_of(group: vec3<u32>, groups: vec3<u32>, lane: u32) -> u32 {

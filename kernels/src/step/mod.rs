@@ -1,6 +1,8 @@
 //! The whole step, in the order of the paper's Figure 2: blocks in two orders.
 
-use sorb_kernels::{columns::Column, contents::Contents, couple, kernel::Kernel, need::Need, sph};
+mod blocks;
+
+use crate::{columns::Column, contents::Contents, couple, kernel::Kernel, need::Need, sph};
 
 /// One line of the step.
 #[derive(Debug)]
@@ -60,7 +62,8 @@ pub enum Solve {
 
 impl Times {
     /// How often for a scene; for rounds until convergence at most.
-    pub(super) fn number(self, contents: &Contents<'_>) -> u32 {
+    #[must_use]
+    pub fn number(self, contents: &Contents<'_>) -> u32 {
         let fluid = &contents.params.fluid;
         match self {
             Self::SolverIterations => {
@@ -101,8 +104,8 @@ pub static RIGID: HostPhase = HostPhase {
     reads: &[Column::BodyFluidWrenches, Column::BodyNodeWrenches],
 };
 
-use super::blocks::*;
 use Phase::{Part, Run};
+use blocks::*;
 
 /// The step of the paper. Reads and writes of the kernels check this order; they do not define it.
 pub static STEP: &[Phase] = &[

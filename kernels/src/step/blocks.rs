@@ -1,8 +1,8 @@
 //! The blocks that a step is made of.
 
-use sorb_kernels::{couple, grid, pbd, sph};
+use crate::{couple, grid, pbd, sph};
 
-use super::step::{
+use super::{
     Block,
     Phase::{self, Host, KeepDensity, Repeat, Run},
     RIGID, Solve, Times,
@@ -148,6 +148,7 @@ pub(super) static DRAG: Block = Block {
         },
         Run(&couple::drag::KERNEL),
         Run(&couple::exchange::KERNEL),
+        Run(&couple::drag_kick::KERNEL),
     ],
 };
 
@@ -163,14 +164,12 @@ pub(super) static ELASTIC_WITH_DRAG: Block = Block {
         Repeat {
             times: Times::SolverIterations,
             phases: &[
-                Run(&couple::node_velocity::KERNEL),
                 Run(&couple::drag_impulse::KERNEL),
                 Run(&couple::drag_target::KERNEL),
                 Run(&pbd::touch::KERNEL),
                 Run(&pbd::vbd::KERNEL),
             ],
         },
-        Run(&couple::node_velocity::KERNEL),
         Run(&couple::drag_impulse::KERNEL),
         Run(&couple::drag_target::KERNEL),
         Run(&pbd::touch::KERNEL),
@@ -180,11 +179,9 @@ pub(super) static ELASTIC_WITH_DRAG: Block = Block {
             phases: &[
                 Run(&couple::drag_reaction::KERNEL),
                 Run(&pbd::momentum::KERNEL),
-                Run(&couple::node_velocity::KERNEL),
                 Run(&couple::drag_impulse::KERNEL),
             ],
         },
-        Run(&couple::drag_reaction::KERNEL),
         Run(&couple::drag_settled::KERNEL),
         Run(&pbd::momentum::KERNEL),
         Run(&couple::drag_kick::KERNEL),

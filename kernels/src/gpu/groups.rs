@@ -1,0 +1,37 @@
+//! Threads of the groups of a pass.
+
+use crate::layout::constants;
+
+constants! {
+    /// Threads of a group.
+    pub(super) const GROUP_THREADS: u32 = 256;
+    /// Threads that share the particles of a control.
+    pub(super) const CONTROL_THREADS: u32 = 32;
+    /// Controls of a group.
+    pub(super) const CONTROLS_PER_GROUP: u32 = GROUP_THREADS / CONTROL_THREADS;
+    /// Threads of a group for each sponge.
+    pub(super) const SPONGE_THREADS: u32 = 128;
+}
+
+/// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP_THREADS`].
+pub(super) const SMALL_GROUP_THREADS: u32 = 64;
+/// Rows from which on groups are not small.
+pub(super) const SMALL_GROUP_ROWS: u64 = 65_536;
+
+/// Groups of a pass over this many rows.
+pub(super) const fn groups_of(rows: usize) -> usize {
+    rows.div_ceil(GROUP_THREADS as usize)
+}
+
+/// Most groups of a pass over this many rows: groups are small where there are few rows.
+pub(super) fn maximum_groups(rows: u64) -> u64 {
+    let small = rows.min(SMALL_GROUP_ROWS).div_ceil(u64::from(SMALL_GROUP_THREADS));
+    small.max(rows.div_ceil(u64::from(GROUP_THREADS)))
+}
+
+/// Bytes of the wrenches on bodies: one for every body and group of a pass over this many rows.
+pub(super) const fn wrench_bytes(rows: usize, bodies: usize) -> usize {
+    /// A vector each, padded to four floats.
+    const BYTES: usize = 32;
+    groups_of(rows) * bodies * BYTES
+}

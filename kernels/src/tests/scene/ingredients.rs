@@ -1,0 +1,208 @@
+//! Parameters and bodies of the scenes of the tests.
+
+use glam::{EulerRot, Quat, Vec3};
+
+use super::options::{Options, SPACING};
+use crate::{
+    body::{Body, BodyKind, BodyState, Shape},
+    grid::cells::Domain,
+    params::{
+        Cohesion, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver, SpongeParams,
+        WettingParams,
+    },
+    periodic::Periodic,
+    smoothing::Wendland,
+    sph::{factors::lattice_diagonal, obstacles::boundary_profile},
+};
+
+/// The body that holds nodes.
+pub(super) const GRIPPER: usize = 5;
+
+impl SpongeParams {
+    /// Constraints of a material are only solved in steps that are short for it (`src/clock.rs`). Beyond, a sweep turns
+    /// every other tet inside out, and what was rounded away grows by a hundred: the material is softer then.
+    pub(super) fn solve_by(&mut self, solver: Solver) {
+        self.solver = solver;
+        if solver == Solver::XpbdNeoHookean {
+            (self.mu, self.lambda) = (self.mu * 0.02, self.lambda * 0.02);
+        }
+    }
+}
+
+pub(super) fn params(options: Options) -> Params {
+    let spacing = options.spacing();
+    let radius = 2.2 * spacing;
+    // A power of a constant is rounded once, and the oracles' bounds are for that mass.
+    let cube = if options.refinement() == 1 { SPACING.powi(3) } else { spacing.powi(3) };
+    let sum = Wendland::lattice_sum(f64::from(radius), f64::from(spacing)) as f32;
+    let (low, high) = (Vec3::new(-0.002, 0.0024, -0.001), Vec3::new(0.0775, 0.06, 0.05));
+    let domain = Domain::Bounded { minimum: low - 0.02, maximum: high + 0.02 };
+    let without = |corner: Vec3, far: f32| Vec3::select(options.periodic.into(), Vec3::splat(far), corner);
+    Params {
+        // As far over the spacing in a step: faster ones would be thrown many boxes far, and the way back in is rounded.
+        step: 0.001 / options.refinement() as f32,
+        asleep: crate::asleep::Asleep::default(),
+        gravity: Vec3::new(0.5, -9.81, 0.25),
+        domain: if options.bounded { domain } else { Domain::Unbounded },
+        walls: options.walls.then_some((without(low, -NO_WALL), without(high, NO_WALL))),
+        periodic: Periodic::new(Vec3::ZERO, Vec3::new(13.0, 9.0, 9.0) * SPACING, options.periodic),
+        no_slip: true,
+        fluid: FluidParams {
+            spacing,
+            rest_density: 1000.0,
+            particle_mass: 1000.0 * cube / sum,
+            smoothing: Wendland::new(radius),
+            equation_of_state: options.equation_of_state,
+            sound_speed: 10.0,
+            incompressible: options.incompressible.then(|| incompressible(radius, spacing)),
+            viscosity: 0.5,
+            central_viscosity: 0.3,
+            implicit_viscosity: options.implicit_viscosity.then_some(IMPLICIT_VISCOSITY),
+            roughness: if options.incompressible { 5.0e-7 } else { 0.0 },
+            wall_viscosity: 5.0,
+            // The colour field knows volumes that change.
+            surface_tension: if options.incompressible { 0.0 } else { 0.07 },
+            cohesion: options.cohesion.then(|| cohesion(radius, spacing)),
+            repulsion_range: spacing,
+            repulsion_stiffness: 1.0e5,
+            repulsion_damping: 50.0,
+        },
+        sponges: if options.sponges { sponges(options.wetting, options.touch) } else { Vec::new() },
+        coupling: Wendland::new(0.015),
+        solid: options.porous.then(|| Wendland::new(0.012)),
+    }
+}
+
+/// With a tolerance that the first round meets, so that rounding does not decide about the residual.
+const IMPLICIT_VISCOSITY: ImplicitViscosity =
+    ImplicitViscosity { viscosity: 8.0, central_viscosity: 5.0, tolerance: 1.0e6, rounds: 50 };
+
+/// With a tolerance of zero, so that rounding does not decide about one more round.
+fn incompressible(radius: f32, spacing: f32) -> Incompressible {
+    let smoothing = Wendland::new(radius);
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    Incompressible {
+        projections: None,
+        tolerance: 0.0,
+        rounds: 50,
+        lattice_diagonal: lattice_diagonal(&smoothing, spacing),
+        correction_speed: 1.0,
+        boundary_range,
+        boundary_share,
+    }
+}
+
+fn cohesion(radius: f32, spacing: f32) -> Cohesion {
+    let smoothing = Wendland::new(1.5 * radius);
+    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
+    let sum = Wendland::lattice_sum(1.5 * f64::from(radius), f64::from(spacing)) as f32;
+    Cohesion { stiffness: 500.0, smoothing, volume: spacing.powi(3) / sum, boundary_range, boundary_share }
+}
+
+fn sponges(has_wetting: bool, touch: bool) -> Vec<SpongeParams> {
+    let mut wetting = [WettingParams::default(), WettingParams::default()];
+    if has_wetting {
+        wetting[0] =
+            WettingParams { softening: 0.6, swelling: 0.03, time: 0.004, exponent: 4, receding: 250.0 };
+        wetting[1].receding = 100.0;
+    }
+    let [of_soft, of_stiff] = wetting;
+    let soft = SpongeParams {
+        edge: 0.01,
+        solver: Solver::Sbd,
+        mu: 8.0e3,
+        lambda: 1.3e4,
+        damping: 0.002,
+        stretch_modulus: 8.0e3,
+        shear_modulus: 4.0e3,
+        volume_modulus: 2.0e3,
+        damping_time: 0.002,
+        iterations: 4,
+        friction: 0.4,
+        self_contact: false,
+        porosity: 0.9,
+        drag_rate: 2000.0,
+        inertial_drag_rate: 300.0,
+        pores_close: true,
+        entry_pressure: 300.0,
+        saturation_gain: 1.5,
+        reaction: 1.0,
+        wetting: of_soft,
+    };
+    let stiff = SpongeParams {
+        edge: 0.008,
+        solver: Solver::Sbd,
+        mu: 2.0e4,
+        lambda: 3.0e4,
+        damping: 0.0,
+        stretch_modulus: 3.0e4,
+        shear_modulus: 2.0e4,
+        volume_modulus: 1.0e4,
+        damping_time: 0.0,
+        iterations: 2,
+        friction: 0.1,
+        self_contact: false,
+        porosity: 0.8,
+        drag_rate: 500.0,
+        inertial_drag_rate: 0.0,
+        pores_close: false,
+        entry_pressure: 150.0,
+        saturation_gain: 0.5,
+        reaction: 0.7,
+        wetting: of_stiff,
+    };
+    let mut all = vec![soft, stiff];
+    if touch {
+        all.push(SpongeParams { self_contact: true, ..all[0].clone() });
+    }
+    all
+}
+
+/// One body of every shape, each touching fluid and nodes, and one that grips.
+pub(super) fn bodies() -> Vec<Body> {
+    let corner = 0.006_f32;
+    let signs = [-1.0_f32, 1.0];
+    let faces = signs.map(|x| signs.map(|y| signs.map(|z| (Vec3::new(x, y, z).normalize(), corner))));
+    let hull = Shape::Hull {
+        planes: faces.into_iter().flatten().flatten().collect(),
+        vertices: [Vec3::X, Vec3::Y, Vec3::Z]
+            .into_iter()
+            .flat_map(|axis| signs.map(|sign| axis * sign * corner * 3.0_f32.sqrt()))
+            .collect(),
+        triangles: Vec::new(),
+    };
+    let half_extents = Vec3::new(0.006, 0.004, 0.008);
+    let capsule = Shape::Capsule { half_height: 0.01, radius: 0.004 };
+    let mut all = vec![
+        body(Shape::Sphere { radius: 0.008 }, [0.03, 0.02, 0.02], 0.0),
+        body(Shape::Cuboid { half_extents }, [0.06, 0.03, 0.03], 0.7),
+        body(capsule, [0.0162, 0.035, 0.03], -0.4),
+        body(hull, [0.045, 0.012, 0.035], 0.3),
+        // The solid side is +x, where padding rows lie as well.
+        body(Shape::Plane, [0.066, 0.0, 0.0], 1.62),
+        body(Shape::Sphere { radius: 0.01 }, [0.03, 0.05, 0.02], 0.9),
+    ];
+    all[4].kind = BodyKind::Kinematic;
+    all[GRIPPER].touches_nodes = false;
+    all[1].no_slip = false;
+    // Faster than contact and pressure are made for.
+    all[1].state.linear_velocity = Vec3::new(2.0, -1.0, 1.5);
+    all
+}
+
+fn body(shape: Shape, position: [f32; 3], angle: f32) -> Body {
+    let position = Vec3::from_array(position);
+    Body {
+        shape,
+        kind: BodyKind::Dynamic,
+        state: BodyState {
+            position,
+            rotation: Quat::from_euler(EulerRot::ZXY, angle, angle * 0.3, angle * 0.1),
+            linear_velocity: Vec3::new(0.1, -0.3, 0.2) - position,
+            angular_velocity: Vec3::new(3.0, -2.0, 1.0),
+        },
+        friction: 0.3,
+        touches_nodes: true,
+        no_slip: true,
+    }
+}

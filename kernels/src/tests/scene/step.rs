@@ -1,0 +1,65 @@
+//! The kernels of a step, in its order.
+
+use crate::{
+    KERNELS,
+    step::{POROUS_STEP, Phase, STEP, Times},
+};
+
+/// The kernels of a step in its orders, by name: first the one of scenes with or without porous sponges, then the others.
+pub(in crate::tests) fn orders(porous: bool) -> [Vec<&'static str>; 3] {
+    let of = |phases, projects| {
+        let mut names = Vec::new();
+        add(&mut names, phases, projects);
+        names
+    };
+    let mut orders = [of(STEP, false), of(STEP, true), of(POROUS_STEP, false)];
+    if porous {
+        orders.reverse();
+    }
+    orders
+}
+
+/// Two rounds of a solve, because the second differs from the first; every other repetition is written once.
+fn add(names: &mut Vec<&'static str>, phases: &[Phase], projects: bool) {
+    for phase in phases {
+        match phase {
+            Phase::Run(kernel) => names.push(kernel.name),
+            Phase::Part(block) => add(names, block.phases, projects),
+            Phase::Repeat { times, phases } => {
+                let rounds = if matches!(times, Times::UntilConverged(_)) { 2 } else { 1 };
+                (0..rounds).for_each(|_| add(names, phases, projects));
+            }
+            Phase::KeepDensity { solve, projection } => {
+                add(names, if projects { projection } else { solve }, projects);
+            }
+            Phase::Host(_) => {}
+        }
+    }
+}
+
+/// Whether a kernel is part of a solve that ends when it has converged.
+fn is_in_rounds(phases: &[Phase], name: &str) -> bool {
+    phases.iter().any(|phase| match phase {
+        Phase::Run(_) | Phase::Host(_) => false,
+        Phase::Part(block) => is_in_rounds(block.phases, name),
+        Phase::Repeat { times: Times::UntilConverged(_), phases } => {
+            phases.iter().any(|phase| matches!(phase, Phase::Run(kernel) if kernel.name == name))
+        }
+        Phase::Repeat { phases, .. } => is_in_rounds(phases, name),
+        Phase::KeepDensity { solve, .. } => is_in_rounds(solve, name),
+    })
+}
+
+/// Whether a kernel is compared at its second place in a step, because it has nothing to add to at its first: rounds of a
+/// solve, and sweeps of the drag.
+pub(super) fn continues(name: &str) -> bool {
+    name == "couple::drag" || is_in_rounds(STEP, name)
+}
+
+#[test]
+fn a_step_has_every_kernel() {
+    let all = orders(false).concat();
+    for kernel in KERNELS {
+        assert!(all.contains(&kernel.name), "{}", kernel.name);
+    }
+}
