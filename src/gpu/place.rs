@@ -6,11 +6,12 @@ use sorb_kernels::{
     columns::{Column, RowCounts},
     gpu::{CLOCK_BYTES, Gpu, GpuError, column_bytes},
     params::Params,
+    step::RIGID,
 };
 
 use super::{Device, device::looked_at};
 use crate::{
-    schedule::{Offload, Place, Placement, Plan, Transfer, step::RIGID},
+    schedule::{Offload, Place, Placement, Plan, Transfer},
     world::{Options, World, WorldError},
 };
 

@@ -143,7 +143,7 @@ impl Resident {
         let mut before: Option<&Kernel> = None;
         let mut repetitions = 0;
         let kernels = stages.iter().flat_map(Stage::kernels);
-        let last_search = kernels.filter(|kernel| kernel.searches_fluid()).last().map(|kernel| kernel.name);
+        let last_search = kernels.rev().find(|kernel| kernel.searches_fluid()).map(|kernel| kernel.name);
         for stage in &stages {
             let mut dispatches = Vec::new();
             for kernel in stage.kernels() {
