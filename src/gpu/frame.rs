@@ -227,6 +227,7 @@ impl World {
             if self.sleep.are_bodies_still(began, answer.last_step) {
                 self.engine.wait(f64::from(answer.last_step));
             } else if !answer.wrenches.is_empty() {
+                self.fluid_forces.add(&answer.wrenches, answer.last_step);
                 let bodies = &mut self.stores.host.bodies;
                 move_bodies(self.engine.as_mut(), &self.light, bodies, &answer.wrenches, answer.last_step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;

@@ -3,6 +3,7 @@
 mod error;
 #[cfg(all(test, feature = "serde"))]
 mod failing;
+mod forces;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
 mod look;
@@ -108,6 +109,8 @@ pub struct World {
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
     pub(crate) sleep: sleep::Sleep,
+    /// What the fluid gave the bodies; no part of the state.
+    pub(crate) fluid_forces: forces::FluidForces,
     pub(crate) failed: Option<StepError>,
     pub(crate) options: Options,
 }
@@ -163,6 +166,7 @@ impl World {
             light: LightBodies::new(scene),
             plans,
             clock: Clock::default(),
+            fluid_forces: forces::FluidForces::default(),
             failed: None,
             options: options.clone(),
         };
@@ -201,6 +205,10 @@ impl World {
         }
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let is_over = self.sleep_until(end);
+        // What is slept through leaves the forces as they were.
+        if !is_over {
+            self.fluid_forces.begin_frame();
+        }
         if !is_over && let Some(report) = self.frame_on_device() {
             return self.remember(report);
         }
@@ -280,7 +288,7 @@ impl World {
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
         let awake = self.awake();
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
-        let Self { runner, cpu, params, stores, engine, light, .. } = self;
+        let Self { runner, cpu, params, stores, engine, light, fluid_forces, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {
             if are_bodies_still {
@@ -288,6 +296,7 @@ impl World {
                 return;
             }
             let given = wrenches(columns);
+            fluid_forces.add(&given, step);
             rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, &given, step);
         };
         if let Some(device) = &mut stores.device {

@@ -197,6 +197,15 @@ impl World {
         &self.stores.host.bodies.states.0
     }
 
+    /// Force of the fluid on every body \[N\], in the order of the scene: the mean over the steps since the last frame began.
+    /// Empty before the first step, and without bodies.
+    ///
+    /// On a GPU, bodies that never move are told of the last step of a frame only.
+    #[must_use]
+    pub fn body_fluid_forces(&self) -> Vec<glam::DVec3> {
+        self.fluid_forces.means()
+    }
+
     /// The engine that moves the bodies.
     #[must_use]
     pub fn rigid_engine(&self) -> &dyn RigidEngine {

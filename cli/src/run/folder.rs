@@ -40,7 +40,7 @@ impl Folder {
         frames
             .map(|entry| entry.path())
             .filter(|path| is_number(path) && path.extension().is_some_and(|extension| extension == "png"))
-            .chain([self.summary(), self.animation()].into_iter().filter(|path| path.exists()))
+            .chain([self.summary(), self.bodies(), self.animation()].into_iter().filter(|path| path.exists()))
             .collect()
     }
 
@@ -52,6 +52,11 @@ impl Folder {
     /// A row of measures for every frame.
     pub(super) fn table(&self) -> PathBuf {
         self.path.join("measures.csv")
+    }
+
+    /// A row for every body and frame.
+    pub(super) fn bodies(&self) -> PathBuf {
+        self.path.join("bodies.csv")
     }
 
     /// The run in one JSON object.
@@ -69,12 +74,10 @@ impl Folder {
         self.path.join("animation.png")
     }
 
-    /// Names of the files in the folder.
-    pub(super) fn contents(&self, pictures: bool) -> &'static str {
-        if pictures {
-            "measures.csv, summary.json, animation.png, frames/"
-        } else {
-            "measures.csv, summary.json"
-        }
+    /// Names of what a run leaves in the folder: with a table of bodies, with pictures.
+    pub(super) fn contents(bodies: bool, pictures: bool) -> String {
+        let bodies = if bodies { ", bodies.csv" } else { "" };
+        let pictures = if pictures { ", animation.png, frames/" } else { "" };
+        format!("measures.csv{bodies}, summary.json{pictures}")
     }
 }

@@ -1,5 +1,6 @@
 //! `sorb run`: simulates a scene, and writes measures and pictures.
 
+mod bodies;
 mod folder;
 mod options;
 mod pictures;
@@ -12,6 +13,7 @@ use std::time::{Duration, Instant};
 use sorb::{FrameReport, Measures, Options, StepError, World};
 
 use crate::{error::CliError, output};
+use bodies::Bodies;
 use folder::Folder;
 pub(crate) use options::Arguments;
 use pictures::Pictures;
@@ -49,21 +51,24 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     };
     let mut world = World::with_options(&scene, &options)?;
     let folder = Folder::create(&arguments.folder(&scene))?;
-    let mut table = Table::create(&folder.table())?;
+    let mut tables = Tables {
+        measures: Table::create(&folder.table())?,
+        bodies: if scene.bodies.is_empty() { None } else { Some(Bodies::create(&folder.bodies())?) },
+    };
     let mut pictures = None;
     if arguments.pictures {
         pictures = Some(Pictures::create(&folder, arguments, &scene, frames)?);
     }
     let progress = Progress::new(&scene, frames, arguments.quiet);
     let mut record = Record::default();
-    record.frame(&world, None, &mut table, pictures.as_mut())?;
+    record.frame(&world, None, &mut tables, pictures.as_mut())?;
     let mut failure = None;
     for _ in 0..frames {
         let start = Instant::now();
         match world.advance_frame() {
             Ok(report) => {
                 record.advanced(start.elapsed());
-                record.frame(&world, Some(&report), &mut table, pictures.as_mut())?;
+                record.frame(&world, Some(&report), &mut tables, pictures.as_mut())?;
                 progress.frame(&report, start.elapsed());
             }
             Err(error) => {
@@ -80,6 +85,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     finish(arguments, &world, &record, &folder, failure)
 }
 
+/// What gets a row in every frame.
+#[derive(Debug)]
+struct Tables {
+    measures: Table,
+    /// None in a scene without bodies.
+    bodies: Option<Bodies>,
+}
+
 impl Record {
     /// Records the time of a frame.
     fn advanced(&mut self, time: Duration) {
@@ -87,16 +100,19 @@ impl Record {
         self.frames_ms.push(time.as_secs_f64() * 1e3);
     }
 
-    /// Writes the row of a frame, and its picture if it is due; no report for the state at time zero.
+    /// Writes the rows of a frame, and its picture if it is due; no report for the state at time zero.
     fn frame(
         &mut self,
         world: &World,
         report: Option<&FrameReport>,
-        table: &mut Table,
+        tables: &mut Tables,
         pictures: Option<&mut Pictures>,
     ) -> Result<(), CliError> {
         self.measures = world.measures();
-        table.row(self.frames_ms.len(), &self.measures, report)?;
+        tables.measures.row(self.frames_ms.len(), &self.measures, report)?;
+        if let Some(bodies) = &mut tables.bodies {
+            bodies.rows(self.frames_ms.len(), world)?;
+        }
         let start = Instant::now();
         if let Some(pictures) = pictures {
             pictures.frame(world, self.frames_ms.len())?;
@@ -122,7 +138,8 @@ fn finish(
         output::print(&json)?;
     } else if !arguments.quiet {
         let path = folder.path().display();
-        output::print(&format!("{summary}results in {path}: {}\n", folder.contents(arguments.pictures)))?;
+        let contents = Folder::contents(!world.scene().bodies.is_empty(), arguments.pictures);
+        output::print(&format!("{summary}results in {path}: {contents}\n"))?;
     }
     match failure {
         None => Ok(()),

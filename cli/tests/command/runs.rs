@@ -72,6 +72,78 @@ fn the_table_has_a_row_for_every_frame() {
     assert!(!answer.out.contains('\u{1b}') && answer.err.is_empty(), "no progress bar in a pipe");
 }
 
+/// A ball of half the density of water that is held under it by nothing, and one that is fixed there.
+const BALLS: &str = r#"
+version = 1
+name = "balls"
+title = "Two balls under water"
+[domain]
+kind = "box"
+minimum = [0.0, 0.0, 0.0]
+maximum = [0.16, 0.16, 0.08]
+[fluid]
+spacing = 0.008
+[[fluid.blocks]]
+minimum = [0.0, 0.0, 0.0]
+maximum = [0.16, 0.104, 0.08]
+[[bodies]]
+name = "fixed"
+kind = "fixed"
+position = [0.04, 0.05, 0.04]
+shape = { kind = "sphere", radius = 0.02 }
+[[bodies]]
+name = "free"
+density = 500.0
+position = [0.12, 0.05, 0.04]
+shape = { kind = "sphere", radius = 0.02 }
+"#;
+
+#[test]
+fn bodies_have_a_row_in_every_frame() {
+    let scratch = Scratch::new("bodies");
+    let (scene, out) = (scratch.write("balls.toml", BALLS), scratch.path("out"));
+    let answer = sorb(&["run", &scene, "--frames", "12", "--out", &out]);
+    assert_eq!(answer.code, Some(0), "{answer:?}");
+    assert!(answer.out.contains("measures.csv, bodies.csv, summary.json\n"), "{answer:?}");
+    let table = scratch.read("out/bodies.csv");
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next(),
+        Some(
+            "frame,time_s,body,x_m,y_m,z_m,qx,qy,qz,qw,vx_m_per_s,vy_m_per_s,vz_m_per_s,\
+             fluid_force_x_N,fluid_force_y_N,fluid_force_z_N"
+        )
+    );
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 13 * 2, "time zero and every frame");
+    let number = |row: &[&str], column: usize| row[column].parse::<f64>().expect("a number");
+    for (index, row) in rows.iter().enumerate() {
+        assert_eq!((row.len(), row[0]), (16, (index / 2).to_string().as_str()));
+        assert_eq!(row[2], ["fixed", "free"][index % 2]);
+        let turn: f64 = (6..10).map(|column| number(row, column).powi(2)).sum();
+        assert!((turn - 1.0).abs() < 1e-5, "{row:?}");
+        assert_eq!(
+            row[13..].iter().all(|force| force.is_empty()),
+            index < 2,
+            "forces from the first frame on"
+        );
+    }
+    // The fixed ball stays and bears what it displaces; the free one rises as fast as its places say.
+    let buoyancy = 9.81 * 1000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.02_f64.powi(3);
+    let lifts = rows[8..].iter().step_by(2).map(|row| number(row, 14)).collect::<Vec<_>>();
+    let lift = lifts.iter().sum::<f64>() / lifts.len() as f64;
+    assert!((lift / buoyancy - 1.0).abs() < 0.15, "{lift} {buoyancy}");
+    assert!(rows.iter().step_by(2).all(|row| number(row, 4) == number(&rows[0], 4)));
+    let (last, before) = (&rows[9], &rows[7]);
+    let speed = (number(last, 4) - number(before, 4)) * 60.0;
+    let mean = 0.5 * (number(last, 11) + number(before, 11));
+    assert!(speed > 0.05 && (speed - mean).abs() < 0.1 * mean, "{speed} {mean}");
+    // A scene without bodies has no such table, and does not keep that of another run.
+    let answer = run(&scratch, "water", &["--frames", "1"]);
+    assert_eq!(answer.code, Some(0));
+    assert!(!std::path::Path::new(&scratch.path("out/bodies.csv")).exists());
+}
+
 #[test]
 fn quiet_prints_nothing() {
     let scratch = Scratch::new("quiet");
