@@ -78,6 +78,17 @@ pub fn upward_crossings(samples: &[(f64, f64)], level: f64) -> Vec<f64> {
         .collect()
 }
 
+/// First time at which a sampled signal reaches a level from either side, by straight lines between samples.
+#[must_use]
+pub fn first_crossing(samples: &[(f64, f64)], level: f64) -> Option<f64> {
+    let crosses =
+        |pair: &&[(f64, f64)]| (pair[0].1 - level) * (pair[1].1 - level) <= 0.0 && pair[0].1 != pair[1].1;
+    samples.windows(2).find(crosses).map(|pair| {
+        let [(t0, y0), (t1, y1)] = [pair[0], pair[1]];
+        t0 + (t1 - t0) * (level - y0) / (y1 - y0)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,6 +116,9 @@ mod tests {
         assert!((minimum((0.0, 2.0), |x| (x - 0.7) * (x - 0.7)) - 0.7).abs() < 2e-3);
         let zigzag: Vec<_> = (0..40).map(|i| (f64::from(i), if i % 4 < 2 { -1.0 } else { 1.0 })).collect();
         let crossings = upward_crossings(&zigzag, 0.0);
+        assert_eq!(first_crossing(&zigzag, 0.5), Some(1.75));
+        assert_eq!(first_crossing(&zigzag[2..], 0.0), Some(3.5));
+        assert_eq!(first_crossing(&zigzag, 1.5), None);
         assert!(
             crossings.len() > 5 && crossings.windows(2).all(|pair| (pair[1] - pair[0] - 4.0).abs() < 1e-12)
         );

@@ -51,6 +51,13 @@ caught! {
     dam_spheric
     taylor_green
     floating
+    sinking
+    shear_wave
+    slope
+    sloshing
+    u_tube
+    litre
+    splash
     drop
     channel
     honey

@@ -12,14 +12,21 @@ mod floating;
 mod honey;
 mod hydrostatic;
 mod imbibition;
+mod litre;
 mod momentum;
 mod patch;
 mod permeameter;
 mod rest;
+mod shear_wave;
+mod sinking;
+mod slope;
+mod sloshing;
+mod splash;
 mod squash;
 mod squeeze;
 mod strain;
 mod taylor_green;
+mod u_tube;
 mod wetting;
 
 use crate::case::Case;
@@ -31,6 +38,13 @@ pub const CASES: &[&Case] = &[
     &dam_spheric::CASE,
     &taylor_green::CASE,
     &floating::CASE,
+    &sinking::CASE,
+    &shear_wave::CASE,
+    &slope::CASE,
+    &sloshing::CASE,
+    &u_tube::CASE,
+    &litre::CASE,
+    &splash::CASE,
     &drop::CASE,
     &channel::CASE,
     &honey::CASE,
