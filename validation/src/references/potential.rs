@@ -118,11 +118,10 @@ impl Tank {
     fn applied(&self, phi: &[f64], result: &mut [f64]) {
         result.fill(0.0);
         for cell in 0..phi.len() {
-            let at = self.place(cell);
-            for axis in 0..3 {
+            for (axis, place) in self.place(cell).into_iter().enumerate() {
                 let part = self.open[axis][cell] * self.size;
                 if part > 0.0
-                    && at[axis] + 1 < self.counts[axis]
+                    && place + 1 < self.counts[axis]
                     && (axis != 1 || self.surface[cell].is_none())
                 {
                     let next = cell + self.stride(axis);
@@ -178,11 +177,10 @@ impl Tank {
     fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = vec![0.0; self.surface.len()];
         for cell in 0..diagonal.len() {
-            let at = self.place(cell);
-            for axis in 0..3 {
+            for (axis, place) in self.place(cell).into_iter().enumerate() {
                 let part = self.open[axis][cell] * self.size;
                 if part > 0.0
-                    && at[axis] + 1 < self.counts[axis]
+                    && place + 1 < self.counts[axis]
                     && (axis != 1 || self.surface[cell].is_none())
                 {
                     diagonal[cell] += part;
