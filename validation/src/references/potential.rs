@@ -120,9 +120,7 @@ impl Tank {
         for cell in 0..phi.len() {
             for (axis, place) in self.place(cell).into_iter().enumerate() {
                 let part = self.open[axis][cell] * self.size;
-                if part > 0.0
-                    && place + 1 < self.counts[axis]
-                    && (axis != 1 || self.surface[cell].is_none())
+                if part > 0.0 && place + 1 < self.counts[axis] && (axis != 1 || self.surface[cell].is_none())
                 {
                     let next = cell + self.stride(axis);
                     let flow = part * (phi[next] - phi[cell]);
@@ -179,9 +177,7 @@ impl Tank {
         for cell in 0..diagonal.len() {
             for (axis, place) in self.place(cell).into_iter().enumerate() {
                 let part = self.open[axis][cell] * self.size;
-                if part > 0.0
-                    && place + 1 < self.counts[axis]
-                    && (axis != 1 || self.surface[cell].is_none())
+                if part > 0.0 && place + 1 < self.counts[axis] && (axis != 1 || self.surface[cell].is_none())
                 {
                     diagonal[cell] += part;
                     diagonal[cell + self.stride(axis)] += part;
