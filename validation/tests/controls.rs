@@ -4,8 +4,12 @@ use sorb_validation::{CASES, Case, Figure, KNOWN_MISSES, Setting, run};
 
 /// Coarser than quick: this runs with every test.
 fn setting(case: &Case, fault: bool) -> Setting {
-    // The scenes of `rest` are whole scenes, and take ten times as long as other cases.
-    let resolution = if case.name == "rest" { 0.5 } else { 1.0 };
+    // Cases that take ten times as long as others.
+    let resolution = match case.name {
+        "rest" => 0.5,
+        "consolidation" | "dam_spheric" | "softening" | "swelling" => 0.75,
+        _ => 1.0,
+    };
     Setting { resolution, quick: true, fault, ..Setting::new() }
 }
 
