@@ -11,9 +11,9 @@ use super::{
     twins::{Pass, Rows},
     *,
 };
-use crate::{
-    clock::{Bound, StepLimits},
-    tests::scene::{FULL, Scene},
+use crate::tests::{
+    gpu::LIMITS,
+    scene::{FULL, Scene},
 };
 
 /// Density 0 is halved until it is small; density 1 counts the steps.
@@ -61,18 +61,10 @@ fn dispatch(resident: &Resident, entry: &'static str) -> Vec<Dispatch> {
 /// What steps of a repetition of at most `maximum` rounds, of which `planned` are encoded at first, leave behind.
 fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
     let scene = Scene::new(FULL);
-    let limits = StepLimits {
-        courant: 0.25,
-        edge: f32::INFINITY,
-        has_fluid: true,
-        minimum: 1e-9,
-        constant: 1.0,
-        constant_bound: Bound::Maximum,
-    };
     let fail = |error: GpuError| -> ! { panic!("{error}") };
     let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| fail(error)));
     let mut resident =
-        Resident::new(&gpu, &scene.columns, &scene.params, limits).unwrap_or_else(|error| fail(error));
+        Resident::new(&gpu, &scene.columns, &scene.params, LIMITS).unwrap_or_else(|error| fail(error));
     let mut program = resident.program(&[]).unwrap_or_else(|error| fail(error));
     let mut rounds =
         resident.rounds(maximum, 1, dispatch(&resident, "halve")).unwrap_or_else(|error| fail(error));

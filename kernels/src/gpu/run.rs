@@ -245,28 +245,22 @@ mod tests {
 
     use super::*;
     use crate::{
-        clock::{Bound, StepLimits},
         gpu::Gpu,
         grid,
-        tests::scene::{FULL, Scene},
+        tests::{
+            gpu::LIMITS,
+            scene::{FULL, Scene},
+        },
     };
 
     #[test]
     fn lengths_of_lists_in_an_earlier_step_are_forgotten() {
         let scene = Scene::new(FULL);
-        let limits = StepLimits {
-            courant: 0.25,
-            edge: f32::INFINITY,
-            has_fluid: true,
-            minimum: 1e-9,
-            constant: 1.0,
-            constant_bound: Bound::Maximum,
-        };
         let fail = |error: GpuError| -> ! { panic!("{error}") };
         let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| fail(error)));
         let mut columns = scene.columns.clone();
         let mut resident =
-            Resident::new(&gpu, &columns, &scene.params, limits).unwrap_or_else(|error| fail(error));
+            Resident::new(&gpu, &columns, &scene.params, LIMITS).unwrap_or_else(|error| fail(error));
         let search = [&grid::sort_fluid::KERNEL, &grid::fluid_neighbors::KERNEL];
         let reads: Vec<Column> = search.iter().flat_map(|kernel| kernel.reads).copied().collect();
         resident.upload(&mut columns, &reads, false).unwrap_or_else(|error| fail(error));

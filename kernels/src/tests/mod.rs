@@ -5,7 +5,7 @@ mod compare;
 mod descent;
 mod drag;
 #[cfg(feature = "gpu")]
-mod gpu;
+pub(crate) mod gpu;
 mod imports;
 mod lattice;
 mod levels;

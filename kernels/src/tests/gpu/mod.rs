@@ -28,7 +28,7 @@ fn gpu() -> &'static Arc<Gpu> {
 }
 
 /// Bounds of the step that allow anything.
-const LIMITS: StepLimits = StepLimits {
+pub(crate) const LIMITS: StepLimits = StepLimits {
     courant: 0.25,
     edge: f32::INFINITY,
     has_fluid: true,
