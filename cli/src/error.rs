@@ -23,6 +23,7 @@ pub(crate) enum CliError {
     #[error(transparent)]
     Picture(#[from] RenderError),
     /// A diagram cannot be drawn.
+    #[cfg(feature = "validation")]
     #[error("{0}")]
     Drawing(String),
     /// A file or folder of the results cannot be written.

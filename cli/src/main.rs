@@ -6,10 +6,13 @@ mod doctor;
 mod error;
 mod output;
 mod plan;
-mod precision;
 mod run;
 mod scenes;
 mod schema;
+#[cfg(feature = "validation")]
+mod validate;
+#[cfg(not(feature = "validation"))]
+#[path = "no_validation.rs"]
 mod validate;
 
 use std::process::ExitCode;

@@ -8,5 +8,6 @@ mod scenes;
 mod support;
 #[path = "command/usage.rs"]
 mod usage;
+#[cfg(feature = "validation")]
 #[path = "command/validate.rs"]
 mod validate;

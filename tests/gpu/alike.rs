@@ -1,4 +1,4 @@
-//! Scenes after 1, 60 and 600 frames.
+//! Scenes after 1, 60 and 180 frames.
 
 use sorb::{
     Offload, World,
@@ -175,7 +175,7 @@ cases! {
     a_second_of_standing_of_the_paper: "standing_paper", 0.3, SOFT, 60, 1e-3;
     a_second_of_squish: "squish_paper", 0.3, SOFT, 60, 3e-3;
     a_second_of_dam_break: "dam_break_paper", 0.3, SOFT, 60, 3e-2;
-    ten_seconds_of_water: "water_paper", 0.3, NARROW, 600, 1e-2;
-    ten_seconds_of_standing: "standing_paper", 0.3, SOFT, 600, 1e-2;
-    ten_seconds_of_ball_drop: "ball_drop_paper", 0.2, SOFT, 600, 1e-3;
+    three_seconds_of_water: "water_paper", 0.3, NARROW, 180, 1e-2;
+    three_seconds_of_standing: "standing_paper", 0.3, SOFT, 180, 1e-2;
+    three_seconds_of_ball_drop: "ball_drop_paper", 0.2, SOFT, 180, 1e-3;
 }

@@ -68,8 +68,8 @@ fn worst(differences: &[(f64, &'static str)]) -> (f64, &'static str) {
 #[test]
 fn a_world_and_its_clone_end_with_the_same_bits() {
     let presets = ["water", "ball_drop", "water_paper", "ball_drop_paper"];
-    let mut scenes: Vec<_> = presets.iter().map(|name| busy::scene(name, 0.5)).collect();
-    scenes.extend([common::preset("stack", 0.5), one_lies_one_flies()]);
+    let mut scenes: Vec<_> = presets.iter().map(|name| busy::scene(name, 0.3)).collect();
+    scenes.extend([common::preset("stack", 0.3), one_lies_one_flies()]);
     for scene in scenes {
         let name = &scene.name;
         let mut first = world(&scene, Offload::Gpu);

@@ -23,7 +23,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 #[test]
 fn they_are_those_of_the_cpu() {
     for name in ["ball_drop", "ball_drop_paper"] {
-        let scene = busy::scene(name, 0.5);
+        let scene = busy::scene(name, 0.3);
         let [cpu, gpu] = [Offload::Cpu, Offload::Gpu].map(|offload| {
             let mut world = world(&scene, offload);
             let start = picture(&world);

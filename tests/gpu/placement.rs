@@ -17,7 +17,7 @@ fn every_kernel_can_be_the_first_on_the_gpu() {
 
 #[track_caller]
 fn assert_each_can_be_the_first(name: &str) {
-    let scene = busy::scene(name, 0.5);
+    let scene = busy::scene(name, 0.3);
     let mut cpu = world(&scene, Offload::Cpu);
     common::steps(&mut cpu, 3);
     let kernels = cpu.plan().lines().iter().filter(|line| line.verdict == Verdict::Runs);
@@ -36,12 +36,13 @@ fn assert_each_can_be_the_first(name: &str) {
 /// The scene with the ball on the sponge and surface tension. With the models of the paper also a sponge for each of the
 /// other solvers, so that every kernel has work but those of the pressure solve.
 fn everything(name: &str, keys: &[&str]) -> Scene {
-    let mut scene = busy::scene(name, 0.5);
+    let (paper, resolution) = if name.ends_with("_paper") { (true, 0.5) } else { (false, 0.3) };
+    let mut scene = busy::scene(name, resolution);
     if let Some(fluid) = &mut scene.fluid {
         fluid.surface_tension = 0.072;
     }
     let beside = [(-0.12, "left", Solver::Vbd), (0.06, "right", Solver::XpbdNeoHookean)];
-    for (x, name, solver) in beside.into_iter().filter(|_| name.ends_with("_paper")) {
+    for (x, name, solver) in beside.into_iter().filter(|_| paper) {
         let (cells, position) = (UVec3::splat(3), Vec3::new(x, 0.0, -0.03));
         let sponge = Sponge { name: name.to_owned(), cells, position, solver, ..scene.sponges[0].clone() };
         scene.sponges.push(sponge);
@@ -155,7 +156,7 @@ fn kernels_at_places_where_they_cannot_be_are_refused() {
 
 #[test]
 fn plans_say_where_and_why_and_what_travels() {
-    let scene = busy::scene("ball_drop_paper", 0.5);
+    let scene = busy::scene("ball_drop_paper", 0.3);
     let all = world(&scene, Offload::Gpu).plan().to_string();
     for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 144 bytes"] {
         assert!(all.contains(part), "{part} is not in {all}");

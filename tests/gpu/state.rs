@@ -35,7 +35,7 @@ fn lose(world: &mut World, gpu: &Gpu) {
 #[test]
 fn a_lost_device_costs_what_was_not_looked_at() {
     for name in ["water", "ball_drop"] {
-        let scene = busy::scene(name, 0.5);
+        let scene = busy::scene(name, 0.3);
         let lost = another_gpu();
         let (mut world, mut never_lost) = (world_on(&scene, &lost), world_on(&scene, &gpu()));
         for _ in 0..2 {
@@ -105,7 +105,7 @@ fn a_world_can_leave_a_device_that_works() {
 #[test]
 fn measures_are_the_same_without_reading_the_state_back() {
     for name in ["water_paper", "ball_drop_paper", "dry", "dam_break_paper"] {
-        let scene = busy::scene(name, 0.5);
+        let scene = busy::scene(name, 0.3);
         let mut world = world_on(&scene, &gpu());
         common::frame(&mut world);
         let on_device = world.measures();

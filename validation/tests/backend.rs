@@ -9,7 +9,7 @@ use sorb_validation::{CASES, Outcome, Setting, run};
 fn outcome(name: &str, offload: Offload, fault: bool) -> Outcome {
     let case = CASES.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
     let options = Options { offload, ..Options::default() };
-    run(case, &Setting { quick: true, fault, options, ..Setting::new() })
+    run(case, &Setting { quick: true, resolution: 0.5, fault, options, ..Setting::new() })
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn both(name: &str, fault: bool) -> (Vec<[f64; 2]>, String, String) {
 #[test]
 fn figures_on_a_gpu_are_those_of_the_cpu() {
     let differ = |errors: &[[f64; 2]]| errors.iter().any(|[cpu, gpu]| (cpu - gpu).abs() > 0.05);
-    for name in ["dam_break", "patch", "uniaxial"] {
+    for name in ["dam_break", "uniaxial"] {
         let (errors, backend, adapter) = both(name, false);
         assert_eq!(backend, "gpu", "{name}");
         assert!(!adapter.is_empty() && !differ(&errors), "{name} on {adapter}: {errors:?}");

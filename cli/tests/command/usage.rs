@@ -94,3 +94,11 @@ fn a_reader_that_stops_reading_is_no_error() {
     let output = child.wait_with_output().expect("the command ends");
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
+
+#[cfg(not(feature = "validation"))]
+#[test]
+fn a_program_without_references_says_how_to_build_the_one_that_has_them() {
+    let answer = sorb(&["validate", "--quick", "dam_break"]);
+    assert_eq!(answer.code, Some(2), "{answer:?}");
+    assert!(answer.err.contains("--features validation -- validate --quick dam_break"), "{answer:?}");
+}

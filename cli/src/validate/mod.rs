@@ -1,5 +1,7 @@
 //! `sorb validate`: compares the simulator with analytic, experimental and converged references.
 
+mod precision;
+
 use std::{fmt::Write as _, path::PathBuf};
 
 use serde_json::{Value, json};
@@ -8,7 +10,7 @@ use sorb_validation::{
     Backends, CASES, Case, Outcome, Setting, SolverKind, Solvers, Stopwatch, Subject, Verdict,
 };
 
-use crate::{error::CliError, output, precision};
+use crate::{error::CliError, output};
 
 /// Arguments of `sorb validate`.
 #[derive(Debug, clap::Args)]

@@ -1,0 +1,22 @@
+//! `sorb validate` in a program without it.
+
+use crate::error::CliError;
+
+/// Whatever follows `sorb validate`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[arg(hide = true, trailing_var_arg = true, allow_hyphen_values = true)]
+    ignored: Vec<String>,
+}
+
+/// Says how to build the program that validates.
+///
+/// # Errors
+/// Always [`CliError::Usage`].
+pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
+    Err(CliError::Usage(format!(
+        "this program was built without its references; this one has them:\n\
+         cargo run --release -p sorb-cli --features validation -- validate {}",
+        arguments.ignored.join(" "),
+    )))
+}
