@@ -7,7 +7,6 @@ use sorb_kernels::{
 };
 
 use crate::{World, rigid::Mechanics};
-use sorb_kernels::columns::lane;
 
 /// Masses, momenta, energies and errors of one state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,7 +75,6 @@ impl Measures {
     fn add_water(&mut self, world: &World) {
         let fluid = &world.columns().fluid;
         let (mass, gravity) = (f64::from(world.params.fluid.particle_mass), world.params.gravity.as_dvec3());
-        let rest_density = f64::from(world.params.fluid.rest_density);
         let count = world.particle_positions().len();
         for (position, velocity) in world.particle_positions().iter().zip(world.particle_velocities()) {
             self.add_point(mass, vector(position), vector(velocity), gravity);
@@ -84,16 +82,8 @@ impl Measures {
         self.water_mass = mass * count as f64;
         let inside = fluid.interior.iter().take(count).filter(|interior| **interior > INSIDE).count();
         self.absorbed_mass = mass * inside as f64;
-        let summed;
-        let (density, share) = if world.params.fluid.incompressible.is_some() {
-            summed = world.summed_density();
-            (&summed.fluid.density, Some(&summed.fluid.boundary))
-        } else {
-            (&fluid.density, None)
-        };
-        for (row, density) in density.iter().take(count).enumerate() {
-            let share = share.map_or(0.0, |share| f64::from(share[row][lane::fluid::boundary::SHARE]));
-            let error = (f64::from(*density) / rest_density + share - 1.0).max(0.0);
+        for filled in world.filled() {
+            let error = (filled - 1.0).max(0.0);
             self.mean_density_error += error / count as f64;
             self.maximum_density_error = self.maximum_density_error.max(error);
         }

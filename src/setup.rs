@@ -17,6 +17,7 @@ use sorb_kernels::{
         lattice::{TetChunk, Topology},
         stars::{Stars, TETS},
     },
+    rounding::Rounding,
 };
 
 use crate::{
@@ -102,6 +103,7 @@ fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, W
 }
 
 fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, columns: &mut Columns) {
+    let spacing = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.spacing);
     let bodies = setups.iter().zip(&scene.bodies).enumerate().map(|(index, (setup, body))| Body {
         shape: setup.shape.clone(),
         kind: setup.kind,
@@ -109,6 +111,9 @@ fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, c
         friction: body.friction,
         touches_nodes: !body.grip,
         no_slip: body.no_slip,
+        rounding: Rounding::new(&setup.shape, spacing),
+        inverse_mass: engine.inverse_mass(index),
+        inverse_inertia: engine.inverse_inertia(index),
     });
     columns.bodies.states = Bodies(bodies.collect());
     columns.rows.bodies = setups.len();

@@ -77,8 +77,10 @@ impl Figure {
                     self.note(indent, &repetition(*times));
                     self.phases(indent + 2, phases);
                 }
-                Phase::KeepDensity { solve, projection } => {
+                Phase::KeepDensity { solve, divergence, projection } => {
                     self.phases(indent, solve);
+                    self.note(indent, "or, with divergence:");
+                    self.phases(indent + 2, divergence);
                     self.note(indent, "or, with pbf:");
                     self.phases(indent + 2, projection);
                 }

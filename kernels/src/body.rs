@@ -6,6 +6,7 @@ use crate::{
     column::ColumnData,
     lanes::{self, LANES, Simd, f32x8, select},
     layout::constants,
+    rounding::Rounding,
     vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };
 
@@ -135,6 +136,12 @@ pub struct Body {
     pub touches_nodes: bool,
     /// Whether the fluid sticks to the surface (no-slip); otherwise it slides along it (free slip).
     pub no_slip: bool,
+    /// The shape as images of particles see it.
+    pub rounding: Rounding,
+    /// Inverse of its mass \[1/kg\]: 0 for one that forces do not move.
+    pub inverse_mass: f32,
+    /// Inverse of its inertia about the centre of mass, in the world's frame \[1/(kg m^2)\].
+    pub inverse_inertia: Mat3,
 }
 
 impl Body {
@@ -161,8 +168,15 @@ impl Body {
     /// Signed distance of a world point from the surface \[m\], negative inside.
     #[must_use]
     pub fn distance(&self, point: Vec3) -> f32 {
+        self.distance_and_normal(point).0
+    }
+
+    /// The same, and the outward normal of the surface there.
+    pub(crate) fn distance_and_normal(&self, point: Vec3) -> (f32, Vec3) {
         lanes::dispatch!(fearless_simd::Level::baseline(), simd => {
-            Placed::new(simd, self).distance(vector::splat(simd, point.to_array())).0[0]
+            let (distance, [x, y, z]) =
+                Placed::new(simd, self).distance(vector::splat(simd, point.to_array()));
+            (distance[0], Vec3::new(x[0], y[0], z[0]))
         })
     }
 }
@@ -182,7 +196,9 @@ impl ColumnData for Bodies {
         }
     }
     fn poison(&mut self) {
-        self.0.iter_mut().for_each(|body| body.state.position = Vec3::NAN);
+        for body in &mut self.0 {
+            (body.state.position, body.state.linear_velocity) = (Vec3::NAN, Vec3::NAN);
+        }
     }
 }
 
@@ -347,7 +363,17 @@ mod tests {
             linear_velocity: Vec3::X,
             angular_velocity: Vec3::new(0.0, 0.0, 2.0),
         };
-        Body { shape, kind: BodyKind::Fixed, state, friction: 0.5, touches_nodes: true, no_slip: false }
+        Body {
+            shape,
+            kind: BodyKind::Fixed,
+            state,
+            friction: 0.5,
+            touches_nodes: true,
+            no_slip: false,
+            rounding: Rounding::default(),
+            inverse_mass: 0.0,
+            inverse_inertia: Mat3::ZERO,
+        }
     }
 
     /// Distance and normal at one world point, the same on every level.

@@ -11,6 +11,7 @@
 use crate::{
     body::Bodies,
     column::{ColumnData, Element, FAR_ROW, Lane, Life, Padding},
+    divergence::image_rows::{ImageRows, Images},
     grid::{
         cells::Cells,
         neighbors::{ListValues, Neighbors},
@@ -191,8 +192,9 @@ columns! {
     fluid fluid: Fluid {
         /// Centre of the particle; w: pressure over density squared, p/rho^2 \[Pa m^6/kg^2\].
         FluidPosition = position: rows("m"; PRESSURE_OVER_SQUARED_DENSITY 3 "Pa m^6/kg^2") padded Row(FAR_ROW), State;
-        /// Velocity of the particle; w: its volume m/rho \[m^3\] or, with a pressure solve, its permitted compression \[1\].
-        FluidVelocity = velocity: rows("m/s"; VOLUME 3 "m^3", ALLOWED_COMPRESSION 3 "1"), State;
+        /// Velocity of the particle; w: its volume m/rho \[m^3\] or, with a pressure solve, its permitted compression \[1\] or, with
+        /// one for the divergence, its kinematic pressure \[m^2/s^2\].
+        FluidVelocity = velocity: rows("m/s"; VOLUME 3 "m^3", ALLOWED_COMPRESSION 3 "1", PRESSURE 3 "m^2/s^2"), State;
         /// Identity of the particle, kept while rows are re-ordered.
         FluidId = id: words("1") padded Word(u32::MAX), State;
         /// Cells over the particles.
@@ -216,8 +218,10 @@ columns! {
         FluidDragRate = drag_rate: rows(; DRAG_RATE 0 "1/s", INERTIAL_DRAG_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
         /// Impulse that the particle loses to the sponge, over its interior value.
         FluidDrag = drag: rows("kg m/s"; MASS 3 "kg"), Scratch, needs Sponge;
-        /// Predicted position at the end of the step; w: change of the kinematic pressure \[m^2/s^2\].
-        FluidPredicted = predicted: rows("m"; PRESSURE_CHANGE 3 "m^2/s^2") padded Row(FAR_ROW), Scratch, needs Incompressible;
+        /// Predicted position at the end of the step; w: change of the kinematic pressure \[m^2/s^2\]. With a pressure solve for
+        /// the divergence the position at its beginning; w: the kinematic pressure.
+        FluidPredicted = predicted: rows("m"; PRESSURE_CHANGE 3 "m^2/s^2", PRESSURE 3 "m^2/s^2") padded Row(FAR_ROW), Scratch,
+            needs Incompressible;
         /// Gradient of the boundary volume fraction of walls, bodies and sponges \[1/m\]; w: the fraction \[1\].
         FluidBoundary = boundary: rows("1/m"; SHARE 3 "1"), Scratch, needs Incompressible;
         /// Acceleration of a particle by its own pressure, over its kinematic pressure; w: compression `rho / rho_0 - 1`
@@ -233,6 +237,24 @@ columns! {
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
         FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
+        /// Images of the particles in walls and bodies.
+        FluidImages = images: Images("m"), Scratch on host;
+        /// For every image, that of a vector of its particle.
+        FluidImageVectors = image_vectors: ImageRows("1"), Scratch on host;
+        /// For every image in walls alone, pressure times renormalisation of its particle, mirrored, along the axes: xx, yy, zz; w: 1. For
+        /// one in a body the acceleration of its particle by the image; w: 0.
+        FluidImageStress = image_stress: ImageRows("m^2/s^2"), Scratch on host;
+        /// The same between the axes: yz, zx, xy.
+        FluidImageStressBetween = image_stress_between: ImageRows("m^2/s^2"), Scratch on host;
+        /// Mean velocity of the neighbours along the lines to them, relative to the particle, see `divergence::approach`.
+        FluidApproach = approach: rows("m/s"), Scratch, needs Divergence;
+        /// Inverse of the second moment of the neighbourhood of a particle, along the axes: xx, yy, zz; w: density over that at
+        /// rest, with walls and bodies.
+        FluidRenormalisation = renormalisation: rows("1"; DENSITY 3 "1"), Scratch, needs Divergence;
+        /// The same between the axes: yz, zx, xy; w: divergence that the error of the density asks for, times the step.
+        FluidRenormalisationBetween = renormalisation_between: rows("1"; TARGET 3 "1"), Scratch, needs Divergence;
+        /// First moment of the neighbourhood of a particle; w: diagonal of the system, over the square of the step.
+        FluidMoment = moment: rows("1/m"; DIAGONAL 3 "1/m^2"), Scratch, needs Divergence;
         /// Compression that sponges absorb by their compliance to the pressure change, over the square of the step, see
         /// `couple::solid_yield`. Empty without sponges.
         FluidSolidYield = solid_yield: values("1/s^2"), Scratch, needs Incompressible;
@@ -348,6 +370,16 @@ columns! {
     bodies body: BodyStore {
         /// Shapes, poses and velocities.
         BodyStates = states: Bodies("m"), State;
+        /// Expected velocity at the end of the step without pressure.
+        BodyExpected = expected: rows("m/s"), Scratch, needs Divergence;
+        /// Expected angular velocity.
+        BodyExpectedSpin = expected_spin: rows("rad/s"), Scratch, needs Divergence;
+        /// Impulses of the pressure of the present round of a solve for the divergence.
+        BodyPressureWrenches = pressure_wrenches: Wrenches("N s"), Scratch;
+        /// Acceleration by them.
+        BodyAcceleration = acceleration: rows("m/s^2"), Scratch, needs Divergence;
+        /// Angular acceleration.
+        BodyAngularAcceleration = angular_acceleration: rows("rad/s^2"), Scratch, needs Divergence;
         /// Wrenches of the fluid on the bodies in this step.
         BodyFluidWrenches = fluid_wrenches: Wrenches("N s"), Scratch;
         /// Wrenches of the sponges on the bodies in this step.

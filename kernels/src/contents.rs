@@ -78,6 +78,11 @@ impl Need {
             Self::ImplicitViscosity => (fluid.implicit_viscosity.is_some(), "viscosity is explicit"),
             Self::EquationOfState => (fluid.incompressible.is_none(), "pressure is solved for"),
             Self::Incompressible => (fluid.incompressible.is_some(), "pressure by an equation of state"),
+            Self::Density => (
+                fluid.incompressible.is_some() && fluid.divergence().is_none(),
+                "no pressure solve for the density",
+            ),
+            Self::Divergence => (fluid.divergence().is_some(), "no pressure solve for the divergence"),
             Self::Porous => (params.solid.is_some(), "coupling of the paper"),
             Self::Wetting => (params.has_wetting(), "no sponge depends on how wet it is"),
             Self::Touch => (*touch, "no sponge can touch another or itself"),

@@ -138,6 +138,7 @@ macro_rules! declare {
             },
             #[cfg(feature = "gpu")]
             twin: {
+                #[allow(unused_imports, reason = "a kernel without a twin names no pass")]
                 use $crate::gpu::twins::{Rows::*, *};
                 &[$($pass),*]
             },

@@ -23,6 +23,7 @@ pub mod oracle;
 pub mod params;
 pub mod periodic;
 pub mod reduce;
+pub mod rounding;
 pub mod smoothing;
 pub mod stage;
 pub mod step;
@@ -65,7 +66,14 @@ kernels! {
         viscosity_kick, predict, boundary, factors, pressure_update, pressure_acceleration,
         pressure_residual, pressure_kick, position_correction, boundary_reaction, sweep, advect,
     } shared {
-        pub(crate) container, pub(crate) friction, pub obstacles, pub pressure_solve, pub(crate) viscosity, pub viscosity_solve,
+        pub(crate) container, pub(crate) friction, pub lattice, pub obstacles, pub pressure_solve, pub(crate) viscosity,
+        pub viscosity_solve,
+    }
+    /// The fluid, with a pressure solve for the divergence of the velocities.
+    divergence {
+        images, moments, hydrostatic, approach, damping, expect, begin, update, acceleration, residual, kick,
+    } shared {
+        closing, pub image_rows, mirror, rate, reflect, symmetric,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
     /// descent or by Neo-Hookean constraints, and contact of its nodes.

@@ -31,6 +31,10 @@ pub enum Need {
     EquationOfState,
     /// A pressure solve, or position based fluids.
     Incompressible,
+    /// A pressure solve for the density, or position based fluids.
+    Density,
+    /// A pressure solve for the divergence of the velocities.
+    Divergence,
     /// Sponges as porous media: their material displaces fluid.
     Porous,
     /// A sponge with properties that depend on wetness.

@@ -123,6 +123,21 @@ pub struct Incompressible {
     pub boundary_range: f32,
     /// Their share at the surface \[1\].
     pub boundary_share: f32,
+    /// Where the solve is for the divergence of the velocities.
+    pub divergence: Option<Divergence>,
+}
+
+/// What the pressure solve for the divergence of the velocities needs beside that for the density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Divergence {
+    /// Second moment of the neighbourhood of a particle in a lattice at rest: 1 for a perfect smoothing function.
+    pub lattice_moment: f32,
+    /// First moment of the neighbourhood of the first layer of a lattice below a plane \[1/m\].
+    pub surface_moment: f32,
+    /// Part of the neighbourhood that it lacks \[1\].
+    pub surface_lack: f32,
+    /// Smallest mass of a body, over the same and half of what the body displaces \[1\]: a light body makes the system stiffer.
+    pub lightest: f32,
 }
 
 /// Viscosity as a solve for the velocities at the end of the step (`sph::viscosity_begin`).
@@ -181,6 +196,12 @@ impl FluidParams {
     #[must_use]
     pub fn rest_volume(&self) -> f32 {
         self.particle_mass / self.rest_density
+    }
+
+    /// Parameters of a pressure solve for the divergence of the velocities, where that is the solver.
+    #[must_use]
+    pub fn divergence(&self) -> Option<&Divergence> {
+        self.incompressible.as_ref()?.divergence.as_ref()
     }
 
     /// What of [`roughness`](Self::roughness) the compression of a single step may follow \[s^2\]; see `sph::predict`.

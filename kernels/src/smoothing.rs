@@ -37,14 +37,25 @@ impl Wendland {
     /// The function with the given support radius H \[m\].
     #[must_use]
     pub fn new(support_radius: f32) -> Self {
+        Self::scaled(support_radius, 1.0)
+    }
+
+    /// The function over its sum in a cubic lattice of the given spacing \[m\]. Particles of the mass of a cube of a spacing then
+    /// have rest density in a lattice, although they are too few for the sum to be the integral.
+    #[must_use]
+    pub fn normalised(support_radius: f32, spacing: f32) -> Self {
+        Self::scaled(support_radius, 1.0 / Self::lattice_sum(f64::from(support_radius), f64::from(spacing)))
+    }
+
+    fn scaled(support_radius: f32, factor: f64) -> Self {
         let h = f64::from(support_radius);
         Self {
             support_radius,
             inverse_radius: (1.0 / h) as f32,
-            value: (21.0 / (2.0 * PI * h.powi(3))) as f32,
-            gradient: (210.0 / (PI * h.powi(5))) as f32,
-            laplacian: (630.0 / (PI * h.powi(5))) as f32,
-            viscosity: (45.0 / (PI * h.powi(5))) as f32,
+            value: (factor * 21.0 / (2.0 * PI * h.powi(3))) as f32,
+            gradient: (factor * 210.0 / (PI * h.powi(5))) as f32,
+            laplacian: (factor * 630.0 / (PI * h.powi(5))) as f32,
+            viscosity: (factor * 45.0 / (PI * h.powi(5))) as f32,
         }
     }
 
@@ -235,6 +246,31 @@ mod tests {
     #[test]
     fn lattice_sum_is_near_one() {
         assert!((Wendland::lattice_sum(2.0, 1.0) - 1.0338).abs() < 1e-4);
+    }
+
+    #[test]
+    fn the_normalised_function_sums_to_one_over_its_lattice() {
+        let sum = |own: Wendland| {
+            let shape = |r: f64| {
+                let u = (1.0 - r / f64::from(own.support_radius)).max(0.0);
+                f64::from(own.value) * u.powi(4) * (5.0 - 4.0 * u) * 0.3_f64.powi(3)
+            };
+            over_lattice(f64::from(own.support_radius), 0.3, shape)
+        };
+        assert!((sum(Wendland::normalised(0.6, 0.3)) - 1.0).abs() < 1e-6);
+        // Negative controls: the function itself, and that for another spacing.
+        assert!((sum(Wendland::new(0.6)) - 1.0338).abs() < 1e-4);
+        assert!((sum(Wendland::normalised(0.6, 0.25)) - 1.0).abs() > 1e-3);
+        let (plain, own) = (Wendland::new(0.6), Wendland::normalised(0.6, 0.3));
+        let ratio = own.value / plain.value;
+        for (own, plain) in [
+            (own.gradient, plain.gradient),
+            (own.laplacian, plain.laplacian),
+            (own.viscosity, plain.viscosity),
+        ] {
+            assert!((own / plain / ratio - 1.0).abs() < 1e-6);
+        }
+        assert_eq!(own.support_radius.to_bits(), plain.support_radius.to_bits());
     }
 
     #[test]

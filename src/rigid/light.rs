@@ -16,7 +16,7 @@
 use glam::DVec3;
 
 use super::{BodyKind, RigidEngine, Wrench};
-use crate::scene::Scene;
+use crate::scene::{FluidSolver, Scene};
 
 /// Smallest inertia of a body in contact, over that of what it displaces.
 const MINIMUM_INERTIA: f64 = 0.25;
@@ -33,8 +33,12 @@ impl LightBodies {
     pub(crate) fn new(scene: &Scene) -> Self {
         let fluid = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
         let sponge = scene.sponges.iter().map(|sponge| sponge.density).fold(0.0, f32::max);
+        // A solve that knows the masses of bodies needs no more.
+        let is_solved = scene.fluid.as_ref().is_some_and(|fluid| fluid.solver == FluidSolver::Divergence);
         let shares = scene.bodies.iter().map(|body| match body.kind {
-            BodyKind::Dynamic => [fluid.max(sponge), sponge].map(|displaced| share(body.density, displaced)),
+            BodyKind::Dynamic if !is_solved => {
+                [fluid.max(sponge), sponge].map(|displaced| share(body.density, displaced))
+            }
             _ => [1.0; 2],
         });
         Self { shares: shares.collect(), gravity: scene.gravity.as_dvec3() }

@@ -64,10 +64,11 @@ pub struct Fluid {
     ///
     /// If they do not suffice, the fluid flows as if it were less viscous.
     pub viscosity_rounds: u32,
-    /// Numerical viscosity: Monaghan's alpha, which damps approaching particles. Range 0 to 1; default 0.05.
+    /// Numerical viscosity: Monaghan's alpha, which damps approaching particles. Range 0 to 1; default 0.05, with `divergence` 0.
     ///
-    /// Below 0.01 the pressure is noisy. Above 0.2 the water looks like oil.
-    pub artificial_viscosity: f32,
+    /// Below 0.01 the pressure of other solvers is noisy. Above 0.2 the water looks like oil.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub artificial_viscosity: Option<f32>,
     /// Surface tension. Range 0 to 10 N/m; default 0 (off; water has 0.072).
     ///
     /// `dfsph` derives it from a surface energy, `wcsph` from the colour field as in the paper.
@@ -100,7 +101,7 @@ impl Default for Fluid {
             viscosity_integration: ViscosityIntegration::Explicit,
             viscosity_tolerance: 1e-3,
             viscosity_rounds: 200,
-            artificial_viscosity: 0.05,
+            artificial_viscosity: None,
             surface_tension: 0.0,
             no_slip: false,
             repulsion_damping: 0.1,
@@ -116,10 +117,17 @@ impl Fluid {
         self.support * self.spacing
     }
 
+    /// Monaghan's alpha: `artificial_viscosity`, or the default of the solver.
+    #[must_use]
+    pub fn numerical_viscosity(&self) -> f32 {
+        self.artificial_viscosity.unwrap_or(if self.solver == FluidSolver::Divergence { 0.0 } else { 0.05 })
+    }
+
     /// Radius of the neighbour search \[m\]: the support radius or, with a surface energy, that of the energy.
     #[must_use]
     pub fn neighbor_radius(&self) -> f32 {
-        let is_tense = self.surface_tension > 0.0 && self.solver == FluidSolver::Dfsph;
+        let is_solved = matches!(self.solver, FluidSolver::Dfsph | FluidSolver::Divergence);
+        let is_tense = self.surface_tension > 0.0 && is_solved;
         if is_tense { COHESION_SUPPORT * self.support_radius() } else { self.support_radius() }
     }
 }
@@ -134,6 +142,10 @@ pub enum FluidSolver {
     /// By a pressure solve that keeps the rest density: few long steps \[BK17\].
     #[default]
     Dfsph,
+    /// By a pressure solve that keeps the velocities free of divergence, with gradients that are exact for particles in any order
+    /// (docs/pressure-solve.md): water flows without friction of its own, and bodies sink and float by their weight. Not with sponges, and
+    /// on the CPU only.
+    Divergence,
     /// Position based fluids \[MM13\]: particles are moved to the rest density in a fixed number of iterations. Fixed cost
     /// and always stable, but compressible, depending on `projections` and on the step.
     Pbf,

@@ -7,8 +7,8 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Coupling, Domain, Fluid, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Solver, Sponge,
-    SpongeShape, VERSION,
+    Coupling, Domain, Fluid, FluidSolver, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Solver,
+    Sponge, SpongeShape, VERSION,
 };
 
 /// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
@@ -188,6 +188,10 @@ pub(super) fn inside(
 }
 
 fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
+    if fluid.solver == FluidSolver::Divergence && !scene.sponges.is_empty() {
+        let rule = "is for scenes without `sponges`; `dfsph` has both";
+        problems.push(Problem::rule("fluid.solver", "\"divergence\"", rule));
+    }
     if fluid.coupling == Some(Coupling::Porous) && !scene.allows_porous() {
         let rule = "needs `fluid.solver` = \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
         problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));

@@ -120,9 +120,9 @@ impl Plan {
                     let until_converged = matches!(times, Times::UntilConverged(_));
                     self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
                 }
-                Phase::KeepDensity { solve, projection } => {
-                    let is_projected = Times::Projections.number(contents) > 0;
-                    self.collect(if is_projected { projection } else { solve }, contents, repeat, groups);
+                Phase::KeepDensity { solve, divergence, projection } => {
+                    let kept = Phase::kept([solve, divergence, projection], contents);
+                    self.collect(kept, contents, repeat, groups);
                 }
             }
         }

@@ -3,14 +3,15 @@
 use glam::Vec3;
 use sorb_kernels::{
     asleep::Asleep,
+    body::BodyKind,
     grid::cells::Domain,
     params::{
-        Cohesion, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
-        SpongeParams, WettingParams,
+        Cohesion, Divergence, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL,
+        Params, Solver, SpongeParams, WettingParams,
     },
     periodic::Periodic,
     smoothing::Wendland,
-    sph::{deficit::cohesion_stiffness, factors::lattice_diagonal, obstacles::boundary_profile},
+    sph::{deficit::cohesion_stiffness, lattice, obstacles::boundary_profile},
 };
 
 use crate::scene::{self, Scene};
@@ -84,12 +85,19 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         };
     };
     let support = fluid.support_radius();
+    let divides = fluid.solver == scene::FluidSolver::Divergence;
     let lattice_sum = Wendland::lattice_sum(f64::from(support), f64::from(fluid.spacing));
-    let mass = f64::from(fluid.rest_density) * f64::from(fluid.spacing).powi(3) / lattice_sum;
+    let cube = f64::from(fluid.rest_density) * f64::from(fluid.spacing).powi(3);
+    // Either the mass is such that a lattice has rest density, or the smoothing function is.
+    let (smoothing, mass) = if divides {
+        (Wendland::normalised(support, fluid.spacing), cube)
+    } else {
+        (Wendland::new(support), cube / lattice_sum)
+    };
     let sound_speed = fluid.sound_speed.unwrap_or_else(|| scene.default_sound_speed());
     // Monaghan's alpha as a kinematic viscosity in three dimensions, alpha c h / 10 with the smoothing length
     // h = H / 2 [M05, eq. 8.8].
-    let numerical = fluid.rest_density * fluid.artificial_viscosity * sound_speed * support / 20.0;
+    let numerical = fluid.rest_density * fluid.numerical_viscosity() * sound_speed * support / 20.0;
     let is_incompressible = fluid.solver != scene::FluidSolver::Wcsph;
     let (viscosity, central_viscosity) = match (is_incompressible, fluid.viscosity_form) {
         (true, scene::ViscosityForm::Monaghan) => {
@@ -118,13 +126,13 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         spacing: fluid.spacing,
         rest_density: fluid.rest_density,
         particle_mass: mass as f32,
-        smoothing: Wendland::new(support),
+        smoothing,
         equation_of_state: match fluid.equation_of_state {
             scene::EquationOfState::Tait => EquationOfState::Tait,
             scene::EquationOfState::Linear => EquationOfState::Linear,
         },
         sound_speed,
-        incompressible: incompressible(fluid, &Wendland::new(support), sound_speed),
+        incompressible: incompressible(scene, fluid, &smoothing, sound_speed),
         viscosity,
         central_viscosity,
         implicit_viscosity,
@@ -167,7 +175,18 @@ fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
     })
 }
 
-fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) -> Option<Incompressible> {
+/// Smallest mass of a dynamic body, over the same and half of the water that it displaces.
+fn lightest(scene: &Scene, fluid: &scene::Fluid) -> f32 {
+    let dynamic = scene.bodies.iter().filter(|body| body.kind == BodyKind::Dynamic);
+    dynamic.map(|body| body.density / (body.density + 0.5 * fluid.rest_density)).fold(1.0, f32::min)
+}
+
+fn incompressible(
+    scene: &Scene,
+    fluid: &scene::Fluid,
+    smoothing: &Wendland,
+    sound_speed: f32,
+) -> Option<Incompressible> {
     if fluid.solver == scene::FluidSolver::Wcsph {
         return None;
     }
@@ -176,11 +195,16 @@ fn incompressible(fluid: &scene::Fluid, smoothing: &Wendland, sound_speed: f32) 
         tolerance: fluid.density_tolerance,
         rounds: fluid.rounds,
         projections: (fluid.solver == scene::FluidSolver::Pbf).then_some(fluid.projections),
-        lattice_diagonal: lattice_diagonal(smoothing, fluid.spacing),
+        lattice_diagonal: lattice::diagonal(smoothing, fluid.spacing),
         // The speed of sound is ten times the fastest expected speed of the water.
         correction_speed: 0.1 * sound_speed,
         boundary_range,
         boundary_share,
+        divergence: (fluid.solver == scene::FluidSolver::Divergence).then(|| {
+            let (surface_moment, surface_lack) = lattice::surface(smoothing, fluid.spacing);
+            let lattice_moment = lattice::moment(smoothing, fluid.spacing);
+            Divergence { lattice_moment, surface_moment, surface_lack, lightest: lightest(scene, fluid) }
+        }),
     })
 }
 

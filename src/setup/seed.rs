@@ -1,9 +1,11 @@
 //! Particles of blocks of water and of sponges that are wet at time zero.
 
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 use sorb_kernels::{
     column::{FAR_ROW, padded},
-    columns::Columns,
+    columns::{Columns, lane},
     params::Params,
 };
 
@@ -35,7 +37,7 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
         let counts = match fluid.solver {
             // An equation of state tolerates a few too many.
             scene::FluidSolver::Wcsph => wanted.map(|count| count.round().max(1.0) as u32),
-            scene::FluidSolver::Dfsph | scene::FluidSolver::Pbf => filling(wanted),
+            _ => filling(wanted),
         };
         let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
         let first_of = |other: &scene::Sponge, point: Vec3| other.saturation > 0.0 && holds(other, point);
@@ -50,6 +52,41 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
         columns.fluid.id = (0..count as u32).collect();
         columns.fluid.position.resize(padded(count), FAR_ROW);
         columns.fluid.velocity.resize(padded(count), [0.0; 4]);
+    }
+    if params.fluid.divergence().is_some() {
+        rest_pressures(scene, params, columns);
+    }
+}
+
+/// Distance of particles above each other over the spacing up to which they are one column of water.
+const GAP: f32 = 1.5;
+
+/// The kinematic pressure of water that rests on the floor of the container: a solve that begins at zero needs as many rounds as there are
+/// pairs of layers.
+fn rest_pressures(scene: &Scene, params: &Params, columns: &mut Columns) {
+    let down = scene.gravity.abs().max_position();
+    let Some((low, high)) = params.walls else { return };
+    let others = [(down + 1) % 3, (down + 2) % 3];
+    let is_inverted = scene.gravity[down] > 0.0;
+    let height = |row: &[f32; 4]| if is_inverted { high[down] - row[down] } else { row[down] - low[down] };
+    let (spacing, gravity) = (params.fluid.spacing, scene.gravity.length());
+    let mut by_column: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for (row, position) in columns.fluid.position[..columns.rows.fluid].iter().enumerate() {
+        let place = others.map(|axis| (position[axis] / spacing).floor() as i64);
+        by_column.entry(place).or_default().push(row);
+    }
+    for rows in by_column.values_mut() {
+        rows.sort_by(|a, b| {
+            height(&columns.fluid.position[*a]).total_cmp(&height(&columns.fluid.position[*b]))
+        });
+        let heights: Vec<f32> = rows.iter().map(|row| height(&columns.fluid.position[*row])).collect();
+        let below = |place: usize| place.checked_sub(1).map_or(0.0, |below| heights[below]);
+        let end = (0..rows.len()).find(|place| heights[*place] - below(*place) > GAP * spacing);
+        let end = end.unwrap_or(rows.len());
+        let Some(top) = end.checked_sub(1).map(|last| heights[last] + 0.5 * spacing) else { continue };
+        for (row, height) in rows[..end].iter().zip(&heights) {
+            columns.fluid.velocity[*row][lane::fluid::velocity::PRESSURE] = gravity * (top - height);
+        }
     }
 }
 

@@ -1,7 +1,12 @@
 //! Values that are computed for reading the state, not for a step.
 
 use sorb_kernels::{
-    asleep::Asleep, columns::Columns, couple, grid, kernel::Kernel, params::Params, pbd, sph,
+    asleep::Asleep,
+    columns::{Columns, lane},
+    couple, divergence, grid,
+    kernel::Kernel,
+    params::Params,
+    pbd, sph,
 };
 
 use super::World;
@@ -40,13 +45,11 @@ impl World {
         // Before the first step no compression is permitted.
         columns.fluid.acceleration.resize(columns.fluid.position.len(), [0.0; 4]);
         let params = Params { step: 0.0, asleep: Asleep::default(), ..self.params.clone() };
-        let phases = [
-            &grid::sort_fluid::KERNEL,
-            &grid::fluid_neighbors::KERNEL,
-            &sph::density::KERNEL,
-            &sph::predict::KERNEL,
-            &sph::boundary::KERNEL,
-        ];
+        let phases = [&grid::sort_fluid::KERNEL, &grid::fluid_neighbors::KERNEL, &sph::density::KERNEL];
+        let around = match params.fluid.divergence() {
+            Some(_) => &[&divergence::images::KERNEL, &divergence::moments::KERNEL][..],
+            None => &[&sph::predict::KERNEL, &sph::boundary::KERNEL],
+        };
         let solid = [
             &couple::controls::KERNEL,
             &pbd::gravity::KERNEL,
@@ -54,8 +57,26 @@ impl World {
             &couple::solid_share::KERNEL,
         ];
         let solid = if self.runs(&couple::solid_share::KERNEL) { &solid[..] } else { &[] };
-        let phases = phases.iter().chain(solid);
+        let phases = phases.iter().chain(around).chain(solid);
         self.cpu.enter(|| phases.for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
         columns
+    }
+
+    /// Density of every particle over that at rest, with walls, bodies and the material of sponges where pressure is solved for.
+    pub(crate) fn filled(&self) -> Vec<f64> {
+        let fluid = &self.params.fluid;
+        let ratio = |density: &f32| f64::from(*density) / f64::from(fluid.rest_density);
+        if fluid.incompressible.is_none() {
+            let count = self.particle_positions().len();
+            return self.columns().fluid.density.iter().take(count).map(ratio).collect();
+        }
+        let Columns { fluid: summed, rows, .. } = self.summed_density();
+        let filled = |row: usize| match fluid.divergence() {
+            Some(_) => f64::from(summed.renormalisation[row][lane::fluid::renormalisation::DENSITY]),
+            None => {
+                ratio(&summed.density[row]) + f64::from(summed.boundary[row][lane::fluid::boundary::SHARE])
+            }
+        };
+        (0..rows.fluid).map(filled).collect()
     }
 }

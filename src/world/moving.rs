@@ -47,6 +47,7 @@ pub(crate) fn move_bodies(
     engine.step(step, &wrenches)?;
     for (index, body) in bodies.states.0.iter_mut().enumerate() {
         body.state = engine.state(index);
+        body.inverse_inertia = engine.inverse_inertia(index);
     }
     Ok(())
 }

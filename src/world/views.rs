@@ -123,7 +123,8 @@ impl World {
 
     /// Pressures of the particles in the last step \[Pa\], in the order of the positions; zero at time zero.
     ///
-    /// With `wcsph` that of the equation of state. The solve of `dfsph` computes multipliers: the value here is the stress
+    /// With `wcsph` that of the equation of state, with `divergence` that of the solve. The solve of `dfsph` computes multipliers: the
+    /// value here is the stress
     /// that pairs of neighbours transmit where water fills the space, see
     /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill only the pores:
     /// the pore pressure is this times the porosity, `1 - (1 - phi) / J` at a volume ratio J of the sponge.
@@ -131,6 +132,10 @@ impl World {
     pub fn particle_pressures(&self) -> Vec<f32> {
         let (fluid, count) = (&self.columns().fluid, self.stores.host.rows.fluid);
         let parameters = &self.params.fluid;
+        if parameters.divergence().is_some() {
+            let pressure = |row: &[f32; 4]| parameters.rest_density * row[lane::fluid::velocity::PRESSURE];
+            return fluid.velocity.iter().take(count).map(pressure).collect();
+        }
         let Some(solve) = &parameters.incompressible else {
             let rows = fluid.position.iter().zip(&fluid.density).take(count);
             let mut pressures: Vec<_> = rows

@@ -71,7 +71,7 @@ fn fluid(draw: &mut Draw<'_>, spacing: f32) -> Fluid {
         density_tolerance: draw.value("fluid.density_tolerance"),
         rounds: 1 + draw.choice(60),
         viscosity: draw.value("fluid.viscosity"),
-        artificial_viscosity: draw.unit(),
+        artificial_viscosity: Some(draw.unit()),
         surface_tension: draw.value("fluid.surface_tension"),
         repulsion_damping: draw.unit(),
         solver: match draw.choice(8) {

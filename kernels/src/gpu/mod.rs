@@ -62,9 +62,10 @@ mod tests {
     use crate::KERNELS;
 
     #[test]
-    fn every_kernel_has_passes() {
+    fn every_kernel_but_those_of_the_divergence_has_passes() {
         for kernel in KERNELS {
-            assert!(!kernel.twin.is_empty(), "{}", kernel.name);
+            // Worlds with such a kernel are refused on a device (`PlaceError::NoTwin`).
+            assert_eq!(kernel.has_twin(), !kernel.name.starts_with("divergence::"), "{}", kernel.name);
         }
     }
 

@@ -68,10 +68,25 @@ impl Neighbors {
         lists.iter().map(move |entry| entry[query % LANES]).filter(move |row| (*row as usize) < targets)
     }
 
+    /// Whether there is a list for a query.
+    #[cfg(test)]
+    pub(crate) fn has(&self, query: usize) -> bool {
+        query / CHUNK < self.chunks.len()
+    }
+
     /// Number of list entries, padding included.
     #[must_use]
     pub fn entries(&self) -> usize {
         self.chunks.iter().map(|chunk| chunk.entries.len() * LANES).sum()
+    }
+
+    /// Empty lists of all queries.
+    pub(crate) fn clear(&mut self, queries: usize) {
+        self.chunks.resize_with(queries.div_ceil(CHUNK), ChunkLists::default);
+        self.chunks.iter_mut().for_each(|chunk| {
+            chunk.entries.clear();
+            chunk.start.fill(0);
+        });
     }
 
     /// Lists from single lists with entries in order; `padding` fills up a group.
@@ -145,6 +160,39 @@ impl Neighbors {
             let used = count.saturating_sub(first).min(end - first);
             let ChunkLists { start, entries } = &mut lists.0[0];
             with_lanes!(cpu, simd => search.chunk(simd, &queries[first..end], used, memory, start, entries));
+        });
+    }
+}
+
+impl Neighbors {
+    /// [`Self::build`] over targets that are in an order of their own, not in that of the cells.
+    pub(crate) fn build_in_order(
+        &mut self,
+        cpu: &Cpu,
+        (queries, count): (&[[f32; 4]], usize),
+        (targets, target_count): (&[[f32; 4]], usize),
+        cells: &Cells,
+        (radius, periodic): (f32, Option<&Periodic>),
+    ) {
+        let Self { chunks, planes } = self;
+        chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
+        planes.iter_mut().for_each(|plane| plane.resize(targets.len() + LANES, FAR));
+        for (place, row) in cells.order.iter().enumerate() {
+            let target = targets[*row as usize];
+            (0..3).for_each(|axis| planes[axis][place] = target[axis]);
+        }
+        planes.iter_mut().for_each(|plane| plane[target_count..].fill(FAR));
+        let [x, y, z] = planes;
+        let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius, periodic };
+        let order = &cells.order[..];
+        cpu.for_chunks_with(PerChunk(chunks), |memory, first, lists| {
+            let end = queries.len().min(first + CHUNK);
+            let used = count.saturating_sub(first).min(end - first);
+            let ChunkLists { start, entries } = &mut lists.0[0];
+            with_lanes!(cpu, simd => search.chunk(simd, &queries[first..end], used, memory, start, entries));
+            for place in entries.iter_mut().flatten() {
+                *place = order.get(*place as usize).copied().unwrap_or(*place);
+            }
         });
     }
 }

@@ -134,6 +134,11 @@ impl Search<'_> {
         lists.lengths = [0; LANES];
         let mut first = 0;
         while first < queries.len() {
+            // Rows without a place have no neighbours.
+            if queries[first][0] >= FAR {
+                first += 1;
+                continue;
+            }
             let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
             let mut end = first;
             while end < queries.len() {

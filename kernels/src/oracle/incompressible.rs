@@ -9,18 +9,25 @@ use crate::{
     params::Params,
 };
 
-/// `c_ij` of all pairs that are neighbours at the beginning of the step.
+/// `c_ij` at the predicted positions of all pairs that are neighbours at the beginning of the step.
 fn pairs(params: &Params, fluid: &Fluid, count: usize) -> Vec<Vec<(usize, f64)>> {
-    let radius = params.fluid.smoothing.support_radius;
-    let volume = f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density);
-    let (x, end) = (vectors(&fluid.position, count), vectors(&fluid.predicted, count));
-    let factor = |i: usize, j: usize| {
-        let u = closeness(radius, apart(params, end[i], end[j]).length());
-        (j, volume * 210.0 / super::pi_power(radius, 5) * u.powi(3))
-    };
+    pairs_at(params, fluid, &vectors(&fluid.predicted, count))
+}
+
+/// The same at other positions.
+pub(super) fn pairs_at(params: &Params, fluid: &Fluid, end: &[DVec3]) -> Vec<Vec<(usize, f64)>> {
+    let (count, x) = (end.len(), vectors(&fluid.position, end.len()));
     let reach = f64::from(params.fluid.list_radius());
     let near = |i: usize, j: usize| apart(params, x[i], x[j]).length() < reach;
-    (0..count).map(|i| (0..count).filter(|j| near(i, *j)).map(|j| factor(i, j)).collect()).collect()
+    let pair = |i: usize, j: usize| (j, factor(params, apart(params, end[i], end[j])));
+    (0..count).map(|i| (0..count).filter(|j| near(i, *j)).map(|j| pair(i, j)).collect()).collect()
+}
+
+/// `c_ij` at an offset.
+pub(super) fn factor(params: &Params, apart: DVec3) -> f64 {
+    let radius = params.fluid.smoothing.support_radius;
+    let volume = f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density);
+    volume * 210.0 / super::pi_power(radius, 5) * closeness(radius, apart.length()).powi(3)
 }
 
 fn box_inside(params: &Params) -> Option<(DVec3, DVec3)> {
@@ -199,7 +206,7 @@ pub(crate) fn factors(params: &Params, columns: &mut Columns) {
 }
 
 /// Keeps the lists, and sets the value of every entry.
-fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
+pub(super) fn write_pairs(fluid: &mut Fluid, near: &[Vec<(usize, f64)>]) {
     let Fluid { neighbors, pairs, .. } = fluid;
     pairs.fill(neighbors, |query, target| {
         let found = near.get(query).and_then(|near| near.iter().find(|(j, _)| *j == target));
@@ -262,7 +269,8 @@ pub(crate) fn pressure_residual(params: &Params, columns: &mut Columns) {
     let near = pairs(params, fluid, count);
     let (end, a) = (vectors(&fluid.predicted, count), vectors(&fluid.correction, count));
     let square = f64::from(params.step).powi(2);
-    let mut sums = [0.0; 5];
+    // The last is for the divergence.
+    let mut sums = [0.0; 6];
     for i in 0..count {
         let mut change = -a[i].dot(vector(fluid.factors[i]));
         let mut smoother = 0.0;

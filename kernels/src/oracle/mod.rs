@@ -11,7 +11,9 @@ use crate::params::Params;
 
 pub(crate) mod couple;
 pub(crate) mod descent;
+pub(crate) mod divergence;
 pub(crate) mod grid;
+mod images;
 pub(crate) mod incompressible;
 pub(crate) mod obstacles;
 pub(crate) mod pbd;

@@ -16,7 +16,7 @@ use crate::{
 use super::obstacles::{Profile, near, per_chunk};
 
 declare! {
-    needs: [Fluid, Obstacles, Incompressible],
+    needs: [Fluid, Obstacles, Density],
     reads: [FluidPosition, FluidAcceleration, BodyStates],
     writes: [FluidAcceleration, BodyFluidWrenches],
     oracle: crate::oracle::incompressible::boundary_pressure,

@@ -29,7 +29,6 @@ use crate::{
     lanes::{self, LANES, Simd},
     params::{Incompressible, Params},
     periodic::{Space, with_space},
-    smoothing::Wendland,
     vector::dot,
 };
 
@@ -148,22 +147,4 @@ impl Task<'_> {
             lanes::store_rows(pressure, row, [before * fluid.rest_density, zero, diagonal, compression]);
         }
     }
-}
-
-/// Sum of `|c_ij x_ij|^2` over the neighbours of a particle in a cubic lattice, with particle masses such that it has rest
-/// density \[1/m^2\].
-#[must_use]
-pub fn lattice_diagonal(smoothing: &Wendland, spacing: f32) -> f32 {
-    let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
-    let reach = (radius / d).ceil() as i32;
-    let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
-    let sites = -reach..=reach;
-    let mut sum = 0.0;
-    for (x, y, z) in
-        sites.clone().flat_map(|x| sites.clone().flat_map(move |y| (-reach..=reach).map(move |z| (x, y, z))))
-    {
-        let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
-        sum += (volume * Wendland::gradient_f64(radius, distance) * distance).powi(2);
-    }
-    sum as f32
 }

@@ -117,7 +117,7 @@ impl Profile {
 
 /// Adds vectors of the first `lanes` of eight particles to a wrench, times a scale, at arms from the centre of the body.
 #[inline(always)]
-pub(super) fn give<S: Simd>(
+pub(crate) fn give<S: Simd>(
     wrench: &mut Wrench,
     vectors: Vec3x8<S>,
     arms: Vec3x8<S>,
@@ -183,7 +183,7 @@ pub fn pressure_moments(smoothing: &Wendland, spacing: f32) -> (f64, f64) {
 }
 
 /// The wrenches of every chunk of `rows` rows.
-pub(super) fn per_chunk(wrenches: &mut [Wrench], rows: usize, bodies: usize) -> Vec<&mut [Wrench]> {
+pub(crate) fn per_chunk(wrenches: &mut [Wrench], rows: usize, bodies: usize) -> Vec<&mut [Wrench]> {
     match bodies {
         0 => (0..rows.div_ceil(CHUNK)).map(|_| &mut [][..]).collect(),
         bodies => wrenches.chunks_exact_mut(bodies).collect(),

@@ -14,14 +14,17 @@
 
 use crate::columns::lane;
 use crate::{
+    clock::PEAK_PRESSURE,
     column::ColumnData,
     cpu::PerChunk,
     grid::sort::per_chunk,
     layout::{constants, layout},
-    params::Incompressible,
+    params::{Incompressible, Params},
 };
 
 constants! {
+    /// Speed of sound over the fastest speed that is expected.
+    pub(crate) const SOUND_SPEED_RATIO: f32 = 10.0;
     /// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
     const FIRST_LENGTH: f32 = 0.6;
     /// Mean error over the mean displacement of a step, in spacings, above which the fluid would not come to rest: what is
@@ -29,6 +32,17 @@ constants! {
     const ERROR_PER_DISPLACEMENT: f32 = 0.02;
     /// Least tolerance: rounding to f32 leaves no less.
     const MINIMUM_TOLERANCE: f32 = 1.0e-6;
+    /// The same error of a solve for the divergence, which is left in a layer of one spacing: errors of one sign add up over the depth.
+    const DIVERGENCE_PER_DISPLACEMENT: f32 = 0.2;
+    /// Least number of layers that it is divided by.
+    const MINIMUM_LAYERS: f32 = 10.0;
+    /// Least tolerance of a solve for the divergence.
+    const MINIMUM_DIVERGENCE: f32 = 1.0e-5;
+    /// Fourth root of the mean fourth power of the error of that solve at most, over the tolerance: an impact on few particles is not
+    /// seen in the mean, and must not decide about all of a scene.
+    const UNEVENNESS: f32 = 5.0;
+    /// Speed that the mean target of the divergence may give all of a pool at rest, over that of a shallow wave on it.
+    const MAXIMUM_RISE: f32 = 0.05;
     /// Least length of a step.
     const MINIMUM_LENGTH: f64 = 0.2;
     /// Greatest length of a step.
@@ -48,18 +62,46 @@ pub struct Sums {
     response: f32,
     /// Square of the kinematic pressure.
     pressure: f32,
+    /// Fourth power of the error.
+    fourth: f32,
+}
+
+/// Sums over the rows of a chunk before a solve for the divergence.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Beginning {
+    /// Squared speed \[m^2/s^2\].
+    speed: f32,
+    /// Square of the kinematic pressure of the last step \[m^4/s^4\].
+    pressure: f32,
+    /// Divergence that errors of the density ask for, times the step.
+    target: f32,
+}
+
+impl Beginning {
+    /// Of velocities with the pressure beside them, and rows with the target in the last lane.
+    pub(crate) fn of(velocity: &[[f32; 4]], targets: &[[f32; 4]]) -> Self {
+        let mut sums = Self::default();
+        for ([x, y, z, pressure], target) in velocity.iter().zip(targets) {
+            sums.speed += x * x + y * y + z * z;
+            sums.pressure += pressure * pressure;
+            sums.target += target[lane::fluid::renormalisation_between::TARGET];
+        }
+        sums
+    }
 }
 
 impl Sums {
     /// Stores the remaining compression, and sums up.
-    pub(super) fn of(rows: &mut [[f32; 4]], left: &[f32]) -> Self {
+    pub(crate) fn of(rows: &mut [[f32; 4]], left: &[f32]) -> Self {
         let mut sums = Self::default();
         for (row, left) in rows.iter_mut().zip(left) {
             let [pressure, change, diagonal, before] = *row;
             let response = before - left;
             let slack = pressure * diagonal;
             let over = if -left < slack { -left } else { slack };
-            sums.error += if *left > 0.0 { *left } else { over };
+            let error = if *left > 0.0 { *left } else { over };
+            sums.error += error;
+            sums.fourth += error * error * (error * error);
             sums.change += change * change * diagonal;
             sums.mixed += change * response;
             sums.response += response * response / diagonal;
@@ -82,6 +124,9 @@ layout! {
         /// Rounds of this step.
         rounds: u32,
         is_converged: bool,
+        /// With a solve for the divergence: what its target is scaled by, and the speed of the pressure or of the flow \[m/s\].
+        target_scale: f32,
+        speed: f32,
     }
 }
 
@@ -91,6 +136,7 @@ pub struct PressureSolve {
     pub(crate) state: Solve,
     sums: Vec<Sums>,
     displacements: Vec<f32>,
+    beginnings: Vec<Beginning>,
 }
 
 impl PressureSolve {
@@ -106,9 +152,10 @@ impl PressureSolve {
         self.state.is_converged
     }
 
-    /// Iterations, whether converged, next step length, error, pressure and tolerance.
+    /// Iterations, whether converged, next step length, error, pressure and tolerance; what the target of the divergence is scaled by, and
+    /// the speed of waves.
     #[cfg(test)]
-    pub(crate) fn numbers(&self) -> [f64; 6] {
+    pub(crate) fn numbers(&self) -> [f64; 8] {
         [
             f64::from(self.state.rounds),
             f64::from(u8::from(self.state.is_converged)),
@@ -116,6 +163,8 @@ impl PressureSolve {
             f64::from(self.state.error),
             f64::from(self.state.pressure),
             f64::from(self.state.tolerance),
+            f64::from(self.state.target_scale),
+            f64::from(self.state.speed),
         ]
     }
 
@@ -154,16 +203,70 @@ impl PressureSolve {
         self.state = Solve { length: FIRST_LENGTH, tolerance, ..Solve::default() };
     }
 
+    /// Room for the sums before a solve for the divergence.
+    pub(crate) fn beginnings(&mut self, rows: usize) -> PerChunk<'_, Beginning> {
+        per_chunk(&mut self.beginnings, rows)
+    }
+
+    /// Before a solve for the divergence over `count` particles.
+    pub(crate) fn begin_divergence(&mut self, count: usize, params: &Params) {
+        let mut total = [0.0; 3];
+        for Beginning { speed, pressure, target } in &self.beginnings {
+            for (total, sum) in total.iter_mut().zip([speed, pressure, target]) {
+                *total += f64::from(*sum);
+            }
+        }
+        self.begin_divergence_with(total, count, params);
+    }
+
+    /// The same, with the sums over all of them.
+    pub(crate) fn begin_divergence_with(
+        &mut self,
+        [speed, pressure, target]: [f64; 3],
+        count: usize,
+        params: &Params,
+    ) {
+        let Some(solve) = &params.fluid.incompressible else { return };
+        let (particles, spacing) = (count.max(1) as f64, params.fluid.spacing);
+        let gravity = params.gravity.length();
+        let speed = (speed / particles).sqrt() as f32;
+        // That of the bottom of a pool at rest.
+        let pressure = PEAK_PRESSURE * (pressure / particles).sqrt() as f32;
+        let wave = pressure.sqrt();
+        let layers = if gravity > 0.0 { pressure / (gravity * spacing) } else { 0.0 };
+        let layers = layers.max(MINIMUM_LAYERS);
+        let displacement = speed * params.step / spacing;
+        let tolerance = DIVERGENCE_PER_DISPLACEMENT * displacement / layers;
+        let tolerance = tolerance.min(solve.tolerance).max(MINIMUM_DIVERGENCE);
+        let target = (target / particles).abs() as f32;
+        // A mean rate of expansion t lifts the surface of a pool of depth P / g by t P / g.
+        let most = if wave > 0.0 { MAXIMUM_RISE * gravity * params.step / wave } else { 0.0 };
+        let target_scale = if target > most && most > 0.0 { most / target } else { 1.0 };
+        let speed = wave.max(PEAK_PRESSURE * speed);
+        // The first iteration sees what the pressure of the step before leaves.
+        self.state = Solve { length: 0.0, tolerance, target_scale, speed, ..Solve::default() };
+    }
+
+    /// What the target of the divergence is scaled by.
+    pub(crate) fn target_scale(&self) -> f32 {
+        self.state.target_scale
+    }
+
+    /// Speed of shallow waves or of the flow, whichever is larger \[m/s\].
+    pub(crate) fn speed(&self) -> f32 {
+        self.state.speed
+    }
+
     /// Room for the sums over every chunk of `rows` rows.
-    pub(super) fn sums(&mut self, rows: usize) -> PerChunk<'_, Sums> {
+    pub(crate) fn sums(&mut self, rows: usize) -> PerChunk<'_, Sums> {
         per_chunk(&mut self.sums, rows)
     }
 
     /// After an iteration over `count` particles.
-    pub(super) fn finish_round(&mut self, count: usize, solve: &Incompressible) {
-        let mut total = [0.0; 5];
-        for Sums { error, change, mixed, response, pressure } in &self.sums {
-            for (total, sum) in total.iter_mut().zip([error, change, mixed, response, pressure]) {
+    pub(crate) fn finish_round(&mut self, count: usize, solve: &Incompressible) {
+        let mut total = [0.0; 6];
+        for Sums { error, change, mixed, response, pressure, fourth } in &self.sums {
+            for (total, sum) in total.iter_mut().zip([error, change, mixed, response, pressure, fourth]) {
                 *total += f64::from(*sum);
             }
         }
@@ -173,7 +276,7 @@ impl PressureSolve {
     /// After an iteration over `count` particles, with the sums over all of them.
     pub(crate) fn finish_with(
         &mut self,
-        [error, change, mixed, response, pressure]: [f64; 5],
+        [error, change, mixed, response, pressure, fourth]: [f64; 6],
         count: usize,
         solve: &Incompressible,
     ) {
@@ -182,24 +285,32 @@ impl PressureSolve {
         state.error = (error / particles) as f32;
         state.pressure = (pressure / particles).sqrt() as f32;
         state.rounds += 1;
-        state.is_converged = state.error <= state.tolerance || state.rounds >= solve.rounds;
+        // A solve for the divergence has a first round that changes no pressure, and stands light bodies (`params::Divergence`).
+        let (still, most) = solve.divergence.map_or((0, 1.0), |own| (1, f64::from(own.lightest)));
+        let largest = f64::from(UNEVENNESS * state.tolerance);
+        let is_even = still == 0 || fourth / particles <= largest * largest * largest * largest;
+        let is_small = state.error <= state.tolerance && is_even && state.rounds > still;
+        state.is_converged = is_small || state.rounds >= solve.rounds;
         let ratio = if state.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
-        let is_usable = state.rounds > 1 && mixed > 0.0 && ratio.is_finite();
-        state.length =
-            if is_usable { ratio.clamp(MINIMUM_LENGTH, MAXIMUM_LENGTH) as f32 } else { FIRST_LENGTH };
+        let is_usable = state.rounds > 1 + still && mixed > 0.0 && ratio.is_finite();
+        let length = if is_usable { ratio } else { f64::from(FIRST_LENGTH) * most };
+        state.length = length.clamp(MINIMUM_LENGTH * most, MAXIMUM_LENGTH) as f32;
     }
 }
 
 impl ColumnData for PressureSolve {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
-        let Solve { rounds, is_converged, length, error, pressure, tolerance } = self.state;
+        let Solve { rounds, is_converged, length, error, pressure, tolerance, target_scale, speed } =
+            self.state;
         visit(rounds);
         visit(u32::from(is_converged));
-        [length, error, pressure, tolerance].into_iter().for_each(|value| visit(value.to_bits()));
+        [length, error, pressure, tolerance, target_scale, speed]
+            .into_iter()
+            .for_each(|value| visit(value.to_bits()));
     }
     fn poison(&mut self) {
         let (rounds, is_converged) = (u32::MAX, self.state.is_converged);
-        let [length, tolerance, error, pressure] = [f32::NAN; 4];
-        self.state = Solve { length, tolerance, error, pressure, rounds, is_converged };
+        let [length, tolerance, error, pressure, target_scale, speed] = [f32::NAN; 6];
+        self.state = Solve { length, tolerance, error, pressure, rounds, is_converged, target_scale, speed };
     }
 }

@@ -17,6 +17,8 @@ use crate::{
     params::Params,
 };
 
+use super::pressure_solve::SOUND_SPEED_RATIO;
+
 declare! {
     needs: [Fluid, Incompressible],
     reads: [FluidPosition, FluidPredicted, FluidPressureRows, FluidPressureSolve],
@@ -24,10 +26,6 @@ declare! {
     oracle: crate::oracle::incompressible::pressure_update,
     bound: 4e-6,
     twin: [pass(NAME, Fluid)],
-    constants: {
-        /// Speed of sound over the fastest speed that is expected.
-        const SOUND_SPEED_RATIO: f32 = 10.0;
-    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

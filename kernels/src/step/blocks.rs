@@ -1,6 +1,6 @@
 //! The blocks that a step is made of.
 
-use crate::{couple, grid, pbd, sph};
+use crate::{couple, divergence, grid, pbd, sph};
 
 use super::{
     Block,
@@ -17,6 +17,10 @@ pub(super) static SEARCH: Block = Block {
         Run(&sph::density::KERNEL),
     ],
 };
+
+/// Images of the particles in walls and bodies, and the moments of neighbourhoods with them.
+pub(super) static IMAGES: Block =
+    Block { name: "images", phases: &[Run(&divergence::images::KERNEL), Run(&divergence::moments::KERNEL)] };
 
 /// Nodes as control particles of the fluid, pairs of nodes that may touch, and the saturation around the nodes.
 pub(super) static CONTROLS: Block = Block {
@@ -50,8 +54,16 @@ pub(super) static FORCES: Block = Block {
 /// Forces of walls and bodies on particles.
 pub(super) static WALLS: Block = Block {
     name: "walls",
-    phases: &[Run(&sph::boundary_pressure::KERNEL), Run(&sph::wall_friction::KERNEL)],
+    phases: &[
+        Run(&sph::boundary_pressure::KERNEL),
+        Run(&divergence::hydrostatic::KERNEL),
+        Run(&sph::wall_friction::KERNEL),
+    ],
 };
+
+/// Damping of velocities that differ from particle to particle.
+pub(super) static NOISE: Block =
+    Block { name: "noise", phases: &[Run(&divergence::approach::KERNEL), Run(&divergence::damping::KERNEL)] };
 
 /// Velocities by the forces, and by a solve for implicit viscosity.
 pub(super) static VISCOSITY: Block = Block {
@@ -71,11 +83,12 @@ pub(super) static VISCOSITY: Block = Block {
 /// Keeps the density, where there is no equation of state.
 pub(super) static PRESSURE: Block = Block {
     name: "pressure",
-    phases: &[Run(&sph::predict::KERNEL), KeepDensity { solve: SOLVE, projection: PROJECTION }],
+    phases: &[KeepDensity { solve: SOLVE, divergence: DIVERGENCE, projection: PROJECTION }],
 };
 
 /// The density by a pressure solve \[BK17\].
 static SOLVE: &[Phase] = &[
+    Run(&sph::predict::KERNEL),
     Run(&sph::boundary::KERNEL),
     Run(&couple::solid_share::KERNEL),
     Run(&sph::factors::KERNEL),
@@ -95,19 +108,37 @@ static SOLVE: &[Phase] = &[
 ];
 
 /// The density by moving particles \[MM13\]: every iteration begins at the positions of the previous one.
-static PROJECTION: &[Phase] = &[Repeat {
-    times: Times::Projections,
-    phases: &[
-        Run(&sph::boundary::KERNEL),
-        Run(&couple::solid_share::KERNEL),
-        Run(&sph::factors::KERNEL),
-        Run(&sph::pressure_update::KERNEL),
-        Run(&sph::pressure_acceleration::KERNEL),
-        Run(&couple::solid_reaction::KERNEL),
-        Run(&sph::boundary_reaction::KERNEL),
-        Run(&sph::position_correction::KERNEL),
-    ],
-}];
+static PROJECTION: &[Phase] = &[
+    Run(&sph::predict::KERNEL),
+    Repeat {
+        times: Times::Projections,
+        phases: &[
+            Run(&sph::boundary::KERNEL),
+            Run(&couple::solid_share::KERNEL),
+            Run(&sph::factors::KERNEL),
+            Run(&sph::pressure_update::KERNEL),
+            Run(&sph::pressure_acceleration::KERNEL),
+            Run(&couple::solid_reaction::KERNEL),
+            Run(&sph::boundary_reaction::KERNEL),
+            Run(&sph::position_correction::KERNEL),
+        ],
+    },
+];
+
+/// The divergence of the velocities by a pressure solve, with the bodies as unknowns.
+static DIVERGENCE: &[Phase] = &[
+    Run(&divergence::expect::KERNEL),
+    Run(&divergence::begin::KERNEL),
+    Repeat {
+        times: Times::UntilConverged(Solve::Pressure),
+        phases: &[
+            Run(&divergence::update::KERNEL),
+            Run(&divergence::acceleration::KERNEL),
+            Run(&divergence::residual::KERNEL),
+        ],
+    },
+    Run(&divergence::kick::KERNEL),
+];
 
 /// Sponges by any of the solvers, with their contacts.
 pub(super) static ELASTIC: Block = Block {

@@ -22,6 +22,8 @@ pub enum Phase {
     KeepDensity {
         /// By a solve for the pressure.
         solve: &'static [Self],
+        /// By a solve for the pressure that keeps the divergence of the velocities.
+        divergence: &'static [Self],
         /// By moving particles.
         projection: &'static [Self],
     },
@@ -58,6 +60,23 @@ pub enum Solve {
     Pressure,
     /// For the velocities with implicit viscosity, at most `fluid.viscosity_rounds` rounds.
     Viscosity,
+}
+
+impl Phase {
+    /// The phases that keep the density of the fluid of a scene.
+    #[must_use]
+    pub fn kept(
+        [solve, divergence, projection]: [&'static [Self]; 3],
+        contents: &Contents<'_>,
+    ) -> &'static [Self] {
+        if contents.params.fluid.divergence().is_some() {
+            divergence
+        } else if Times::Projections.number(contents) > 0 {
+            projection
+        } else {
+            solve
+        }
+    }
 }
 
 impl Times {
@@ -110,6 +129,7 @@ use blocks::*;
 /// The step of the paper. Reads and writes of the kernels check this order; they do not define it.
 pub static STEP: &[Phase] = &[
     Part(&SEARCH),
+    Part(&IMAGES),
     Run(&sph::pressure::KERNEL),
     Part(&CONTROLS),
     Part(&PORES),
@@ -117,6 +137,7 @@ pub static STEP: &[Phase] = &[
     Part(&FORCES),
     Run(&sph::repulsion::KERNEL),
     Part(&WALLS),
+    Part(&NOISE),
     Part(&VISCOSITY),
     Part(&PRESSURE),
     Part(&DRAG),

@@ -5,6 +5,7 @@ use crate::{
     column::Plain,
     columns::{Column, Columns, Store},
     cpu::CHUNK,
+    divergence::image_rows::Images,
     grid::{
         cells::Cells,
         neighbors::{ListValues, Neighbors},
@@ -119,10 +120,12 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
     let (fluid, nodes, controls) = (&columns.fluid, &columns.nodes, &columns.controls);
     let (ids, by_id, by_node) = (&fluid.id, by_id(columns), by_node(columns));
     let all_nodes: Vec<usize> = (0..columns.rows.nodes).collect();
+    let all_bodies: Vec<usize> = (0..columns.rows.bodies).collect();
     let order = || match column.store() {
         Store::Fluid => &by_id,
         Store::Controls => &by_node,
-        Store::Nodes | Store::BodyStore => &all_nodes,
+        Store::Nodes => &all_nodes,
+        Store::BodyStore => &all_bodies,
     };
     match columns.data(column).plain() {
         Some(Plain::Rows(data)) => return rows(column, data, order()),
@@ -166,6 +169,13 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::BodyFluidWrenches => {
             Content::Numbers(totals(&columns.bodies.fluid_wrenches.0, columns.rows.bodies))
         }
+        Column::BodyPressureWrenches => {
+            Content::Numbers(totals(&columns.bodies.pressure_wrenches.0, columns.rows.bodies))
+        }
+        Column::FluidImages => images(&fluid.images, &by_id, ids, columns.rows.fluid),
+        Column::FluidImageVectors => image_rows(&fluid.images, &fluid.image_vectors.0, &by_id),
+        Column::FluidImageStress => image_rows(&fluid.images, &fluid.image_stress.0, &by_id),
+        Column::FluidImageStressBetween => image_rows(&fluid.images, &fluid.image_stress_between.0, &by_id),
         Column::BodyNodeWrenches => {
             Content::Numbers(totals(&columns.bodies.node_wrenches.0, columns.rows.bodies))
         }
@@ -196,6 +206,9 @@ fn extremes(total: Extreme) -> Content {
     Content::Numbers(numbers.map(|number| vec![number]).to_vec())
 }
 
+/// Arm of the impulses on the bodies of the tests, about \[m\].
+const ARM: f64 = 0.005;
+
 /// Impulses and angular impulses of every body, chunks added up.
 fn totals(wrenches: &[Wrench], bodies: usize) -> Vec<Vec<f64>> {
     let mut totals = vec![Wrench::default(); bodies];
@@ -203,10 +216,9 @@ fn totals(wrenches: &[Wrench], bodies: usize) -> Vec<Vec<f64>> {
         totals[index % bodies].impulse += wrench.impulse;
         totals[index % bodies].angular_impulse += wrench.angular_impulse;
     }
-    vec![
-        totals.iter().flat_map(|wrench| wrench.impulse.to_array()).collect(),
-        totals.iter().flat_map(|wrench| wrench.angular_impulse.to_array()).collect(),
-    ]
+    // Where forces go through the centre, angular impulses are rounding.
+    let both = |wrench: &Wrench| [wrench.impulse.to_array(), (wrench.angular_impulse / ARM).to_array()];
+    vec![totals.iter().flat_map(both).flatten().collect()]
 }
 
 fn sets(lists: &Neighbors, order: &[usize], identity: &[u32], targets: usize) -> Content {
@@ -227,6 +239,9 @@ fn list_values(
     targets: usize,
 ) -> Content {
     let own = |query: &usize| {
+        if !lists.has(*query) {
+            return Vec::new();
+        }
         let (chunk, row, lane) = (lists.chunk(*query), *query % CHUNK, *query % LANES);
         let stored = &values.chunk(*query)[chunk.range(row)];
         let pairs = chunk.group(row).iter().zip(stored).map(|(entry, stored)| (entry[lane], stored[lane]));
@@ -235,6 +250,37 @@ fn list_values(
         pairs.into_iter().map(|(_, value)| f64::from(value)).collect::<Vec<f64>>()
     };
     Content::Numbers(vec![order.iter().flat_map(own).collect()])
+}
+
+/// Rows of the images, by the particles that they are images of; the last lane in a group of its own.
+fn image_rows(images: &Images, data: &[[f32; 4]], order: &[usize]) -> Content {
+    let all: Vec<usize> = order.iter().flat_map(|row| images.of(*row)).collect();
+    let row = |image: &usize| data.get(*image).copied().unwrap_or([0.0; 4]).map(f64::from);
+    let vectors = all.iter().flat_map(|image| row(image)[..3].to_vec()).collect();
+    Content::Numbers(vec![vectors, all.iter().map(|image| row(image)[3]).collect()])
+}
+
+/// Images by the particles that they are images of, and the values of lists by both.
+fn images(images: &Images, order: &[usize], ids: &[u32], count: usize) -> Content {
+    let all: Vec<usize> = order.iter().flat_map(|row| images.of(*row)).collect();
+    let mut groups = Vec::new();
+    for rows in [&images.position, &images.foot, &images.along, &images.between] {
+        let Content::Numbers(numbers) = image_rows(images, rows, order) else { continue };
+        groups.extend(numbers);
+    }
+    groups.push(all.iter().map(|image| f64::from(images.body[*image].wrapping_add(1))).collect());
+    // A place among all images that does not depend on the order of rows.
+    let mut place = vec![0; images.count()];
+    all.iter().enumerate().for_each(|(index, image)| place[*image] = index as u32);
+    let near = || list_values(&images.pairs, &images.near, order, &place, images.count());
+    let particles = || list_values(&images.particle_pairs, &images.particles, &all, ids, count);
+    // Without images there are no lists.
+    let lists = if all.is_empty() { Vec::new() } else { vec![near(), particles()] };
+    for content in lists {
+        let Content::Numbers(numbers) = content else { continue };
+        groups.extend(numbers);
+    }
+    Content::Numbers(groups)
 }
 
 /// For every point, the points in a box around it: by the cells, or by looking at all points.

@@ -70,10 +70,14 @@ const HARDLY_FELT: [Column; 4] =
 pub(super) fn fault_in(kernel: &Kernel, column: Column) -> f32 {
     match column {
         _ if kernel.name == "sph::sweep" => 1.05,
+        // It only asks which particles are at a surface.
+        Column::FluidRenormalisation if kernel.name == "divergence::kick" => 0.5,
         // Drag, its moments about the nodes, and contact are a small part of what a sponge lacks, and wetness is a part of
         // what makes a tet.
         Column::NodeDragMoment | Column::NodeWetting => 1.5,
         Column::NodeReaction | Column::NodeDrag => 1.01,
+        // Nearly nothing in a neighbourhood that is nearly a lattice.
+        Column::FluidRenormalisationBetween => 1.05,
         _ => 1.001,
     }
 }
@@ -110,7 +114,10 @@ pub(super) fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool 
             columns.fluid.extremes.0.iter_mut().for_each(|chunk| chunk.acceleration_squared *= factor);
         }
         Column::BodyStates => {
-            columns.bodies.states.0.iter_mut().for_each(|body| body.state.position *= factor);
+            for body in &mut columns.bodies.states.0 {
+                body.state.position *= factor;
+                body.state.linear_velocity *= factor;
+            }
         }
         _ => return false,
     }

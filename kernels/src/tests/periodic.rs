@@ -150,6 +150,14 @@ pub(super) const ACROSS: &[&str] = &[
     "sph::factors",
     "sph::pressure_acceleration",
     "sph::pressure_residual",
+    "divergence::approach",
+    "divergence::damping",
+    "divergence::images",
+    "divergence::moments",
+    "divergence::hydrostatic",
+    "divergence::begin",
+    "divergence::acceleration",
+    "divergence::residual",
     "sph::advect",
 ];
 

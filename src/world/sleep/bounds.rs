@@ -70,6 +70,7 @@ mod tests {
     use super::*;
     use glam::Quat;
     use sorb_kernels::body::{BodyKind, BodyState};
+    use sorb_kernels::rounding::Rounding;
 
     fn cube(low: f32, high: f32) -> Bounds {
         Bounds { low: Vec3::splat(low), high: Vec3::splat(high) }
@@ -101,7 +102,17 @@ mod tests {
         };
         let bounds = |shape| {
             let kind = BodyKind::Dynamic;
-            Bounds::of_body(&Body { shape, kind, state, friction: 0.0, touches_nodes: true, no_slip: false })
+            Bounds::of_body(&Body {
+                shape,
+                kind,
+                state,
+                friction: 0.0,
+                touches_nodes: true,
+                no_slip: false,
+                rounding: Rounding::default(),
+                inverse_mass: 1.0,
+                inverse_inertia: Mat3::IDENTITY,
+            })
         };
         let half = 2.0_f32.sqrt() * 0.5;
         let of = |shape, expected: Vec3| {

@@ -89,7 +89,7 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
         spacing: spacing as f32,
         rest_density: DENSITY as f32,
         viscosity: VISCOSITY as f32,
-        artificial_viscosity: 0.0,
+        artificial_viscosity: Some(0.0),
         blocks: vec![FluidBlock::new(centre - half, centre + half)],
         ..Fluid::default()
     };

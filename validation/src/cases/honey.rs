@@ -100,7 +100,7 @@ fn scene(setting: &Setting, spacing: f64, step: f64) -> Scene {
         viscosity: VISCOSITY as f32,
         viscosity_integration: ViscosityIntegration::Implicit,
         viscosity_rounds: setting.planted(Fluid::default().viscosity_rounds, 2),
-        artificial_viscosity: 0.0,
+        artificial_viscosity: Some(0.0),
         blocks: vec![FluidBlock::new(centre - half, centre + half)],
         ..Fluid::default()
     };

@@ -49,7 +49,7 @@ struct Sample {
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut figures = Vec::new();
     for (form, name) in [(ViscosityForm::Morris, "morris"), (ViscosityForm::Monaghan, "monaghan")] {
-        for numerical in [0.0, Fluid::default().artificial_viscosity] {
+        for numerical in [0.0, Fluid::default().numerical_viscosity()] {
             figures.extend(decays(setting, form, numerical, name)?);
         }
     }
@@ -98,7 +98,7 @@ fn scene(
         spacing: spacing as f32,
         viscosity: setting.planted(1.0, 2.0) * vortex.viscosity as f32 * rest_density,
         viscosity_form,
-        artificial_viscosity,
+        artificial_viscosity: Some(artificial_viscosity),
         // Ten times the largest speed, which the scene cannot derive.
         sound_speed: Some(10.0 * SPEED as f32),
         blocks: vec![FluidBlock::new(Vec3::ZERO, corner)],

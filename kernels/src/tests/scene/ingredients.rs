@@ -1,18 +1,19 @@
 //! Parameters and bodies of the scenes of the tests.
 
-use glam::{EulerRot, Quat, Vec3};
+use glam::{EulerRot, Mat3, Quat, Vec3};
 
 use super::options::{Options, SPACING};
 use crate::{
     body::{Body, BodyKind, BodyState, Shape},
     grid::cells::Domain,
     params::{
-        Cohesion, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver, SpongeParams,
-        WettingParams,
+        Cohesion, Divergence, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
+        SpongeParams, WettingParams,
     },
     periodic::Periodic,
+    rounding::Rounding,
     smoothing::Wendland,
-    sph::{factors::lattice_diagonal, obstacles::boundary_profile},
+    sph::{lattice, obstacles::boundary_profile},
 };
 
 /// The body that holds nodes.
@@ -54,7 +55,9 @@ pub(super) fn params(options: Options) -> Params {
             smoothing: Wendland::new(radius),
             equation_of_state: options.equation_of_state,
             sound_speed: 10.0,
-            incompressible: options.incompressible.then(|| incompressible(radius, spacing)),
+            incompressible: options
+                .incompressible
+                .then(|| incompressible(radius, spacing, options.divergence)),
             viscosity: 0.5,
             central_viscosity: 0.3,
             implicit_viscosity: options.implicit_viscosity.then_some(IMPLICIT_VISCOSITY),
@@ -78,17 +81,22 @@ const IMPLICIT_VISCOSITY: ImplicitViscosity =
     ImplicitViscosity { viscosity: 8.0, central_viscosity: 5.0, tolerance: 1.0e6, rounds: 50 };
 
 /// With a tolerance of zero, so that rounding does not decide about one more round.
-fn incompressible(radius: f32, spacing: f32) -> Incompressible {
+fn incompressible(radius: f32, spacing: f32, divergence: bool) -> Incompressible {
     let smoothing = Wendland::new(radius);
     let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
     Incompressible {
         projections: None,
         tolerance: 0.0,
         rounds: 50,
-        lattice_diagonal: lattice_diagonal(&smoothing, spacing),
+        lattice_diagonal: lattice::diagonal(&smoothing, spacing),
         correction_speed: 1.0,
         boundary_range,
         boundary_share,
+        divergence: divergence.then(|| {
+            let (surface_moment, surface_lack) = lattice::surface(&smoothing, spacing);
+            let lattice_moment = lattice::moment(&smoothing, spacing);
+            Divergence { lattice_moment, surface_moment, surface_lack, lightest: 0.8 }
+        }),
     }
 }
 
@@ -169,7 +177,17 @@ pub(super) fn bodies() -> Vec<Body> {
             .into_iter()
             .flat_map(|axis| signs.map(|sign| axis * sign * corner * 3.0_f32.sqrt()))
             .collect(),
-        triangles: Vec::new(),
+        // An octahedron: corners along -x, x, -y, y, -z, z.
+        triangles: vec![
+            [1, 3, 5],
+            [3, 0, 5],
+            [0, 2, 5],
+            [2, 1, 5],
+            [3, 1, 4],
+            [0, 3, 4],
+            [2, 0, 4],
+            [1, 2, 4],
+        ],
     };
     let half_extents = Vec3::new(0.006, 0.004, 0.008);
     let capsule = Shape::Capsule { half_height: 0.01, radius: 0.004 };
@@ -183,6 +201,7 @@ pub(super) fn bodies() -> Vec<Body> {
         body(Shape::Sphere { radius: 0.01 }, [0.03, 0.05, 0.02], 0.9),
     ];
     all[4].kind = BodyKind::Kinematic;
+    (all[4].inverse_mass, all[4].inverse_inertia) = (0.0, Mat3::ZERO);
     all[GRIPPER].touches_nodes = false;
     all[1].no_slip = false;
     // Faster than contact and pressure are made for.
@@ -192,6 +211,7 @@ pub(super) fn bodies() -> Vec<Body> {
 
 fn body(shape: Shape, position: [f32; 3], angle: f32) -> Body {
     let position = Vec3::from_array(position);
+    let rounding = Rounding::new(&shape, SPACING);
     Body {
         shape,
         kind: BodyKind::Dynamic,
@@ -204,5 +224,8 @@ fn body(shape: Shape, position: [f32; 3], angle: f32) -> Body {
         friction: 0.3,
         touches_nodes: true,
         no_slip: true,
+        rounding,
+        inverse_mass: 300.0,
+        inverse_inertia: Mat3::from_diagonal(Vec3::new(2.0e7, 1.0e7, 3.0e7)),
     }
 }

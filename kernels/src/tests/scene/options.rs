@@ -19,6 +19,8 @@ pub(crate) struct Options {
     pub(crate) bounded: bool,
     pub(crate) equation_of_state: EquationOfState,
     pub(crate) incompressible: bool,
+    /// Whether the pressure is solved for the divergence of the velocities.
+    pub(crate) divergence: bool,
     pub(crate) porous: bool,
     pub(crate) cohesion: bool,
     /// Whether properties depend on how wet sponges are, where a kernel asks.
@@ -39,6 +41,7 @@ pub(crate) const FULL: Options = Options {
     bounded: true,
     equation_of_state: EquationOfState::Tait,
     incompressible: false,
+    divergence: false,
     porous: false,
     cohesion: false,
     wetting: false,
@@ -69,9 +72,10 @@ impl Options {
         let touched = || kernel.reads.iter().chain(kernel.writes).any(of_fluid);
         let porous = kernel.needs.contains(&Need::Porous) || touched();
         // Walls and bodies are part of the surface where pressure is solved for.
-        let solves = [Need::Incompressible, Need::Cohesion, Need::NoSlip]
+        let solves = [Need::Incompressible, Need::Density, Need::Divergence, Need::Cohesion, Need::NoSlip]
             .iter()
             .any(|need| kernel.needs.contains(need));
+        let divergence = kernel.needs.contains(&Need::Divergence);
         let cohesion = kernel.needs.contains(&Need::Cohesion);
         let reads = kernel.reads.contains(&Column::NodeWetting);
         let wetting = self.wetting && (reads || porous) || kernel.needs.contains(&Need::Wetting);
@@ -81,6 +85,8 @@ impl Options {
         let touch = kernel.reads.iter().chain(kernel.writes).any(of_touch);
         Self {
             incompressible: porous || solves,
+            divergence,
+            sponges: self.sponges && !divergence,
             porous,
             cohesion,
             implicit_viscosity,

@@ -6,31 +6,49 @@ use crate::{
 };
 
 /// The kernels of a step in its orders, by name: first the one of scenes with or without porous sponges, then the others.
-pub(in crate::tests) fn orders(porous: bool) -> [Vec<&'static str>; 3] {
-    let of = |phases, projects| {
+pub(in crate::tests) fn orders(porous: bool) -> [Vec<&'static str>; 4] {
+    let of = |phases, way| {
         let mut names = Vec::new();
-        add(&mut names, phases, projects);
+        add(&mut names, phases, way);
         names
     };
-    let mut orders = [of(STEP, false), of(STEP, true), of(POROUS_STEP, false)];
+    let mut orders = [
+        of(STEP, Way::Solve),
+        of(STEP, Way::Projection),
+        of(STEP, Way::Divergence),
+        of(POROUS_STEP, Way::Solve),
+    ];
     if porous {
         orders.reverse();
     }
     orders
 }
 
+/// How the density is kept.
+#[derive(Clone, Copy)]
+enum Way {
+    Solve,
+    Divergence,
+    Projection,
+}
+
 /// Two rounds of a solve, because the second differs from the first; every other repetition is written once.
-fn add(names: &mut Vec<&'static str>, phases: &[Phase], projects: bool) {
+fn add(names: &mut Vec<&'static str>, phases: &[Phase], way: Way) {
     for phase in phases {
         match phase {
             Phase::Run(kernel) => names.push(kernel.name),
-            Phase::Part(block) => add(names, block.phases, projects),
+            Phase::Part(block) => add(names, block.phases, way),
             Phase::Repeat { times, phases } => {
                 let rounds = if matches!(times, Times::UntilConverged(_)) { 2 } else { 1 };
-                (0..rounds).for_each(|_| add(names, phases, projects));
+                (0..rounds).for_each(|_| add(names, phases, way));
             }
-            Phase::KeepDensity { solve, projection } => {
-                add(names, if projects { projection } else { solve }, projects);
+            Phase::KeepDensity { solve, divergence, projection } => {
+                let phases = match way {
+                    Way::Solve => solve,
+                    Way::Divergence => divergence,
+                    Way::Projection => projection,
+                };
+                add(names, phases, way);
             }
             Phase::Host(_) => {}
         }
@@ -46,7 +64,9 @@ fn is_in_rounds(phases: &[Phase], name: &str) -> bool {
             phases.iter().any(|phase| matches!(phase, Phase::Run(kernel) if kernel.name == name))
         }
         Phase::Repeat { phases, .. } => is_in_rounds(phases, name),
-        Phase::KeepDensity { solve, .. } => is_in_rounds(solve, name),
+        Phase::KeepDensity { solve, divergence, .. } => {
+            [solve, divergence].iter().any(|way| is_in_rounds(way, name))
+        }
     })
 }
 

@@ -1,0 +1,108 @@
+//! After the pressure solve: velocity by the pressure, the pressure for the next step, and a shift of the particle.
+//!
+//! ```text
+//! v_i += h a_i,   x_i -= 1/5 d^2 max(0, 1 - 2 |z_i| / z_1) z_i, at most d / 10
+//! ```
+//!
+//! The shift is towards where particles are missing, in water that is full: their arrangement stays even. It carries no momentum. Near a
+//! body it is along the surface alone.
+
+use crate::{
+    columns::{Columns, Fluid, lane},
+    cpu::{Cpu, PerChunk},
+    kernel::declare,
+    params::Params,
+    sph::obstacles::per_chunk,
+};
+
+use super::{
+    image_rows::{Images, NO_BODY},
+    rate::SPARSE,
+    reflect::vector,
+};
+use glam::Vec3;
+
+declare! {
+    needs: [Fluid, Divergence],
+    reads: [
+        FluidPosition, FluidVelocity, FluidCorrection, FluidPressureRows, FluidMoment, FluidRenormalisation, FluidImages, BodyStates,
+        BodyFluidWrenches, BodyPressureWrenches,
+    ],
+    writes: [FluidPosition, FluidVelocity, BodyFluidWrenches],
+    oracle: crate::oracle::divergence::kick,
+    // A shift is a small difference of large coordinates.
+    bound: 2e-4,
+    twin: [],
+    constants: {
+        /// Shift over the square of the spacing and the first moment.
+        const SHIFT: f32 = 0.2;
+        /// Largest shift over the spacing.
+        const MAXIMUM_SHIFT: f32 = 0.1;
+        /// First moment over that at a flat surface at which there is none any more.
+        const SHIFT_END: f32 = 0.5;
+        /// Distance from a body over the spacing within which the shift is along its surface.
+        const SHIFT_ALONG: f32 = 2.0;
+    },
+}
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(divergence) = params.fluid.divergence() else { return };
+    let count = columns.rows.fluid;
+    let Fluid { position, velocity, correction, pressure_rows, moment, renormalisation, images, .. } =
+        &mut columns.fluid;
+    let bodies = &columns.bodies.states.0;
+    let has_images = images.has_bodies;
+    let spacing = params.fluid.spacing;
+    let given = &columns.bodies.pressure_wrenches.0;
+    let rows = position.len();
+    let mut wrenches = per_chunk(&mut columns.bodies.fluid_wrenches.0, rows, bodies.len());
+    let solved = (&mut position[..], &mut velocity[..], PerChunk(&mut wrenches));
+    cpu.for_chunks(solved, |first, (position, velocity, wrenches)| {
+        let used = count.saturating_sub(first).min(position.len());
+        for row in 0..used {
+            let (at, a) = (first + row, correction[first + row]);
+            (0..3).for_each(|axis| velocity[row][axis] += params.step * a[axis]);
+            velocity[row][lane::fluid::velocity::PRESSURE] =
+                pressure_rows[at][lane::fluid::pressure_rows::PRESSURE];
+            let is_active = renormalisation[at][lane::fluid::renormalisation::DENSITY] >= SPARSE;
+            if !is_active {
+                continue;
+            }
+            let z = vector(&moment[at]);
+            let share = 1.0 - z.length() / (SHIFT_END * divergence.surface_moment);
+            let mut shift = -SHIFT * spacing * spacing * share.max(0.0) * z;
+            if has_images {
+                shift = along_bodies(shift, (images, at), (bodies, vector(&position[row])), spacing);
+            }
+            let shift = shift.clamp_length_max(MAXIMUM_SHIFT * spacing);
+            (0..3).for_each(|axis| position[row][axis] += shift[axis]);
+        }
+        let chunk = first / crate::cpu::CHUNK * bodies.len();
+        for (body, wrench) in wrenches.0[0].iter_mut().enumerate() {
+            wrench.impulse += given[chunk + body].impulse;
+            wrench.angular_impulse += given[chunk + body].angular_impulse;
+        }
+    });
+}
+
+/// The part of a shift along the bodies that the particle has an image in.
+fn along_bodies(
+    mut shift: Vec3,
+    (images, row): (&Images, usize),
+    (bodies, point): (&[crate::body::Body], Vec3),
+    spacing: f32,
+) -> Vec3 {
+    let mut last = NO_BODY;
+    for image in images.of(row) {
+        let body = images.body[image];
+        if body == NO_BODY || body == last {
+            continue;
+        }
+        last = body;
+        let (distance, normal) = bodies[body as usize].distance_and_normal(point);
+        if distance < SHIFT_ALONG * spacing {
+            shift -= shift.dot(normal) * normal;
+        }
+    }
+    shift
+}

@@ -1,0 +1,107 @@
+//! The rate at which particles and images come closer: the opposite of the renormalised divergence of a vector field.
+//!
+//! ```text
+//! -div v_i = sum_j c_ij (v_j - v_i) . L_i x_ij
+//! ```
+
+use crate::{
+    columns::Fluid,
+    lanes::{self, LANES, Simd, f32x8},
+    periodic::Space,
+    vector::{dot, minus, plus, times},
+};
+
+use super::{image_rows::ImageRows, symmetric::Symmetric};
+
+/// Density over that at rest below which a particle has no pressure.
+pub(super) const SPARSE: f32 = 0.75;
+
+/// A field on particles and images.
+pub(super) struct Field<'a> {
+    pub(super) fluid: &'a Fluid,
+    pub(super) values: &'a [[f32; 4]],
+    pub(super) images: &'a ImageRows,
+}
+
+impl Field<'_> {
+    /// The rate of eight particles, the first of which is `row` of the chunk that begins at `first`.
+    #[inline(always)]
+    pub(super) fn rate<S: Simd>(
+        &self,
+        (simd, space): (S, impl Space<S>),
+        (first, row): (usize, usize),
+    ) -> f32x8<S> {
+        let fluid = self.fluid;
+        let [x, y, z, _] = lanes::load_rows(simd, &fluid.position, first + row);
+        let [vx, vy, vz, _] = lanes::load_rows(simd, self.values, first + row);
+        let (point, own) = ([x, y, z], [vx, vy, vz]);
+        // sum_j c_ij (v_j - v_i) x_ij^T, contracted with L_i once.
+        let mut sums = Symmetric::splat(simd, 0.0);
+        let (lists, pairs) = (fluid.neighbors.chunk(first), fluid.pairs.chunk(first));
+        for (entry, c) in lists.group(row).iter().zip(&pairs[lists.range(row)]) {
+            let [xj, yj, zj, _] = lanes::gather_rows(simd, &fluid.position, entry);
+            let [vxj, vyj, vzj, _] = lanes::gather_rows(simd, self.values, entry);
+            let apart = times(space.apart(point, [xj, yj, zj]), lanes::load_array(simd, c));
+            sums.add_twice(minus([vxj, vyj, vzj], own), apart);
+        }
+        for (entry, c) in fluid.images.seen(first, row) {
+            let [xj, yj, zj, _] = lanes::gather_rows(simd, &fluid.images.position, entry);
+            let [vxj, vyj, vzj, _] = lanes::gather_rows(simd, &self.images.0, entry);
+            let apart = times(space.apart(point, [xj, yj, zj]), lanes::load_array(simd, c));
+            sums.add_twice(minus([vxj, vyj, vzj], own), apart);
+        }
+        let [xx, yy, zz, _] = lanes::load_rows(simd, &fluid.renormalisation, first + row);
+        let [yz, zx, xy, _] = lanes::load_rows(simd, &fluid.renormalisation_between, first + row);
+        dot(sums.along, [xx, yy, zz]) + dot(sums.between, [yz, zx, xy])
+    }
+}
+
+/// The force by pressures: the transpose of the divergence.
+pub(super) struct Push<'a> {
+    pub(super) fluid: &'a Fluid,
+}
+
+impl Push<'_> {
+    /// `sum_j c_j P_j L_j (x - x_j)` at eight points, over lists of particles.
+    #[inline(always)]
+    pub(super) fn by_particles<S: Simd>(
+        &self,
+        (simd, space): (S, impl Space<S>),
+        point: [f32x8<S>; 3],
+        list: &[[u32; LANES]],
+        pairs: &[[f32; LANES]],
+    ) -> [f32x8<S>; 3] {
+        let mut sum = [lanes::splat(simd, 0.0); 3];
+        for (entry, c) in list.iter().zip(pairs) {
+            let [xj, yj, zj, pressure] = lanes::gather_rows(simd, &self.fluid.predicted, entry);
+            let [xx, yy, zz, _] = lanes::gather_rows(simd, &self.fluid.renormalisation, entry);
+            let [yz, zx, xy, _] = lanes::gather_rows(simd, &self.fluid.renormalisation_between, entry);
+            let other = Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] };
+            let push = lanes::load_array(simd, c) * pressure;
+            sum = plus(sum, times(other.times(space.apart(point, [xj, yj, zj])), push));
+        }
+        sum
+    }
+
+    /// The same over lists of images, those in bodies left out.
+    #[inline(always)]
+    pub(super) fn by_images<S: Simd>(
+        &self,
+        (simd, space): (S, impl Space<S>),
+        (first, row): (usize, usize),
+        point: [f32x8<S>; 3],
+    ) -> [f32x8<S>; 3] {
+        let mut sum = [lanes::splat(simd, 0.0); 3];
+        let images = &self.fluid.images;
+        let stress = (&self.fluid.image_stress.0, &self.fluid.image_stress_between.0);
+        for (entry, c) in images.seen(first, row) {
+            let [xj, yj, zj, _] = lanes::gather_rows(simd, &images.position, entry);
+            let [xx, yy, zz, is_wall] = lanes::gather_rows(simd, stress.0, entry);
+            let [yz, zx, xy, _] = lanes::gather_rows(simd, stress.1, entry);
+            let other = Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] };
+            let push = lanes::load_array(simd, c) * is_wall;
+            sum = plus(sum, times(other.times(space.apart(point, [xj, yj, zj])), push));
+        }
+        sum
+    }
+}

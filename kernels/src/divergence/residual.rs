@@ -1,0 +1,71 @@
+//! Iteration of the pressure solve: remaining compression, and length of the next iteration.
+//!
+//! ```text
+//! r_i = r0_i - h^2 div a_i
+//! ```
+//!
+//! with the images of the accelerations, in bodies that are accelerated as well. The length is that of Barzilai and Borwein \[BB88\] in the
+//! norm of the diagonal, see `pressure_solve`.
+
+use crate::{
+    columns::{Columns, lane},
+    cpu::Cpu,
+    kernel::declare,
+    lanes::{self, LANES},
+    params::Params,
+    periodic::with_space,
+    sph::pressure_solve::Sums,
+};
+
+use super::{
+    rate::{Field, SPARSE},
+    reflect::{reflect, twists},
+};
+
+declare! {
+    needs: [Fluid, Divergence],
+    reads: [
+        FluidPosition, FluidCorrection, FluidNeighbors, FluidPairs, FluidFactors, FluidRenormalisation,
+        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidImages, BodyStates, BodyAcceleration,
+        BodyAngularAcceleration,
+    ],
+    writes: [FluidPressureRows, FluidPressureSolve, FluidImageVectors],
+    oracle: crate::oracle::divergence::residual,
+    bound: 1e-5,
+    twin: [],
+}
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(incompressible) = &params.fluid.incompressible else { return };
+    let count = columns.rows.fluid;
+    let (fluid, store) = (&mut columns.fluid, &columns.bodies);
+    let bodies = &store.states.0;
+    let mut vectors = std::mem::take(&mut fluid.image_vectors);
+    let mut pressure_rows = std::mem::take(&mut fluid.pressure_rows);
+    let mut pressure_solve = std::mem::take(&mut fluid.pressure_solve);
+    let twists = twists(&store.acceleration, &store.angular_acceleration);
+    reflect(cpu, &fluid.images, (&fluid.position, &fluid.correction), (bodies, &twists), &mut vectors);
+    let field = Field { fluid, values: &fluid.correction, images: &vectors };
+    let rows = (&mut pressure_rows[..], pressure_solve.sums(fluid.position.len()));
+    let square = params.step * params.step;
+    cpu.for_chunks(rows, |first, (rows, sums)| {
+        let mut left = [0.0; crate::cpu::CHUNK];
+        with_space!(cpu, params, simd, space => {
+            for row in (0..rows.len()).step_by(LANES) {
+                let rate = field.rate((simd, space), (first, row));
+                let [_, _, _, before] = lanes::load_rows(simd, &fluid.factors, first + row);
+                lanes::store(&mut left, row, before + rate * square);
+            }
+        });
+        let used = count.saturating_sub(first).min(rows.len());
+        for (left, row) in left.iter_mut().zip(&fluid.renormalisation[first..]) {
+            if row[lane::fluid::renormalisation::DENSITY] < SPARSE {
+                *left = 0.0;
+            }
+        }
+        sums.0[0] = Sums::of(&mut rows[..used], &left);
+    });
+    pressure_solve.finish_round(count, incompressible);
+    (fluid.image_vectors, fluid.pressure_rows, fluid.pressure_solve) =
+        (vectors, pressure_rows, pressure_solve);
+}

@@ -1,0 +1,49 @@
+//! Iteration of the pressure solve: a step along the projected gradient.
+//!
+//! ```text
+//! P_i <- min(max(0, P_i + alpha r_i / A_i), c^2)
+//! ```
+//!
+//! with `alpha` from `divergence::residual`. Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest
+//! expected speed: the pressure that keeps its volume would be infinite. The pressure is written beside the position, where
+//! neighbours read both at once.
+
+use crate::{
+    column::FAR_ROW,
+    columns::{Columns, Fluid, lane},
+    cpu::Cpu,
+    kernel::declare,
+    params::Params,
+    sph::pressure_solve::SOUND_SPEED_RATIO,
+};
+
+declare! {
+    needs: [Fluid, Divergence],
+    reads: [FluidPosition, FluidPressureRows, FluidPressureSolve],
+    writes: [FluidPredicted, FluidPressureRows],
+    oracle: crate::oracle::divergence::update,
+    bound: 4e-6,
+    twin: [pass(NAME, Fluid)],
+}
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let maximum = SOUND_SPEED_RATIO * solve.correction_speed * (SOUND_SPEED_RATIO * solve.correction_speed);
+    let count = columns.rows.fluid;
+    let Fluid { position, predicted, pressure_rows, pressure_solve, .. } = &mut columns.fluid;
+    predicted.resize(position.len(), FAR_ROW);
+    predicted[count..].fill(FAR_ROW);
+    let length = pressure_solve.length();
+    cpu.for_chunks((&mut predicted[..count], &mut pressure_rows[..count]), |first, (predicted, rows)| {
+        for ((predicted, row), position) in predicted.iter_mut().zip(rows).zip(&position[first..]) {
+            let [pressure, _, diagonal, compression] = *row;
+            let next = pressure + length * compression / diagonal;
+            let next = if next > 0.0 { next } else { 0.0 };
+            let next = if next < maximum { next } else { maximum };
+            row[0] = next;
+            row[1] = next - pressure;
+            *predicted = *position;
+            predicted[lane::fluid::predicted::PRESSURE] = next;
+        }
+    });
+}
