@@ -157,6 +157,13 @@ impl Body {
         body
     }
 
+    /// The body with the core of its rounded shape, and the radius of the ball that sweeps that \[m\].
+    #[must_use]
+    pub fn core(&self) -> (Self, f32) {
+        let (shape, radius) = self.rounding.core_of(&self.shape);
+        (Self { shape, ..self.clone() }, radius)
+    }
+
     /// Largest speed of its surface \[m/s\]; of a plane, that of its reference point.
     #[must_use]
     pub fn fastest(&self) -> f32 {
@@ -172,7 +179,8 @@ impl Body {
     }
 
     /// The same, and the outward normal of the surface there.
-    pub(crate) fn distance_and_normal(&self, point: Vec3) -> (f32, Vec3) {
+    #[must_use]
+    pub fn distance_and_normal(&self, point: Vec3) -> (f32, Vec3) {
         lanes::dispatch!(fearless_simd::Level::baseline(), simd => {
             let (distance, [x, y, z]) =
                 Placed::new(simd, self).distance(vector::splat(simd, point.to_array()));

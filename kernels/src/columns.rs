@@ -225,8 +225,8 @@ columns! {
         /// Gradient of the boundary volume fraction of walls, bodies and sponges \[1/m\]; w: the fraction \[1\].
         FluidBoundary = boundary: rows("1/m"; SHARE 3 "1"), Scratch, needs Incompressible;
         /// Acceleration of a particle by its own pressure, over its kinematic pressure; w: compression `rho / rho_0 - 1`
-        /// before the solve.
-        FluidFactors = factors: rows("1/m"; COMPRESSION 3 "1"), Scratch, needs Incompressible;
+        /// before the solve or, with one for the divergence, the divergence that the error of the density asks for, times the step.
+        FluidFactors = factors: rows("1/m"; COMPRESSION 3 "1", TARGET 3 "1"), Scratch, needs Incompressible;
         /// For every entry of the neighbour lists, volume times the gradient of W, over the distance vector.
         FluidPairs = pairs: ListValues("1/m^2"), Scratch on host;
         /// Kinematic pressure \[m^2/s^2\], its last change, diagonal of the system \[s^2/m^2\], and remaining compression
@@ -235,26 +235,32 @@ columns! {
             rows(; PRESSURE 0 "m^2/s^2", CHANGE 1 "m^2/s^2", DIAGONAL 2 "s^2/m^2", COMPRESSION 3 "1")
             padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
-        /// change \[m^2/s^2\], see `sph::pressure_acceleration`.
+        /// change \[m^2/s^2\], see `sph::pressure_acceleration`. With a solve for the divergence the velocity \[m/s\] by the pressure
+        /// of the
+        /// present round.
         FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
         /// Images of the particles in walls and bodies.
         FluidImages = images: Images("m"), Scratch on host;
         /// For every image, that of a vector of its particle.
         FluidImageVectors = image_vectors: ImageRows("1"), Scratch on host;
-        /// For every image in walls alone, pressure times renormalisation of its particle, mirrored, along the axes: xx, yy, zz; w: 1. For
-        /// one in a body the acceleration of its particle by the image; w: 0.
-        FluidImageStress = image_stress: ImageRows("m^2/s^2"), Scratch on host;
+        /// For every image in walls alone the renormalisation of its particle, mirrored, along the axes: xx, yy, zz. Zero for those in
+        /// bodies.
+        FluidImageRenormalisation = image_renormalisation: ImageRows("1"), Scratch on host;
         /// The same between the axes: yz, zx, xy.
-        FluidImageStressBetween = image_stress_between: ImageRows("m^2/s^2"), Scratch on host;
+        FluidImageRenormalisationBetween = image_renormalisation_between: ImageRows("1"), Scratch on host;
+        /// Position of every image; w: pressure of its particle.
+        FluidImagePredicted = image_predicted: ImageRows("m"), Scratch on host;
+        /// Acceleration of every image in a body, which its particle and the body receive. Zero for those in walls alone.
+        FluidImageForce = image_force: ImageRows("m/s^2"), Scratch on host;
         /// Mean velocity of the neighbours along the lines to them, relative to the particle, see `divergence::approach`.
         FluidApproach = approach: rows("m/s"), Scratch, needs Divergence;
         /// Inverse of the second moment of the neighbourhood of a particle, along the axes: xx, yy, zz; w: density over that at
         /// rest, with walls and bodies.
         FluidRenormalisation = renormalisation: rows("1"; DENSITY 3 "1"), Scratch, needs Divergence;
-        /// The same between the axes: yz, zx, xy; w: divergence that the error of the density asks for, times the step.
-        FluidRenormalisationBetween = renormalisation_between: rows("1"; TARGET 3 "1"), Scratch, needs Divergence;
-        /// First moment of the neighbourhood of a particle; w: diagonal of the system, over the square of the step.
-        FluidMoment = moment: rows("1/m"; DIAGONAL 3 "1/m^2"), Scratch, needs Divergence;
+        /// The same between the axes: yz, zx, xy.
+        FluidRenormalisationBetween = renormalisation_between: rows("1"), Scratch, needs Divergence;
+        /// First moment of the neighbourhood of a particle.
+        FluidMoment = moment: rows("1/m"), Scratch, needs Divergence;
         /// Compression that sponges absorb by their compliance to the pressure change, over the square of the step, see
         /// `couple::solid_yield`. Empty without sponges.
         FluidSolidYield = solid_yield: values("1/s^2"), Scratch, needs Incompressible;
@@ -376,10 +382,10 @@ columns! {
         BodyExpectedSpin = expected_spin: rows("rad/s"), Scratch, needs Divergence;
         /// Impulses of the pressure of the present round of a solve for the divergence.
         BodyPressureWrenches = pressure_wrenches: Wrenches("N s"), Scratch;
-        /// Acceleration by them.
-        BodyAcceleration = acceleration: rows("m/s^2"), Scratch, needs Divergence;
-        /// Angular acceleration.
-        BodyAngularAcceleration = angular_acceleration: rows("rad/s^2"), Scratch, needs Divergence;
+        /// Velocity by them.
+        BodySolved = solved: rows("m/s"), Scratch, needs Divergence;
+        /// Angular velocity by them.
+        BodySolvedSpin = solved_spin: rows("rad/s"), Scratch, needs Divergence;
         /// Wrenches of the fluid on the bodies in this step.
         BodyFluidWrenches = fluid_wrenches: Wrenches("N s"), Scratch;
         /// Wrenches of the sponges on the bodies in this step.

@@ -71,7 +71,7 @@ kernels! {
     }
     /// The fluid, with a pressure solve for the divergence of the velocities.
     divergence {
-        images, moments, hydrostatic, approach, damping, expect, begin, update, acceleration, residual, kick,
+        images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick,
     } shared {
         closing, pub image_rows, mirror, rate, reflect, symmetric,
     }

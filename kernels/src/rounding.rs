@@ -40,6 +40,21 @@ impl Rounding {
             Shape::Hull { planes, vertices, triangles } => hull(planes, vertices, triangles, spacing),
         }
     }
+
+    /// The core of a shape, and the radius of the ball that sweeps it \[m\]; round shapes as they are, and 0.
+    #[must_use]
+    pub fn core_of(&self, shape: &Shape) -> (Shape, f32) {
+        match shape {
+            Shape::Plane | Shape::Sphere { .. } | Shape::Capsule { .. } => (shape.clone(), 0.0),
+            Shape::Cuboid { .. } => (Shape::Cuboid { half_extents: self.core }, self.radius),
+            Shape::Hull { planes, vertices, triangles } => {
+                let size = self.core.x;
+                let planes = planes.iter().map(|(normal, offset)| (*normal, size * offset)).collect();
+                let vertices = vertices.iter().map(|vertex| size * *vertex).collect();
+                (Shape::Hull { planes, vertices, triangles: triangles.clone() }, self.radius)
+            }
+        }
+    }
 }
 
 fn cuboid(half_extents: Vec3, spacing: f32) -> Rounding {

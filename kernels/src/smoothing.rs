@@ -110,6 +110,13 @@ impl Wendland {
         SOFTENING as f32 * self.support_radius * self.support_radius
     }
 
+    /// Gradient at x over `-x`, at a distance.
+    #[must_use]
+    pub(crate) fn gradient_at(&self, distance: f32) -> f32 {
+        let closeness = (1.0 - distance * self.inverse_radius).max(0.0);
+        self.gradient * (closeness * closeness * closeness)
+    }
+
     /// The kernel on eight lanes.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, simd: S) -> WendlandLanes<S> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 use sorb_kernels::{
+    body::Body,
     column::{FAR_ROW, padded},
     columns::{Columns, lane},
     params::Params,
@@ -16,11 +17,20 @@ use crate::scene::{self, Scene};
 const JITTER: f32 = 0.01;
 /// Distance from a body, over the spacing, within which there are no initial particles.
 const CLEARANCE: f32 = 0.4;
+/// The same with a solve for the divergence, which counts the volume that bodies displace: particles are as many as fit beside them, and those
+/// nearer than this are moved away.
+const MARGIN: f32 = 0.1;
 
 pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
     let Some(fluid) = &scene.fluid else { return };
     let spacing = fluid.spacing;
-    let mut seeds = Seeds { columns, clearance: CLEARANCE * spacing, jitter: JITTER * spacing };
+    let (bodies, clearance) = if params.fluid.divergence().is_some() {
+        (columns.bodies.states.0.iter().map(Body::core).collect(), 0.0)
+    } else {
+        (columns.bodies.states.0.iter().map(|body| (body.clone(), 0.0)).collect(), CLEARANCE * spacing)
+    };
+    let margin = if clearance > 0.0 { 0.0 } else { MARGIN * spacing };
+    let mut seeds = Seeds { columns, bodies, clearance, margin, jitter: JITTER * spacing };
     for block in &fluid.blocks {
         let (counts, pitch) = block.lattice(scene, spacing);
         // The saturation of a sponge is its initial water, whatever block of water it stands in.
@@ -114,8 +124,12 @@ fn holds(sponge: &scene::Sponge, point: Vec3) -> bool {
 }
 
 struct Seeds<'a> {
+    /// Bodies, and the radius of the balls that sweep them \[m\].
+    bodies: Vec<(Body, f32)>,
     columns: &'a mut Columns,
+    /// Distance from bodies within which there are no particles \[m\], and to which those that are nearer are moved.
     clearance: f32,
+    margin: f32,
     jitter: f32,
 }
 
@@ -134,10 +148,7 @@ impl Seeds<'_> {
                 for x in 0..counts[0] {
                     let steps = Vec3::new(x as f32, y as f32, z as f32) + 0.5;
                     let point = corner + steps * Vec3::from_array(pitch);
-                    let bodies = &self.columns.bodies.states.0;
-                    if !keep(point) || bodies.iter().any(|body| body.distance(point) < self.clearance) {
-                        continue;
-                    }
+                    let Some(point) = self.outside(point).filter(|_| keep(point)) else { continue };
                     let fluid = &mut self.columns.fluid;
                     let point = point + jitter(fluid.position.len() as u64) * self.jitter;
                     fluid.position.push([point.x, point.y, point.z, 0.0]);
@@ -145,6 +156,21 @@ impl Seeds<'_> {
                 }
             }
         }
+    }
+}
+
+impl Seeds<'_> {
+    /// The point, away from the surfaces of bodies; none inside.
+    fn outside(&self, mut point: Vec3) -> Option<Vec3> {
+        for (body, radius) in &self.bodies {
+            let (distance, normal) = body.distance_and_normal(point);
+            let distance = distance - radius;
+            if distance < self.clearance {
+                return None;
+            }
+            point += normal * (self.margin - distance).max(0.0);
+        }
+        Some(point)
     }
 }
 

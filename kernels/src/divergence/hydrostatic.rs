@@ -9,8 +9,6 @@
 //! or lower by the weight of the water in between: this is what that lacks. The lattice at rest is exact with it. Without it pressures
 //! alternate from layer to layer at a floor, and buoyancy is 4 % too large. Bodies receive the opposite.
 
-use glam::Vec3;
-
 use crate::{
     body::{Body, Wrench},
     columns::{Columns, Fluid},
@@ -20,21 +18,23 @@ use crate::{
     params::Params,
     periodic::{Space, with_space},
     sph::obstacles::per_chunk,
-    vector::{Vec3x8, plus, splat, times},
+    vector::{Vec3x8, dot, plus, times},
 };
 
 use super::{
-    image_rows::{Images, NO_BODY},
-    reflect::{mirrored_renormalisation, react, vector},
+    image_rows::{ImageRows, NO_BODY},
+    rate::Pushing,
+    reflect::{react, vector},
     symmetric::Symmetric,
 };
 
 declare! {
     needs: [Fluid, Divergence],
     reads: [
-        FluidPosition, FluidImages, FluidRenormalisation, FluidRenormalisationBetween, FluidAcceleration, BodyStates,
+        FluidPosition, FluidImages, FluidRenormalisation, FluidRenormalisationBetween, FluidImageRenormalisation,
+        FluidImageRenormalisationBetween, FluidAcceleration, BodyStates,
     ],
-    writes: [FluidAcceleration, BodyFluidWrenches],
+    writes: [FluidAcceleration, FluidImageForce, BodyFluidWrenches],
     oracle: crate::oracle::divergence::hydrostatic,
     bound: 1e-5,
     twin: [],
@@ -45,179 +45,109 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         return;
     }
     let count = columns.rows.fluid;
-    let Fluid { position, images, renormalisation, renormalisation_between, acceleration, .. } =
-        &mut columns.fluid;
+    let fluid = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.fluid_wrenches.0;
     wrenches.clear();
-    wrenches.resize(position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
-    if images.count() == 0 {
-        return;
-    }
-    let mut wrenches = per_chunk(wrenches, position.len(), bodies.len());
-    let renormalisation = [&renormalisation[..], &renormalisation_between[..]];
-    let gravity = along_open_axes(params);
-    let task = Task { params, gravity, bodies, position, images, renormalisation };
+    wrenches.resize(fluid.position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
+    let mut force = std::mem::take(&mut fluid.image_force);
+    on_images(cpu, params, fluid, &mut force);
+    let mut acceleration = std::mem::take(&mut fluid.acceleration);
+    let mut wrenches = per_chunk(wrenches, acceleration.len(), bodies.len());
+    let task = Task { params, bodies, fluid, force: &force };
     cpu.for_chunks((&mut acceleration[..], PerChunk(&mut wrenches)), |first, (acceleration, wrenches)| {
         let used = count.saturating_sub(first).min(acceleration.len());
-        with_space!(cpu, params, simd, space =>
-            task.chunk((simd, space), (first, used), acceleration, wrenches.0[0]));
+        with_space!(cpu, params, simd, space => task.chunk((simd, space), first, acceleration));
+        task.in_bodies(first, &mut acceleration[..used], wrenches.0[0]);
     });
+    (fluid.acceleration, fluid.image_force) = (acceleration, force);
 }
 
-/// Gravity without its part along axes on which space repeats: there is no bottom.
-fn along_open_axes(params: &Params) -> Vec3 {
-    let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
-    Vec3::select(periods.cmpgt(Vec3::ZERO), Vec3::ZERO, params.gravity)
+/// `d_g sum_j c_gj L_j (x_g - x_j)` of the images in bodies.
+fn on_images(cpu: &Cpu, params: &Params, fluid: &Fluid, force: &mut ImageRows) {
+    let images = &fluid.images;
+    force.0.resize(images.position.len(), [0.0; 4]);
+    if !images.has_bodies {
+        force.0.fill([0.0; 4]);
+        return;
+    }
+    let particles = Pushing {
+        points: &fluid.position,
+        along: &fluid.renormalisation,
+        between: &fluid.renormalisation_between,
+    };
+    cpu.for_chunks(&mut force.0[..], |first, force| {
+        with_space!(cpu, params, simd, space => {
+            for row in (0..force.len()).step_by(LANES) {
+                let [x, y, z, _] = lanes::load_rows(simd, &images.position, first + row);
+                let sum = particles.sum::<_, false>((simd, space), [x, y, z], images.seen_by(first, row));
+                let [x, y, z] = times(sum, lanes::load(simd, &images.lift, first + row));
+                lanes::store_rows(force, row, [x, y, z, lanes::splat(simd, 0.0)]);
+            }
+        });
+    });
 }
 
 struct Task<'a> {
     params: &'a Params,
-    gravity: Vec3,
     bodies: &'a [Body],
-    position: &'a [[f32; 4]],
-    images: &'a Images,
-    renormalisation: [&'a [[f32; 4]]; 2],
+    fluid: &'a Fluid,
+    force: &'a ImageRows,
 }
 
 impl Task<'_> {
+    /// Adds what images do that particles see.
     #[inline(always)]
-    fn chunk<S: Simd>(
-        &self,
-        (simd, space): (S, impl Space<S>),
-        (first, used): (usize, usize),
-        acceleration: &mut [[f32; 4]],
-        wrenches: &mut [Wrench],
-    ) {
-        let (lists, pairs) = (self.images.near.chunk(first), self.images.pairs.chunk(first));
+    fn chunk<S: Simd>(&self, (simd, space): (S, impl Space<S>), first: usize, acceleration: &mut [[f32; 4]]) {
         for row in (0..acceleration.len()).step_by(LANES) {
-            let list = lists.group(row);
-            let lanes_used = used.saturating_sub(row).min(LANES);
-            if list.is_empty() {
+            if self.fluid.images.near.chunk(first).group(row).is_empty() {
                 continue;
             }
-            let [x, y, z, _] = lanes::load_rows(simd, self.position, first + row);
-            let pairs = &pairs[lists.range(row)];
             let [ax, ay, az, aw] = lanes::load_rows(simd, acceleration, row);
-            let sum = self.seen((simd, space), first + row, [x, y, z], (list, pairs));
-            let [sx, sy, sz] = plus(sum, [ax, ay, az]);
-            let mut stored = [[0.0; 4]; LANES];
-            lanes::store_rows(&mut stored, 0, [sx, sy, sz, aw]);
-            acceleration[row..row + lanes_used].copy_from_slice(&stored[..lanes_used]);
-        }
-        if self.images.has_bodies {
-            for (row, acceleration) in acceleration[..used].iter_mut().enumerate() {
-                self.in_bodies((simd, space), first + row, acceleration, wrenches);
-            }
+            let [x, y, z] = plus(self.seen((simd, space), (first, row)), [ax, ay, az]);
+            lanes::store_rows(acceleration, row, [x, y, z, aw]);
         }
     }
 
     /// By the images in the lists of eight particles; those in walls with their counterparts.
     #[inline(always)]
-    fn seen<S: Simd>(
-        &self,
-        (simd, space): (S, impl Space<S>),
-        row: usize,
-        point: Vec3x8<S>,
-        (list, pairs): (&[[u32; LANES]], &[[f32; LANES]]),
-    ) -> Vec3x8<S> {
-        let points: [Vec3; LANES] = std::array::from_fn(|lane| vector(&self.position[row + lane]));
-        let mut own = [lanes::splat(simd, 0.0); 3];
-        let mut mirrored = own;
-        for (entry, c) in list.iter().zip(pairs) {
-            let [xj, yj, zj, _] = lanes::gather_rows(simd, &self.images.position, entry);
+    fn seen<S: Simd>(&self, (simd, space): (S, impl Space<S>), (first, row): (usize, usize)) -> Vec3x8<S> {
+        let Fluid { position, images, renormalisation, renormalisation_between, .. } = self.fluid;
+        let mirrored = [&self.fluid.image_renormalisation.0, &self.fluid.image_renormalisation_between.0];
+        let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
+        let point = [x, y, z];
+        let (mut own, mut others) = ([lanes::splat(simd, 0.0); 3], [lanes::splat(simd, 0.0); 3]);
+        for (entry, c) in images.seen(first, row) {
+            let [xj, yj, zj, _] = lanes::gather_rows(simd, &images.position, entry);
             let push = times(space.apart(point, [xj, yj, zj]), lanes::load_array(simd, c));
-            let (mut of_image, mut of_particle) = ([0.0; LANES], [0.0; LANES]);
-            let (mut along, mut between) = ([[0.0; 4]; LANES], [[0.0; 4]; LANES]);
-            for (lane, image) in entry.iter().enumerate() {
-                let image = *image as usize;
-                if image >= self.images.count() {
-                    continue;
-                }
-                of_image[lane] = self.difference(image);
-                if self.images.body[image] == NO_BODY {
-                    of_particle[lane] = self.of_own(image, points[lane]);
-                    (along[lane], between[lane]) =
-                        mirrored_renormalisation(self.images, image, self.renormalisation);
-                }
-            }
-            own = plus(own, times(push, lanes::load_array(simd, &of_image)));
-            let [xx, yy, zz, _] = lanes::load_rows(simd, &along, 0);
-            let [yz, zx, xy, _] = lanes::load_rows(simd, &between, 0);
+            own = plus(own, times(push, lanes::gather(simd, &images.lift, entry)));
+            // Zero for images in bodies.
+            let [xx, yy, zz, _] = lanes::gather_rows(simd, mirrored[0], entry);
+            let [yz, zx, xy, _] = lanes::gather_rows(simd, mirrored[1], entry);
             let other = Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] };
-            mirrored = plus(mirrored, times(other.times(push), lanes::load_array(simd, &of_particle)));
+            let [hx, hy, hz, base] = lanes::gather_rows(simd, &images.lift_at, entry);
+            others = plus(others, times(other.times(push), dot([hx, hy, hz], point) + base));
         }
-        let [xx, yy, zz, _] = lanes::load_rows(simd, self.renormalisation[0], row);
-        let [yz, zx, xy, _] = lanes::load_rows(simd, self.renormalisation[1], row);
-        plus(Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] }.times(own), mirrored)
+        let [xx, yy, zz, _] = lanes::load_rows(simd, renormalisation, first + row);
+        let [yz, zx, xy, _] = lanes::load_rows(simd, renormalisation_between, first + row);
+        plus(Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] }.times(own), others)
     }
 
-    /// d of an image.
-    fn difference(&self, image: usize) -> f32 {
-        let source = self.images.source[image] as usize;
-        let (at, of) = (vector(&self.images.position[image]), vector(&self.position[source]));
-        0.5 * self.gravity.dot(at - of)
-    }
-
-    /// d of the image that a particle has in the walls of another image.
-    fn of_own(&self, image: usize, point: Vec3) -> f32 {
-        let signs = self.images.signs(image);
-        let walls = vector(&self.images.position[image]) - signs * vector(&self.images.foot[image]);
-        0.5 * self.gravity.dot(walls + (signs - 1.0) * point)
-    }
-
-    /// Adds what a particle receives through its images in bodies, and gives these the opposite.
-    #[inline(always)]
-    fn in_bodies<S: Simd>(
-        &self,
-        (simd, space): (S, impl Space<S>),
-        row: usize,
-        acceleration: &mut [f32; 4],
-        wrenches: &mut [Wrench],
-    ) {
+    /// Adds what particles receive through their images in bodies, and gives these the opposite.
+    fn in_bodies(&self, first: usize, acceleration: &mut [[f32; 4]], wrenches: &mut [Wrench]) {
+        let images = &self.fluid.images;
+        if !images.has_bodies {
+            return;
+        }
         let scale = f64::from(self.params.fluid.particle_mass * self.params.step);
-        for image in self.images.of(row).filter(|image| self.images.body[*image] != NO_BODY) {
-            let list = (&self.images.particles, &self.images.particle_pairs);
-            let force = self.on_image((simd, space), image, list) * self.difference(image);
-            let back = self.images.back(image, force);
-            (0..3).for_each(|axis| acceleration[axis] += back[axis]);
-            react(
-                self.images,
-                self.bodies,
-                (image, vector(&self.position[row])),
-                (force, back),
-                scale,
-                wrenches,
-            );
+        for (row, acceleration) in acceleration.iter_mut().enumerate() {
+            let point = vector(&self.fluid.position[first + row]);
+            for image in images.of(first + row).filter(|image| images.body[*image] != NO_BODY) {
+                let force = vector(&self.force.0[image]);
+                let back = images.back(image, force);
+                (0..3).for_each(|axis| acceleration[axis] += back[axis]);
+                react(images, self.bodies, (image, point), (force, back), scale, wrenches);
+            }
         }
-    }
-
-    /// `sum_j c_gj L_j (x_g - x_j)`.
-    #[inline(always)]
-    fn on_image<S: Simd>(
-        &self,
-        (simd, space): (S, impl Space<S>),
-        image: usize,
-        (lists, pairs): (&crate::grid::neighbors::Neighbors, &crate::grid::neighbors::ListValues),
-    ) -> Vec3 {
-        let (group, lane) = (image % CHUNK / LANES * LANES, image % LANES);
-        let (chunk, values) = (lists.chunk(image), pairs.chunk(image));
-        let [x, y, z, _] = self.images.position[image];
-        let point = splat(simd, [x, y, z]);
-        let mut sum = Vec3::ZERO;
-        for (entry, c) in chunk.group(group).iter().zip(&values[chunk.range(group)]) {
-            let j = entry[lane] as usize;
-            let [xj, yj, zj, _] = self.position[j];
-            let apart = space.apart(point, splat(simd, [xj, yj, zj]));
-            let apart = Vec3::new(apart[0][0], apart[1][0], apart[2][0]);
-            let [[xx, yy, zz, _], [yz, zx, xy, _]] = [self.renormalisation[0][j], self.renormalisation[1][j]];
-            sum += c[lane]
-                * Vec3::new(
-                    xx * apart.x + xy * apart.y + zx * apart.z,
-                    xy * apart.x + yy * apart.y + yz * apart.z,
-                    zx * apart.x + yz * apart.y + zz * apart.z,
-                );
-        }
-        sum
     }
 }

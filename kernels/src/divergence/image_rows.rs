@@ -12,7 +12,6 @@ use crate::{
     },
     lanes::LANES,
     params::Params,
-    periodic::Periodic,
 };
 
 /// No body: the image is one in walls alone.
@@ -68,6 +67,12 @@ pub struct Images {
     pub(crate) by_chunk: Vec<Vec<(u32, Image)>>,
     /// Positions of the images in bodies, and far away those of the others.
     pub(crate) in_bodies: Vec<[f32; 4]>,
+    /// Positions of the particles that can see images, and far away those of the others.
+    pub(crate) seekers: Vec<[f32; 4]>,
+    /// Half of the difference of the potential of gravity between the image and its particle \[m^2/s^2\].
+    pub(crate) lift: Vec<f32>,
+    /// The same between the image of another particle in the same walls and that particle at x: the product of the vector with x, and w.
+    pub(crate) lift_at: Vec<[f32; 4]>,
 }
 
 impl Images {
@@ -95,6 +100,17 @@ impl Images {
         entries.iter().zip(values)
     }
 
+    /// The same for images, over particles.
+    #[inline(always)]
+    pub(crate) fn seen_by(
+        &self,
+        first: usize,
+        row: usize,
+    ) -> impl Iterator<Item = (&[u32; LANES], &[f32; LANES])> {
+        let (lists, values) = (self.particles.chunk(first), self.particle_pairs.chunk(first));
+        lists.group(row).iter().zip(&values[lists.range(row)])
+    }
+
     /// Signs of an image along the axes.
     pub(crate) fn signs(&self, image: usize) -> Vec3 {
         Vec3::new(self.along[image][3], self.between[image][3], self.foot[image][3])
@@ -115,24 +131,26 @@ impl Images {
         )
     }
 
-    /// Takes over the images of the chunks in their order; `rows` rows of particles. Images beyond the sides of a box that repeats are
-    /// on the
-    /// other side of it.
-    pub(crate) fn collect(&mut self, rows: usize, periodic: Option<&Periodic>) {
-        let Self { position, foot, along, between, source, body, first, in_bodies, .. } = self;
-        for column in [&mut *position, foot, along, between, in_bodies] {
+    /// Takes over the images of the chunks in their order. Images beyond the sides of a box that repeats are on the other side of it.
+    pub(crate) fn collect(&mut self, particles: &[[f32; 4]], params: &Params) {
+        let Self { position, foot, along, between, source, body, first, in_bodies, lift, lift_at, .. } = self;
+        for column in [&mut *position, foot, along, between, in_bodies, lift_at] {
             column.clear();
         }
-        source.clear();
-        body.clear();
-        first.clear();
+        [&mut *source, body, first].into_iter().for_each(Vec::clear);
+        lift.clear();
+        let gravity = along_open_axes(params);
         for (row, image) in self.by_chunk.iter().flatten() {
             while first.len() <= *row as usize {
                 first.push(source.len() as u32);
             }
             let Image { position: x, foot: b, signs, along: r, between: s, volume_ratio, body: of } = *image;
+            let [sx, sy, sz, _] = particles[*row as usize];
+            lift.push(0.5 * gravity.dot(x - Vec3::new(sx, sy, sz)));
+            let turned = 0.5 * (signs - 1.0) * gravity;
+            lift_at.push([turned.x, turned.y, turned.z, 0.5 * gravity.dot(x - signs * b)]);
             let mut place = [x.x, x.y, x.z, volume_ratio];
-            if let Some(periodic) = periodic {
+            if let Some(periodic) = &params.periodic {
                 periodic.wrap(&mut place);
             }
             position.push(place);
@@ -144,14 +162,21 @@ impl Images {
             body.push(of);
         }
         self.has_bodies = body.iter().any(|body| *body != NO_BODY);
-        first.resize(rows + 1, source.len() as u32);
+        first.resize(particles.len() + 1, source.len() as u32);
         let padded = padded(source.len());
         position.resize(padded, FAR_ROW);
         in_bodies.resize(padded, FAR_ROW);
-        for column in [foot, along, between] {
+        lift.resize(padded, 0.0);
+        for column in [foot, along, between, lift_at] {
             column.resize(padded, [0.0; 4]);
         }
     }
+}
+
+/// Gravity without its part along axes on which space repeats: there is no bottom.
+fn along_open_axes(params: &Params) -> Vec3 {
+    let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
+    Vec3::select(periods.cmpgt(Vec3::ZERO), Vec3::ZERO, params.gravity)
 }
 
 /// What particles are mirrored by.

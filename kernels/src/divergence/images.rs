@@ -8,6 +8,7 @@ use glam::Vec3;
 
 use super::image_rows::{Image, Images, Mirrors};
 use crate::{
+    column::FAR_ROW,
     columns::{Columns, Fluid},
     cpu::{Cpu, PerChunk},
     grid::{
@@ -37,25 +38,35 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, cells, images, .. } = &mut columns.fluid;
     let radius = params.fluid.smoothing.support_radius;
     images.by_chunk.resize_with(position.len().div_ceil(crate::cpu::CHUNK), Vec::new);
-    cpu.for_chunks(PerChunk(&mut images.by_chunk), |first, found| {
+    images.seekers.resize(position.len(), FAR_ROW);
+    let rows = (&mut images.seekers[..], PerChunk(&mut images.by_chunk));
+    cpu.for_chunks(rows, |first, (seekers, found)| {
         let found: &mut Vec<(u32, Image)> = &mut found.0[0];
         found.clear();
+        seekers.fill(FAR_ROW);
         let rows = first..count.min(first + crate::cpu::CHUNK);
         let near = near(bodies, &position[rows.clone()], radius);
         let mirrors = Mirrors::new(params, bodies, &near);
         for row in rows {
             let [x, y, z, _] = position[row];
+            let before = found.len();
             mirrors.visit(Vec3::new(x, y, z), |image| found.push((row as u32, image)));
+            // Who has no image in a wall is too far away to see one.
+            if found.len() > before || !near.is_empty() {
+                seekers[row - first] = position[row];
+            }
         }
     });
-    images.collect(position.len(), params.periodic.as_ref());
+    images.collect(position, params);
     if images.count() == 0 {
         images.near.clear(position.len());
         images.particles.clear(0);
         return;
     }
     let used = images.count();
-    let Images { position: at, near, pairs, particles, particle_pairs, in_bodies, has_bodies, .. } = images;
+    let Images {
+        position: at, near, pairs, particles, particle_pairs, in_bodies, has_bodies, seekers, ..
+    } = images;
     let domain = match params.domain {
         Domain::Bounded { minimum, maximum } => {
             Domain::Bounded { minimum: minimum - radius, maximum: maximum + radius }
@@ -64,7 +75,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     };
     images.cells.build(cpu, &at[..used], radius, domain);
     let reach = (radius, params.periodic.as_ref());
-    near.build_in_order(cpu, (position, count), (at, used), &images.cells, reach);
+    near.build_in_order(cpu, (seekers, count), (at, used), &images.cells, reach);
     weigh(cpu, params, (position, near), (at, true), pairs);
     let rows = if *has_bodies { in_bodies.len() } else { 0 };
     particles.build(cpu, (&in_bodies[..rows], used.min(rows)), (position, count), cells, reach);

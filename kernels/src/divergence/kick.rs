@@ -1,7 +1,7 @@
 //! After the pressure solve: velocity by the pressure, the pressure for the next step, and a shift of the particle.
 //!
 //! ```text
-//! v_i += h a_i,   x_i -= 1/5 d^2 max(0, 1 - 2 |z_i| / z_1) z_i, at most d / 10
+//! v_i = w_i,   x_i -= 1/5 d^2 max(0, 1 - 2 |z_i| / z_1) z_i, at most d / 10
 //! ```
 //!
 //! The shift is towards where particles are missing, in water that is full: their arrangement stays even. It carries no momentum. Near a
@@ -25,7 +25,7 @@ use glam::Vec3;
 declare! {
     needs: [Fluid, Divergence],
     reads: [
-        FluidPosition, FluidVelocity, FluidCorrection, FluidPressureRows, FluidMoment, FluidRenormalisation, FluidImages, BodyStates,
+        FluidPosition, FluidCorrection, FluidPressureRows, FluidMoment, FluidRenormalisation, FluidImages, BodyStates,
         BodyFluidWrenches, BodyPressureWrenches,
     ],
     writes: [FluidPosition, FluidVelocity, BodyFluidWrenches],
@@ -60,10 +60,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(solved, |first, (position, velocity, wrenches)| {
         let used = count.saturating_sub(first).min(position.len());
         for row in 0..used {
-            let (at, a) = (first + row, correction[first + row]);
-            (0..3).for_each(|axis| velocity[row][axis] += params.step * a[axis]);
-            velocity[row][lane::fluid::velocity::PRESSURE] =
-                pressure_rows[at][lane::fluid::pressure_rows::PRESSURE];
+            let (at, w) = (first + row, correction[first + row]);
+            velocity[row] = [w[0], w[1], w[2], pressure_rows[at][lane::fluid::pressure_rows::PRESSURE]];
             let is_active = renormalisation[at][lane::fluid::renormalisation::DENSITY] >= SPARSE;
             if !is_active {
                 continue;
@@ -77,6 +75,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let shift = shift.clamp_length_max(MAXIMUM_SHIFT * spacing);
             (0..3).for_each(|axis| position[row][axis] += shift[axis]);
         }
+        velocity[used..].fill([0.0; 4]);
         let chunk = first / crate::cpu::CHUNK * bodies.len();
         for (body, wrench) in wrenches.0[0].iter_mut().enumerate() {
             wrench.impulse += given[chunk + body].impulse;

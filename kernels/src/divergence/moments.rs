@@ -6,7 +6,7 @@
 //! L_i = M_i^-1                                                                       renormalisation [RL96; BL99]
 //! D_i = |-L_i z_i + sum_g R_g^T c_ig L_i e_ig|^2 + sum_j |c_ij L_i e_ij|^2           diagonal; g the own images of i
 //! e_i = f_i - 1 + k max(0, (|z_i| / z_1 - 1/4) / (3/4))                              error of the density
-//! h t_i = clamp(e_i, 1/4) / 5
+//! h t_i = clamp(e_i, 1/4) / 5,   B_i = -L_i z_i
 //! ```
 //!
 //! **Why L.** With it the divergence of velocities that are linear in the position is exact, whatever the arrangement of the particles,
@@ -17,7 +17,11 @@
 //! **Surfaces.** z is zero inside, `z_1` in the first layer of a lattice below a flat surface, which lacks k of its neighbours. There the
 //! error is zero as well, so that a surface is neither drawn together nor blown up.
 //!
+//! The sum of `|c L e|^2` is the product of `L^2` and the sum of `c^2 e e^T`: one pass over the neighbours gives all.
+//!
 //! An error is put right within five steps. If all of a pool would be thrown by that, the target is scaled down (`pressure_solve`).
+
+use glam::Vec3;
 
 use crate::{
     columns::{Columns, Fluid},
@@ -31,13 +35,19 @@ use crate::{
     vector::{Vec3x8, dot, negative, plus, times},
 };
 
-use super::{image_rows::Images, reflect::vector, symmetric::Symmetric};
+use super::{
+    image_rows::{ImageRows, Images, NO_BODY},
+    rate::SPARSE,
+    reflect::mirrored_renormalisation,
+    symmetric::Symmetric,
+};
 
 declare! {
     needs: [Fluid, Divergence],
     reads: [FluidPosition, FluidVelocity, FluidNeighbors, FluidImages],
     writes: [
-        FluidPairs, FluidRenormalisation, FluidRenormalisationBetween, FluidMoment, FluidPressureSolve,
+        FluidPairs, FluidRenormalisation, FluidRenormalisationBetween, FluidMoment, FluidFactors, FluidPressureRows,
+        FluidImageRenormalisation, FluidImageRenormalisationBetween, FluidPressureSolve,
     ],
     oracle: crate::oracle::divergence::moments,
     bound: 1e-5,
@@ -70,29 +80,57 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         renormalisation,
         renormalisation_between,
         moment,
+        factors,
+        pressure_rows,
+        image_renormalisation,
+        image_renormalisation_between,
         pressure_solve,
         ..
     } = &mut columns.fluid;
-    for column in [&mut *renormalisation, renormalisation_between, moment] {
+    for column in [&mut *renormalisation, renormalisation_between, moment, factors, pressure_rows] {
         column.resize(position.len(), [0.0; 4]);
     }
-    let task = Task { params, divergence, position, images };
+    let task = Task { params, divergence, position, velocity, images };
     let rows = (
-        (&mut renormalisation[..], &mut renormalisation_between[..]),
-        &mut moment[..],
+        ((&mut renormalisation[..], &mut renormalisation_between[..]), &mut moment[..]),
+        (&mut factors[..], &mut pressure_rows[..]),
         pairs.match_lists(neighbors),
         pressure_solve.beginnings(position.len()),
     );
-    cpu.for_chunks(rows, |first, ((along, between), moment, pairs, beginning)| {
+    cpu.for_chunks(rows, |first, (((along, between), moment), (factors, pressure), pairs, beginning)| {
         let lists = neighbors.chunk(first);
-        with_space!(cpu, params, simd, space =>
-            task.chunk((simd, space), first, lists, &mut pairs.0[0], [along, between, moment]));
+        with_space!(cpu, params, simd, space => task.chunk(
+            (simd, space), first, lists, &mut pairs.0[0], [along, between, moment, factors, pressure]));
         // Padding rows must not move and must not push.
         let used = count.saturating_sub(first).min(along.len());
-        [&mut *along, between, moment].into_iter().for_each(|rows| rows[used..].fill([0.0; 4]));
-        beginning.0[0] = Beginning::of(&velocity[first..first + used], between);
+        [&mut *along, between, moment, factors].into_iter().for_each(|rows| rows[used..].fill([0.0; 4]));
+        pressure[used..].fill([0.0, 0.0, 1.0, 0.0]);
+        beginning.0[0] = Beginning::of(&velocity[first..first + used], factors);
     });
     pressure_solve.begin_divergence(count, params);
+    let renormalisation = [&renormalisation[..], &renormalisation_between[..]];
+    mirror(cpu, images, renormalisation, [image_renormalisation, image_renormalisation_between]);
+}
+
+/// The renormalisation of images in walls alone.
+fn mirror(
+    cpu: &Cpu,
+    images: &Images,
+    renormalisation: [&[[f32; 4]]; 2],
+    [along, between]: [&mut ImageRows; 2],
+) {
+    let count = images.count();
+    for rows in [&mut along.0, &mut between.0] {
+        rows.resize(images.position.len(), [0.0; 4]);
+        rows[count..].fill([0.0; 4]);
+    }
+    cpu.for_chunks((&mut along.0[..count], &mut between.0[..count]), |first, (along, between)| {
+        for (row, (along, between)) in along.iter_mut().zip(between).enumerate() {
+            let is_in_body = images.body[first + row] != NO_BODY;
+            let mirrored = mirrored_renormalisation(images, first + row, renormalisation);
+            (*along, *between) = if is_in_body { ([0.0; 4], [0.0; 4]) } else { mirrored };
+        }
+    });
 }
 
 /// Sums over neighbours and images.
@@ -100,6 +138,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 struct Sums<S: Simd> {
     first: Vec3x8<S>,
     second: Symmetric<S>,
+    /// Of `c^2 e e^T`.
+    squares: Symmetric<S>,
     shape: f32x8<S>,
 }
 
@@ -108,7 +148,8 @@ impl<S: Simd> Sums<S> {
     fn add(&mut self, c: f32x8<S>, offset: Vec3x8<S>, shape: f32x8<S>) {
         let push = times(offset, c);
         self.first = plus(self.first, push);
-        self.second.add_product(push, offset);
+        self.second.add_square(push, offset);
+        self.squares.add_square(push, push);
         self.shape += shape;
     }
 }
@@ -117,6 +158,7 @@ struct Task<'a> {
     params: &'a Params,
     divergence: &'a Divergence,
     position: &'a [[f32; 4]],
+    velocity: &'a [[f32; 4]],
     images: &'a Images,
 }
 
@@ -128,16 +170,16 @@ impl Task<'_> {
         first: usize,
         lists: &ChunkLists,
         pairs: &mut [[f32; LANES]],
-        [along, between, moment]: [&mut [[f32; 4]]; 3],
+        [along, between, moment, factors, pressure]: [&mut [[f32; 4]]; 5],
     ) {
         let fluid = &self.params.fluid;
         let kernel = fluid.smoothing.lanes(simd);
         let gradient = kernel.gradient_scale() * fluid.rest_volume();
-        let zero = lanes::splat(simd, 0.0);
+        let (zero, none) = (lanes::splat(simd, 0.0), Symmetric::splat(simd, 0.0));
         for row in (0..along.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.position, first + row);
             let (point, list) = ([x, y, z], lists.group(row));
-            let mut sums = Sums { first: [zero; 3], second: Symmetric::splat(simd, 0.0), shape: zero };
+            let mut sums = Sums { first: [zero; 3], second: none, squares: none, shape: zero };
             for (entry, stored) in list.iter().zip(&mut pairs[lists.range(row)]) {
                 let [xj, yj, zj, _] = lanes::gather_rows(simd, self.position, entry);
                 let offset = negative(space.apart(point, [xj, yj, zj]));
@@ -153,15 +195,19 @@ impl Task<'_> {
                 sums.add(lanes::load_array(simd, c), offset, kernel.shape(u) * ratio);
             }
             let inverse = renormalisation(simd, sums.second, self.divergence.lattice_moment);
-            let list = (list, &pairs[lists.range(row)]);
-            let diagonal = self.diagonal((simd, space), (first, row), (point, sums.first, inverse), list);
             let density = sums.shape * (kernel.value_scale() * fluid.rest_volume());
             let target = self.target(simd, density, sums.first);
-            let [[xx, yy, zz], [yz, zx, xy]] = [inverse.along, inverse.between];
+            let [bx, by, bz] = negative(inverse.times(sums.first));
+            let diagonal = self.diagonal((simd, space), first + row, ([bx, by, bz], inverse), sums.squares);
+            let ([xx, yy, zz], [yz, zx, xy]) = (inverse.along, inverse.between);
             lanes::store_rows(along, row, [xx, yy, zz, density]);
-            lanes::store_rows(between, row, [yz, zx, xy, target]);
-            let [zx, zy, zz] = sums.first;
-            lanes::store_rows(moment, row, [zx, zy, zz, diagonal]);
+            lanes::store_rows(between, row, [yz, zx, xy, zero]);
+            lanes::store_rows(moment, row, [sums.first[0], sums.first[1], sums.first[2], zero]);
+            lanes::store_rows(factors, row, [bx, by, bz, target]);
+            let [_, _, _, before] = lanes::load_rows(simd, self.velocity, first + row);
+            let before = select(density.simd_ge(lanes::splat(simd, SPARSE)), before, zero);
+            let square = self.params.step * self.params.step;
+            lanes::store_rows(pressure, row, [before, zero, diagonal * square, zero]);
         }
     }
 
@@ -170,46 +216,32 @@ impl Task<'_> {
     fn diagonal<S: Simd>(
         &self,
         (simd, space): (S, impl Space<S>),
-        (first, row): (usize, usize),
-        (point, moment, inverse): (Vec3x8<S>, Vec3x8<S>, Symmetric<S>),
-        (list, pairs): (&[[u32; LANES]], &[[f32; LANES]]),
-    ) -> f32x8<S> {
-        let mut squares = lanes::splat(simd, 0.0);
-        for (entry, c) in list.iter().zip(pairs) {
-            let [xj, yj, zj, _] = lanes::gather_rows(simd, self.position, entry);
-            let push = times(inverse.times(space.apart(point, [xj, yj, zj])), lanes::load_array(simd, c));
-            squares += dot(push, push);
-        }
-        let mut own = negative(inverse.times(moment));
-        for (entry, c) in self.images.seen(first, row) {
-            let [xj, yj, zj, _] = lanes::gather_rows(simd, &self.images.position, entry);
-            let offset = negative(space.apart(point, [xj, yj, zj]));
-            let push = times(inverse.times(offset), lanes::load_array(simd, c));
-            let (back, others) = self.own_images(first + row, entry, push.map(f32x8::to_array));
-            own = plus(own, [0, 1, 2].map(|axis| lanes::load_array(simd, &back[axis])));
-            squares += dot(push, push) * lanes::load_array(simd, &others);
-        }
-        let minimum = MINIMUM_DIAGONAL / (self.params.fluid.spacing * self.params.fluid.spacing);
-        (squares + dot(own, own)).max(lanes::splat(simd, minimum))
-    }
-
-    /// What particles receive through images of their own, and 0 for those lanes, 1 for the others.
-    fn own_images(
-        &self,
         row: usize,
-        entry: &[u32; LANES],
-        [x, y, z]: [[f32; LANES]; 3],
-    ) -> ([[f32; LANES]; 3], [f32; LANES]) {
-        let (mut back, mut others) = ([[0.0; LANES]; 3], [1.0; LANES]);
-        for (lane, image) in entry.iter().enumerate() {
-            let image = *image as usize;
-            if self.images.source.get(image).is_some_and(|source| *source as usize == row + lane) {
-                let own = self.images.back(image, vector(&[x[lane], y[lane], z[lane], 0.0]));
-                (0..3).for_each(|axis| back[axis][lane] = own[axis]);
-                others[lane] = 0.0;
+        (push, inverse): (Vec3x8<S>, Symmetric<S>),
+        squares: Symmetric<S>,
+    ) -> f32x8<S> {
+        let squares = inverse.squared().contracted(squares);
+        let (mut back, mut own) = ([[0.0; LANES]; 3], [0.0; LANES]);
+        for lane in 0..LANES {
+            for image in self.images.of(row + lane) {
+                let [x, y, z, ratio] = self.images.position[image];
+                let [px, py, pz, _] = self.position[row + lane];
+                let splat = |[x, y, z]: [f32; 3]| [x, y, z].map(|value| lanes::splat(simd, value));
+                let apart = space.apart(splat([px, py, pz]), splat([x, y, z]));
+                let offset = -Vec3::new(apart[0][0], apart[1][0], apart[2][0]);
+                let fluid = &self.params.fluid;
+                let c = ratio * fluid.rest_volume() * fluid.smoothing.gradient_at(offset.length());
+                let received = inverse.lane(lane) * (c * offset);
+                let handed_on = self.images.back(image, received);
+                (0..3).for_each(|axis| back[axis][lane] += handed_on[axis]);
+                own[lane] += received.length_squared();
             }
         }
-        (back, others)
+        let [x, y, z] = back.each_ref().map(|lanes| lanes::load_array(simd, lanes));
+        let push = plus(push, [x, y, z]);
+        let minimum = MINIMUM_DIAGONAL / (self.params.fluid.spacing * self.params.fluid.spacing);
+        let others = lanes::positive(simd, squares - lanes::load_array(simd, &own));
+        (others + dot(push, push)).max(lanes::splat(simd, minimum))
     }
 
     /// The divergence that the error of the density asks for, times the step.

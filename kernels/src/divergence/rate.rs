@@ -8,7 +8,7 @@ use crate::{
     columns::Fluid,
     lanes::{self, LANES, Simd, f32x8},
     periodic::Space,
-    vector::{dot, minus, plus, times},
+    vector::{Vec3x8, dot, minus, plus, times},
 };
 
 use super::{image_rows::ImageRows, symmetric::Symmetric};
@@ -56,50 +56,31 @@ impl Field<'_> {
     }
 }
 
-/// The force by pressures: the transpose of the divergence.
-pub(super) struct Push<'a> {
-    pub(super) fluid: &'a Fluid,
+/// Points with pressures beside them, and their renormalisation along and between the axes: what neighbours push with.
+#[derive(Clone, Copy)]
+pub(super) struct Pushing<'a> {
+    pub(super) points: &'a [[f32; 4]],
+    pub(super) along: &'a [[f32; 4]],
+    pub(super) between: &'a [[f32; 4]],
 }
 
-impl Push<'_> {
-    /// `sum_j c_j P_j L_j (x - x_j)` at eight points, over lists of particles.
+impl Pushing<'_> {
+    /// `sum_j c_j P_j L_j (x - x_j)` at eight points: the transpose of the divergence. Without `PRESSURE` all of it is 1.
     #[inline(always)]
-    pub(super) fn by_particles<S: Simd>(
-        &self,
+    pub(super) fn sum<'a, S: Simd, const PRESSURE: bool>(
+        self,
         (simd, space): (S, impl Space<S>),
-        point: [f32x8<S>; 3],
-        list: &[[u32; LANES]],
-        pairs: &[[f32; LANES]],
-    ) -> [f32x8<S>; 3] {
+        point: Vec3x8<S>,
+        list: impl Iterator<Item = (&'a [u32; LANES], &'a [f32; LANES])>,
+    ) -> Vec3x8<S> {
         let mut sum = [lanes::splat(simd, 0.0); 3];
-        for (entry, c) in list.iter().zip(pairs) {
-            let [xj, yj, zj, pressure] = lanes::gather_rows(simd, &self.fluid.predicted, entry);
-            let [xx, yy, zz, _] = lanes::gather_rows(simd, &self.fluid.renormalisation, entry);
-            let [yz, zx, xy, _] = lanes::gather_rows(simd, &self.fluid.renormalisation_between, entry);
+        for (entry, c) in list {
+            let [xj, yj, zj, pressure] = lanes::gather_rows(simd, self.points, entry);
+            let [xx, yy, zz, _] = lanes::gather_rows(simd, self.along, entry);
+            let [yz, zx, xy, _] = lanes::gather_rows(simd, self.between, entry);
             let other = Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] };
-            let push = lanes::load_array(simd, c) * pressure;
-            sum = plus(sum, times(other.times(space.apart(point, [xj, yj, zj])), push));
-        }
-        sum
-    }
-
-    /// The same over lists of images, those in bodies left out.
-    #[inline(always)]
-    pub(super) fn by_images<S: Simd>(
-        &self,
-        (simd, space): (S, impl Space<S>),
-        (first, row): (usize, usize),
-        point: [f32x8<S>; 3],
-    ) -> [f32x8<S>; 3] {
-        let mut sum = [lanes::splat(simd, 0.0); 3];
-        let images = &self.fluid.images;
-        let stress = (&self.fluid.image_stress.0, &self.fluid.image_stress_between.0);
-        for (entry, c) in images.seen(first, row) {
-            let [xj, yj, zj, _] = lanes::gather_rows(simd, &images.position, entry);
-            let [xx, yy, zz, is_wall] = lanes::gather_rows(simd, stress.0, entry);
-            let [yz, zx, xy, _] = lanes::gather_rows(simd, stress.1, entry);
-            let other = Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] };
-            let push = lanes::load_array(simd, c) * is_wall;
+            let c = lanes::load_array(simd, c);
+            let push = if PRESSURE { c * pressure } else { c };
             sum = plus(sum, times(other.times(space.apart(point, [xj, yj, zj])), push));
         }
         sum

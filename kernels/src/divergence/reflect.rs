@@ -68,8 +68,8 @@ pub(super) fn mirrored_renormalisation(
     renormalisation: [&[[f32; 4]]; 2],
 ) -> ([f32; 4], [f32; 4]) {
     let (source, q) = (images.source[image] as usize, images.signs(image));
-    let [yz, zx, xy, w] = renormalisation[1][source];
-    (renormalisation[0][source], [yz * q.y * q.z, zx * q.z * q.x, xy * q.x * q.y, w])
+    let ([xx, yy, zz, _], [yz, zx, xy, _]) = (renormalisation[0][source], renormalisation[1][source]);
+    ([xx, yy, zz, 0.0], [yz * q.y * q.z, zx * q.z * q.x, xy * q.x * q.y, 0.0])
 }
 
 /// Gives a body what its image receives, less what that hands on to its particle at `point`.

@@ -1,10 +1,11 @@
 //! Iteration of the pressure solve: remaining compression, and length of the next iteration.
 //!
 //! ```text
-//! r_i = r0_i - h^2 div a_i
+//! r_i = h t_i - h div w_i
 //! ```
 //!
-//! with the images of the accelerations, in bodies that are accelerated as well. The length is that of Barzilai and Borwein \[BB88\] in the
+//! with the velocities w by the pressure of the round, and their images in bodies that move with it. A particle with less than three
+//! quarters of a neighbourhood has no pressure, and nothing remains. The length is that of Barzilai and Borwein \[BB88\] in the
 //! norm of the diagonal, see `pressure_solve`.
 
 use crate::{
@@ -26,8 +27,7 @@ declare! {
     needs: [Fluid, Divergence],
     reads: [
         FluidPosition, FluidCorrection, FluidNeighbors, FluidPairs, FluidFactors, FluidRenormalisation,
-        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidImages, BodyStates, BodyAcceleration,
-        BodyAngularAcceleration,
+        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidImages, BodyStates, BodySolved, BodySolvedSpin,
     ],
     writes: [FluidPressureRows, FluidPressureSolve, FluidImageVectors],
     oracle: crate::oracle::divergence::residual,
@@ -43,18 +43,18 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let mut vectors = std::mem::take(&mut fluid.image_vectors);
     let mut pressure_rows = std::mem::take(&mut fluid.pressure_rows);
     let mut pressure_solve = std::mem::take(&mut fluid.pressure_solve);
-    let twists = twists(&store.acceleration, &store.angular_acceleration);
+    let twists = twists(&store.solved, &store.solved_spin);
     reflect(cpu, &fluid.images, (&fluid.position, &fluid.correction), (bodies, &twists), &mut vectors);
     let field = Field { fluid, values: &fluid.correction, images: &vectors };
+    let scale = pressure_solve.target_scale();
     let rows = (&mut pressure_rows[..], pressure_solve.sums(fluid.position.len()));
-    let square = params.step * params.step;
     cpu.for_chunks(rows, |first, (rows, sums)| {
         let mut left = [0.0; crate::cpu::CHUNK];
         with_space!(cpu, params, simd, space => {
             for row in (0..rows.len()).step_by(LANES) {
                 let rate = field.rate((simd, space), (first, row));
-                let [_, _, _, before] = lanes::load_rows(simd, &fluid.factors, first + row);
-                lanes::store(&mut left, row, before + rate * square);
+                let [_, _, _, target] = lanes::load_rows(simd, &fluid.factors, first + row);
+                lanes::store(&mut left, row, target * scale + rate * params.step);
             }
         });
         let used = count.saturating_sub(first).min(rows.len());

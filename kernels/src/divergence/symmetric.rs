@@ -1,5 +1,7 @@
 //! Symmetric matrices of eight particles.
 
+use glam::{Mat3, Vec3};
+
 use crate::{
     lanes::{self, Simd, f32x8},
     vector::{Vec3x8, dot},
@@ -22,15 +24,23 @@ impl<S: Simd> Symmetric<S> {
         Self { along: [value; 3], between: [value; 3] }
     }
 
-    /// Adds `(a b^T + b a^T) / 2`.
+    /// Adds `a b^T` of parallel vectors.
     #[inline(always)]
-    pub(super) fn add_product(&mut self, a: Vec3x8<S>, b: Vec3x8<S>) {
+    pub(super) fn add_square(&mut self, a: Vec3x8<S>, b: Vec3x8<S>) {
         self.along[0] += a[0] * b[0];
         self.along[1] += a[1] * b[1];
         self.along[2] += a[2] * b[2];
-        self.between[0] += (a[1] * b[2] + a[2] * b[1]) * 0.5;
-        self.between[1] += (a[2] * b[0] + a[0] * b[2]) * 0.5;
-        self.between[2] += (a[0] * b[1] + a[1] * b[0]) * 0.5;
+        self.between[0] += a[1] * b[2];
+        self.between[1] += a[2] * b[0];
+        self.between[2] += a[0] * b[1];
+    }
+
+    /// The matrix of one of the eight.
+    #[inline(always)]
+    pub(super) fn lane(self, lane: usize) -> Mat3 {
+        let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
+        let [xx, yy, zz, yz, zx, xy] = [xx[lane], yy[lane], zz[lane], yz[lane], zx[lane], xy[lane]];
+        Mat3::from_cols(Vec3::new(xx, xy, zx), Vec3::new(xy, yy, yz), Vec3::new(zx, yz, zz))
     }
 
     /// Adds `a b^T`, with both elements between two axes in one.
@@ -49,6 +59,14 @@ impl<S: Simd> Symmetric<S> {
     pub(super) fn scaled(self, scale: f32x8<S>) -> Self {
         let ([a, b, c], [d, e, f]) = (self.along, self.between);
         Self { along: [a * scale, b * scale, c * scale], between: [d * scale, e * scale, f * scale] }
+    }
+
+    /// The product with itself.
+    #[inline(always)]
+    pub(super) fn squared(self) -> Self {
+        let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
+        let (x, y, z) = ([xx, xy, zx], [xy, yy, yz], [zx, yz, zz]);
+        Self { along: [dot(x, x), dot(y, y), dot(z, z)], between: [dot(y, z), dot(z, x), dot(x, y)] }
     }
 
     /// Product with a vector.

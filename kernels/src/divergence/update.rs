@@ -4,7 +4,8 @@
 //! P_i <- min(max(0, P_i + alpha r_i / A_i), c^2)
 //! ```
 //!
-//! with `alpha` from `divergence::residual`. Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest
+//! with `alpha` from `divergence::residual`. Images have the pressure of their particle. Enclosed water yields at a pressure of `rho_0
+//! c^2`, with c ten times the fastest
 //! expected speed: the pressure that keeps its volume would be infinite. The pressure is written beside the position, where
 //! neighbours read both at once.
 
@@ -19,18 +20,19 @@ use crate::{
 
 declare! {
     needs: [Fluid, Divergence],
-    reads: [FluidPosition, FluidPressureRows, FluidPressureSolve],
-    writes: [FluidPredicted, FluidPressureRows],
+    reads: [FluidPosition, FluidPressureRows, FluidPressureSolve, FluidImages],
+    writes: [FluidPredicted, FluidPressureRows, FluidImagePredicted],
     oracle: crate::oracle::divergence::update,
     bound: 4e-6,
-    twin: [pass(NAME, Fluid)],
+    twin: [],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(solve) = &params.fluid.incompressible else { return };
     let maximum = SOUND_SPEED_RATIO * solve.correction_speed * (SOUND_SPEED_RATIO * solve.correction_speed);
     let count = columns.rows.fluid;
-    let Fluid { position, predicted, pressure_rows, pressure_solve, .. } = &mut columns.fluid;
+    let Fluid { position, predicted, pressure_rows, pressure_solve, images, image_predicted, .. } =
+        &mut columns.fluid;
     predicted.resize(position.len(), FAR_ROW);
     predicted[count..].fill(FAR_ROW);
     let length = pressure_solve.length();
@@ -44,6 +46,16 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             row[1] = next - pressure;
             *predicted = *position;
             predicted[lane::fluid::predicted::PRESSURE] = next;
+        }
+    });
+    image_predicted.0.resize(images.position.len(), FAR_ROW);
+    image_predicted.0[images.count()..].fill(FAR_ROW);
+    cpu.for_chunks(&mut image_predicted.0[..images.count()], |first, rows| {
+        for ((row, position), source) in
+            rows.iter_mut().zip(&images.position[first..]).zip(&images.source[first..])
+        {
+            let pressure = predicted[*source as usize][lane::fluid::predicted::PRESSURE];
+            *row = [position[0], position[1], position[2], pressure];
         }
     });
 }

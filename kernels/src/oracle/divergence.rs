@@ -81,7 +81,13 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
     let near = pairs_at(params, fluid, &x);
     write_pairs(fluid, &near);
     let rows = fluid.position.len();
-    for column in [&mut fluid.renormalisation, &mut fluid.renormalisation_between, &mut fluid.moment] {
+    for column in [
+        &mut fluid.renormalisation,
+        &mut fluid.renormalisation_between,
+        &mut fluid.moment,
+        &mut fluid.factors,
+        &mut fluid.pressure_rows,
+    ] {
         column.resize(rows, [0.0; 4]);
     }
     let mut sums = [0.0; 3];
@@ -114,13 +120,28 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let diagonals = DVec3::new(inverse.x_axis.x, inverse.y_axis.y, inverse.z_axis.z);
         fluid.renormalisation[i] = row(diagonals, density);
         fluid.renormalisation_between[i] =
-            row(DVec3::new(inverse.y_axis.z, inverse.z_axis.x, inverse.x_axis.y), target);
-        fluid.moment[i] = row(first, diagonal);
+            row(DVec3::new(inverse.y_axis.z, inverse.z_axis.x, inverse.x_axis.y), 0.0);
+        fluid.moment[i] = row(first, 0.0);
+        fluid.factors[i] = row(-(inverse * first), target);
+        let before = fluid.velocity[i][lane::fluid::velocity::PRESSURE];
+        let before = if density < 0.75 { 0.0 } else { before };
+        fluid.pressure_rows[i] = [before, 0.0, (diagonal * f64::from(params.step).powi(2)) as f32, 0.0];
         sums[0] += vector(fluid.velocity[i]).length_squared();
         sums[1] += f64::from(fluid.velocity[i][lane::fluid::velocity::PRESSURE]).powi(2);
         sums[2] += target;
     }
     fluid.pressure_solve.begin_divergence_with(sums, count, params);
+    let mirrored = |image: &Seen| {
+        let q = DMat3::from_diagonal(image.signs);
+        let s = q * renormalisation(fluid, image.source) * q;
+        let s = if image.body.is_some() { DMat3::ZERO } else { s };
+        let along = DVec3::new(s.x_axis.x, s.y_axis.y, s.z_axis.z);
+        (along, DVec3::new(s.y_axis.z, s.z_axis.x, s.x_axis.y))
+    };
+    let (along, between): (Vec<_>, Vec<_>) = images.iter().map(mirrored).unzip();
+    let padded = fluid.images.position.len();
+    store_images(&mut fluid.image_renormalisation.0, padded, &along);
+    store_images(&mut fluid.image_renormalisation_between.0, padded, &between);
 }
 
 /// Renormalisation of a particle.
@@ -200,6 +221,8 @@ pub(crate) fn hydrostatic(params: &Params, columns: &mut Columns) {
         *own = keep(*own, vector(*own) + a);
     }
     columns.bodies.fluid_wrenches.0 = scaled(&wrenches, momentum);
+    let forces = forces(params, fluid, (&images, count), |_, image| higher(image));
+    store_images(&mut fluid.image_force.0, fluid.images.position.len(), &forces);
 }
 
 /// `sum_j c_ij (v_j - v_i) . x_ij x_ij` over particles and images, and the parts of images in bodies at the particles.
@@ -315,31 +338,6 @@ fn is_sparse(fluid: &Fluid, i: usize) -> bool {
     fluid.renormalisation[i][lane::fluid::renormalisation::DENSITY] < 0.75
 }
 
-pub(crate) fn begin(params: &Params, columns: &mut Columns) {
-    if params.fluid.divergence().is_none() {
-        return;
-    }
-    let (fluid, count, bodies) = (&mut columns.fluid, columns.rows.fluid, &columns.bodies.states.0);
-    let twists = twists_of(&columns.bodies.expected, &columns.bodies.expected_spin);
-    let (images, v) = (seen(&fluid.images), vectors(&fluid.velocity, count));
-    let of_images = reflected(fluid, &images, &v, bodies, &twists);
-    let rates = rate(params, fluid, &images, (&v, &of_images));
-    let (step, scale) = (f64::from(params.step), f64::from(fluid.pressure_solve.target_scale()));
-    fluid.factors.resize(fluid.position.len(), [0.0; 4]);
-    fluid.pressure_rows.resize(fluid.position.len(), [0.0, 0.0, 1.0, 0.0]);
-    for (i, rate) in rates.into_iter().enumerate() {
-        let target =
-            f64::from(fluid.renormalisation_between[i][lane::fluid::renormalisation_between::TARGET]);
-        let sparse = is_sparse(fluid, i);
-        let compression = if sparse { 0.0 } else { target * scale + step * rate };
-        let pressure = if sparse { 0.0 } else { fluid.velocity[i][lane::fluid::velocity::PRESSURE] };
-        let diagonal = f64::from(fluid.moment[i][lane::fluid::moment::DIAGONAL]) * step * step;
-        fluid.factors[i] = row(-(renormalisation(fluid, i) * vector(fluid.moment[i])), compression);
-        fluid.pressure_rows[i] = [pressure, 0.0, diagonal as f32, compression as f32];
-    }
-    store_images(&mut fluid.image_vectors.0, fluid.images.position.len(), &of_images);
-}
-
 pub(crate) fn update(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let Some(solve) = &params.fluid.incompressible else { return };
@@ -354,6 +352,12 @@ pub(crate) fn update(params: &Params, columns: &mut Columns) {
         fluid.predicted[i] = fluid.position[i];
         fluid.predicted[i][lane::fluid::predicted::PRESSURE] = next as f32;
     }
+    let beside = |(image, source): (usize, &u32)| {
+        let pressure = fluid.predicted[*source as usize][lane::fluid::predicted::PRESSURE];
+        row(vector(fluid.images.position[image]), f64::from(pressure))
+    };
+    fluid.image_predicted.0 = fluid.images.source.iter().enumerate().map(beside).collect();
+    fluid.image_predicted.0.resize(fluid.images.position.len(), crate::column::FAR_ROW);
 }
 
 pub(crate) fn acceleration(params: &Params, columns: &mut Columns) {
@@ -365,58 +369,56 @@ pub(crate) fn acceleration(params: &Params, columns: &mut Columns) {
     let images = seen(&fluid.images);
     let pressure = |i: usize| f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE]);
     let (a, wrenches) = transposed(params, fluid, &store.states.0, (&images, count), |i, _| pressure(i));
-    let (along, between) = stresses(params, fluid, &images, count);
-    fluid.correction = a.iter().map(|a| row(*a, 0.0)).collect();
+    let forces = forces(params, fluid, (&images, count), |j, _| pressure(j));
+    let step = f64::from(params.step);
+    let moved = |(a, v): (&DVec3, &[f32; 4])| row(vector(*v) + step * *a, 0.0);
+    let velocities = a.iter().zip(&fluid.velocity).map(moved).collect();
+    fluid.correction = velocities;
     fluid.correction.resize(fluid.position.len(), [0.0; 4]);
-    fluid.image_stress.0 = along;
-    fluid.image_stress_between.0 = between;
-    let momentum = f64::from(params.fluid.particle_mass) * f64::from(params.step);
+    store_images(&mut fluid.image_force.0, fluid.images.position.len(), &forces);
+    let momentum = f64::from(params.fluid.particle_mass) * step;
     store.pressure_wrenches.0 = scaled(&wrenches, momentum);
-    let over_step = |(index, body): (usize, &Body)| {
+    let expected = twists_of(&store.expected, &store.expected_spin);
+    let pushed = |(index, body): (usize, &Body)| {
         let received = &store.pressure_wrenches.0[index];
         let linear = received.impulse * f64::from(body.inverse_mass);
         let angular = body.inverse_inertia.as_dmat3() * received.angular_impulse;
-        (linear / f64::from(params.step), angular / f64::from(params.step))
+        (expected[index].0 + linear, expected[index].1 + angular)
     };
-    let found: Vec<Twist> = store.states.0.iter().enumerate().map(over_step).collect();
-    let BodyStore { acceleration, angular_acceleration, .. } = store;
-    (*acceleration, *angular_acceleration) = rows_of(&found);
+    let found: Vec<Twist> = store.states.0.iter().enumerate().map(pushed).collect();
+    let BodyStore { solved, solved_spin, .. } = store;
+    (*solved, *solved_spin) = rows_of(&found);
 }
 
-/// Mirrored stress of images in walls, and what images in bodies receive.
-fn stresses(params: &Params, fluid: &Fluid, images: &[Seen], count: usize) -> (Vec<[f32; 4]>, Vec<[f32; 4]>) {
+/// What images in bodies receive from particles that push as much as `pair` says; none in walls alone.
+fn forces(
+    params: &Params,
+    fluid: &Fluid,
+    (images, count): (&[Seen], usize),
+    pair: impl Fn(usize, &Seen) -> f64,
+) -> Vec<DVec3> {
     let x = vectors(&fluid.position, count);
     let one = |image: &Seen| {
-        let pressure = |i: usize| f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE]);
-        if image.body.is_none() {
-            let q = DMat3::from_diagonal(image.signs);
-            let s = q * renormalisation(fluid, image.source) * q * pressure(image.source);
-            let along = DVec3::new(s.x_axis.x, s.y_axis.y, s.z_axis.z);
-            return (row(along, 1.0), row(DVec3::new(s.y_axis.z, s.z_axis.x, s.x_axis.y), 0.0));
-        }
         let push = |j: usize| {
             let offset = apart(params, image.position, x[j]);
-            renormalisation(fluid, j) * offset * (image.volume * factor(params, offset) * pressure(j))
+            renormalisation(fluid, j) * offset * (image.volume * factor(params, offset) * pair(j, image))
         };
-        (row((0..count).map(push).sum(), 0.0), [0.0; 4])
+        if image.body.is_some() { (0..count).map(push).sum() } else { DVec3::ZERO }
     };
-    let (mut along, mut between): (Vec<_>, Vec<_>) = images.iter().map(one).unzip();
-    along.resize(fluid.images.position.len(), [0.0; 4]);
-    between.resize(fluid.images.position.len(), [0.0; 4]);
-    (along, between)
+    images.iter().map(one).collect()
 }
 
 pub(crate) fn residual(params: &Params, columns: &mut Columns) {
     let (fluid, count, bodies) = (&mut columns.fluid, columns.rows.fluid, &columns.bodies.states.0);
     let Some(solve) = &params.fluid.incompressible else { return };
-    let twists = twists_of(&columns.bodies.acceleration, &columns.bodies.angular_acceleration);
+    let twists = twists_of(&columns.bodies.solved, &columns.bodies.solved_spin);
     let (images, a) = (seen(&fluid.images), vectors(&fluid.correction, count));
     let of_images = reflected(fluid, &images, &a, bodies, &twists);
     let rates = rate(params, fluid, &images, (&a, &of_images));
-    let square = f64::from(params.step).powi(2);
+    let (h, scale) = (f64::from(params.step), f64::from(fluid.pressure_solve.target_scale()));
     let mut sums = [0.0; 6];
     for (i, rate) in rates.into_iter().enumerate() {
-        let left = f64::from(fluid.factors[i][lane::fluid::factors::COMPRESSION]) + square * rate;
+        let left = f64::from(fluid.factors[i][lane::fluid::factors::TARGET]) * scale + h * rate;
         let left = if is_sparse(fluid, i) { 0.0 } else { left };
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;
@@ -438,8 +440,8 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
     let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
     let (images, spacing) = (seen(&fluid.images), f64::from(params.fluid.spacing));
     for i in 0..columns.rows.fluid {
-        let v = vector(fluid.velocity[i]) + f64::from(params.step) * vector(fluid.correction[i]);
-        fluid.velocity[i] = row(v, f64::from(fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE]));
+        let w = vector(fluid.correction[i]);
+        fluid.velocity[i] = row(w, f64::from(fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE]));
         if is_sparse(fluid, i) {
             continue;
         }

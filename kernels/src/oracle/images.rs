@@ -154,13 +154,13 @@ pub(crate) fn images(params: &Params, columns: &mut Columns) {
     let (count, rows) = (columns.rows.fluid, columns.fluid.position.len());
     let x = vectors(&columns.fluid.position, count);
     let bodies = &columns.bodies.states.0;
-    let images = &mut columns.fluid.images;
+    let mut images = std::mem::take(&mut columns.fluid.images);
     let found = x
         .iter()
         .enumerate()
         .flat_map(|(row, x)| images_of(params, bodies, *x).into_iter().map(move |image| (row as u32, image)));
     images.by_chunk = vec![found.collect()];
-    images.collect(rows, params.periodic.as_ref());
+    images.collect(&columns.fluid.position, params);
     let used = images.count();
     let at: Vec<DVec3> = images.position[..used].iter().map(|row| vector(*row)).collect();
     let radius = params.fluid.smoothing.support_radius;
@@ -183,6 +183,7 @@ pub(crate) fn images(params: &Params, columns: &mut Columns) {
     let of_image =
         |image: usize, row: usize| if row < count && image < used { c(row, image) as f32 } else { 0.0 };
     images.particle_pairs.fill(&images.particles, of_image);
+    columns.fluid.images = images;
 }
 
 /// An image as oracles see it.

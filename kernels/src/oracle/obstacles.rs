@@ -57,9 +57,11 @@ fn correction([before, after]: [&Body; 2], margin: f64, from: DVec3, to: DVec3) 
     turned * -beyond
 }
 
-fn pairs(params: &Params, columns: &Columns) -> Vec<[Body; 2]> {
-    let bodies = &columns.bodies.states.0;
-    bodies.iter().map(|body| [body.clone(), body.at_end(params.step)]).collect()
+/// Bodies before and after the step, and the radius of the balls that sweep them.
+fn pairs(params: &Params, columns: &Columns) -> Vec<([Body; 2], f64)> {
+    let (bodies, radii) = crate::sph::sweep::obstacles(params, &columns.bodies.states.0);
+    let pair = |(body, radius): (Body, f32)| ([body.clone(), body.at_end(params.step)], f64::from(radius));
+    bodies.into_iter().zip(radii).map(pair).collect()
 }
 
 pub(crate) fn sweep_fluid(params: &Params, columns: &mut Columns) {
@@ -70,8 +72,8 @@ pub(crate) fn sweep_fluid(params: &Params, columns: &mut Columns) {
     for i in 0..columns.rows.fluid {
         let x = vector(columns.fluid.position[i]);
         let mut v = vector(columns.fluid.velocity[i]);
-        for (wrench, pair) in wrenches.iter_mut().zip(&pairs) {
-            let moved = correction(pair.each_ref(), 0.05 * spacing, x, x + h * v);
+        for (wrench, (pair, radius)) in wrenches.iter_mut().zip(&pairs) {
+            let moved = correction(pair.each_ref(), 0.05 * spacing + radius, x, x + h * v);
             v += moved / h;
             wrench.add(-mass * moved / h, x + h * v - pair[1].state.position.as_dvec3());
         }

@@ -41,13 +41,19 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     acceleration.resize(position.len(), [0.0; 4]);
     cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = neighbors.chunk(first);
-        with_space!(cpu, params, simd, space =>
-            chunk((simd, space), params, first, (position, velocity), lists, acceleration));
+        // A solve for the divergence has all of the pressure.
+        if params.fluid.divergence().is_some() {
+            with_space!(cpu, params, simd, space =>
+                chunk::<_, false>((simd, space), params, first, (position, velocity), lists, acceleration));
+        } else {
+            with_space!(cpu, params, simd, space =>
+                chunk::<_, true>((simd, space), params, first, (position, velocity), lists, acceleration));
+        }
     });
 }
 
 #[inline(always)]
-fn chunk<S: Simd>(
+fn chunk<S: Simd, const PRESSURE: bool>(
     (simd, space): (S, impl Space<S>),
     params: &Params,
     first: usize,
@@ -84,16 +90,18 @@ fn chunk<S: Simd>(
             let square = dx * dx + dy * dy + dz * dz;
             let u = kernel.closeness(square);
             let cube = u * u * u;
-            let push = (p + pj) * cube;
-            pressure = [pressure[0] + push * dx, pressure[1] + push * dy, pressure[2] + push * dz];
+            if PRESSURE {
+                let push = (p + pj) * cube;
+                pressure = [pressure[0] + push * dx, pressure[1] + push * dy, pressure[2] + push * dz];
+                let beyond = pj - p + (weight[0] * dx + weight[1] * dy + weight[2] * dz);
+                roughness += lanes::select(p.min(pj).simd_gt(zero), cube * beyond, zero);
+            }
             let volume_j = if is_known { rest_volume } else { volume_j };
             let pull = volume_j * u;
             let (wx, wy, wz) = (vxj - vx, vyj - vy, vzj - vz);
             viscosity = [viscosity[0] + pull * wx, viscosity[1] + pull * wy, viscosity[2] + pull * wz];
             let pull = volume_j * cube * (wx * dx + wy * dy + wz * dz) / (square + softening);
             central = [central[0] + pull * dx, central[1] + pull * dy, central[2] + pull * dz];
-            let beyond = pj - p + (weight[0] * dx + weight[1] * dy + weight[2] * dz);
-            roughness += lanes::select(p.min(pj).simd_gt(zero), cube * beyond, zero);
         }
         let viscosity = times(viscosity, viscosity_scale * volume);
         let central = times(central, central_scale * volume);

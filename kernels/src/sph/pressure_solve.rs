@@ -78,13 +78,13 @@ pub(crate) struct Beginning {
 }
 
 impl Beginning {
-    /// Of velocities with the pressure beside them, and rows with the target in the last lane.
-    pub(crate) fn of(velocity: &[[f32; 4]], targets: &[[f32; 4]]) -> Self {
+    /// Of velocities with the pressure beside them, and factors with the target beside them.
+    pub(crate) fn of(velocity: &[[f32; 4]], factors: &[[f32; 4]]) -> Self {
         let mut sums = Self::default();
-        for ([x, y, z, pressure], target) in velocity.iter().zip(targets) {
+        for ([x, y, z, pressure], factors) in velocity.iter().zip(factors) {
             sums.speed += x * x + y * y + z * z;
             sums.pressure += pressure * pressure;
-            sums.target += target[lane::fluid::renormalisation_between::TARGET];
+            sums.target += factors[lane::fluid::factors::TARGET];
         }
         sums
     }

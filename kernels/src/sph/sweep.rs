@@ -35,21 +35,32 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let Fluid { position, velocity, .. } = &mut columns.fluid;
-    let bodies = &columns.bodies.states.0;
-    let ends = at_end(bodies, params.step);
+    let (bodies, radii) = obstacles(params, &columns.bodies.states.0);
+    let (bodies, ends) = (&bodies[..], at_end(&bodies, params.step));
     let fastest = bodies.iter().map(Body::fastest).fold(0.0, f32::max);
+    let largest = radii.iter().copied().fold(0.0, f32::max);
     let mut wrenches = per_chunk(&mut columns.bodies.fluid_wrenches.0, velocity.len(), bodies.len());
     cpu.for_chunks((&mut velocity[..], PerChunk(&mut wrenches)), |first, (velocity, wrenches)| {
         let used = count.saturating_sub(first).min(velocity.len());
         let points = &position[first..first + velocity.len()];
-        let reach = params.step * (fastest + speed(&velocity[..used])) + params.fluid.spacing;
+        let reach = params.step * (fastest + speed(&velocity[..used])) + params.fluid.spacing + largest;
         let near = near(bodies, points, reach);
         if near.is_empty() {
             return;
         }
-        let task = Task { params, bodies: [bodies, &ends], near: &near };
+        let task = Task { params, bodies: [bodies, &ends], radii: &radii, near: &near };
         with_lanes!(cpu, simd => task.chunk(simd, points, &mut velocity[..used.next_multiple_of(LANES)], used, wrenches.0[0]));
     });
+}
+
+/// The bodies, and 0; with a solve for the divergence their cores, and the radius of the ball that sweeps each \[m\]: what has images must not
+/// pass the surface that they belong to.
+pub(crate) fn obstacles(params: &Params, bodies: &[Body]) -> (Vec<Body>, Vec<f32>) {
+    if params.fluid.divergence().is_some() {
+        bodies.iter().map(Body::core).unzip()
+    } else {
+        (bodies.to_vec(), vec![0.0; bodies.len()])
+    }
 }
 
 /// The largest speed.
@@ -62,6 +73,8 @@ struct Task<'a> {
     params: &'a Params,
     /// Before and after the step.
     bodies: [&'a [Body]; 2],
+    /// Of the balls that sweep them \[m\].
+    radii: &'a [f32],
     near: &'a [usize],
 }
 
@@ -79,7 +92,7 @@ impl Task<'_> {
         let (step, rate) = (lanes::splat(simd, self.params.step), 1.0 / self.params.step);
         for body in self.near {
             let pair = [&self.bodies[0][*body], &self.bodies[1][*body]];
-            let swept = Swept::new(simd, pair, WALL_MARGIN * fluid.spacing);
+            let swept = Swept::new(simd, pair, WALL_MARGIN * fluid.spacing + self.radii[*body]);
             for row in (0..velocity.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, points, row);
                 let [vx, vy, vz, w] = lanes::load_rows(simd, velocity, row);

@@ -128,7 +128,6 @@ static PROJECTION: &[Phase] = &[
 /// The divergence of the velocities by a pressure solve, with the bodies as unknowns.
 static DIVERGENCE: &[Phase] = &[
     Run(&divergence::expect::KERNEL),
-    Run(&divergence::begin::KERNEL),
     Repeat {
         times: Times::UntilConverged(Solve::Pressure),
         phases: &[

@@ -174,8 +174,14 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         }
         Column::FluidImages => images(&fluid.images, &by_id, ids, columns.rows.fluid),
         Column::FluidImageVectors => image_rows(&fluid.images, &fluid.image_vectors.0, &by_id),
-        Column::FluidImageStress => image_rows(&fluid.images, &fluid.image_stress.0, &by_id),
-        Column::FluidImageStressBetween => image_rows(&fluid.images, &fluid.image_stress_between.0, &by_id),
+        Column::FluidImageRenormalisation => {
+            image_rows(&fluid.images, &fluid.image_renormalisation.0, &by_id)
+        }
+        Column::FluidImageRenormalisationBetween => {
+            image_rows(&fluid.images, &fluid.image_renormalisation_between.0, &by_id)
+        }
+        Column::FluidImagePredicted => image_rows(&fluid.images, &fluid.image_predicted.0, &by_id),
+        Column::FluidImageForce => image_rows(&fluid.images, &fluid.image_force.0, &by_id),
         Column::BodyNodeWrenches => {
             Content::Numbers(totals(&columns.bodies.node_wrenches.0, columns.rows.bodies))
         }

@@ -155,7 +155,6 @@ pub(super) const ACROSS: &[&str] = &[
     "divergence::images",
     "divergence::moments",
     "divergence::hydrostatic",
-    "divergence::begin",
     "divergence::acceleration",
     "divergence::residual",
     "sph::advect",
