@@ -21,15 +21,14 @@ use crate::{
     schedule::{Awake, Place, Plan, Plans},
 };
 
-/// Scratch columns that measures and pictures read.
-const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
 /// Scratch columns that the clock of the host reads.
 const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve, Column::NodeExtremes];
 
 /// Scratch columns that the host reads after a step that it shares with a device.
 pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
     let observed = observed.iter().filter(|column| !column.is_on_host_only());
-    LOOKED_AT.iter().chain(&EXTREMES).chain(observed).copied().collect()
+    let kept = Column::ALL.iter().filter(|column| column.life() == Life::Kept);
+    kept.chain(&EXTREMES).chain(observed).copied().collect()
 }
 
 /// Runs the kernels of a world on a device.
@@ -86,8 +85,7 @@ impl Device {
         let shares = plans.whole().shares(&looked_at(observed));
         let written: Vec<Column> = shares.on_gpu().flat_map(|kernel| kernel.writes).copied().collect();
         let wanted = |column: &Column| {
-            let is_state = column.life() == Life::State;
-            (is_state || LOOKED_AT.contains(column) || observed.contains(column))
+            (column.life().is_saved() || observed.contains(column))
                 && written.contains(column)
                 && !column.is_on_host_only()
         };
@@ -199,10 +197,7 @@ impl Device {
             return Ok(());
         }
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
-        // Some of the columns that are read back are not computed anew while a part sleeps.
-        let lives = |column: &Column| {
-            (column.life() != Life::Scratch || LOOKED_AT.contains(column)) && !column.is_on_host_only()
-        };
+        let lives = |column: &Column| column.life() != Life::Scratch && !column.is_on_host_only();
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
