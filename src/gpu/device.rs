@@ -182,6 +182,22 @@ impl Device {
         self.kept.take().filter(|_| is_earlier)
     }
 
+    /// Makes the present state that of the host, and uploads it anew before the next step. False if the device is lost.
+    pub(crate) fn bring_home(&mut self, host: &mut Columns) -> bool {
+        self.view(host);
+        let is_there = self.is_looked_at();
+        if is_there {
+            self.give_up(host);
+        }
+        is_there
+    }
+
+    /// Forgets the state of the device for another one, which the host has.
+    pub(crate) fn leave_behind(&mut self) {
+        (self.resident, self.is_ahead, self.kept) = (None, false, None);
+        self.mirror.take();
+    }
+
     /// The read-back state becomes that of the host: the newest one if the device is lost.
     fn leave(&mut self, host: &mut Columns) {
         if let Some(mut mirror) = self.mirror.take() {
