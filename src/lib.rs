@@ -15,6 +15,8 @@ pub mod internal;
 mod measure;
 #[cfg(feature = "render")]
 pub mod render;
+#[cfg(feature = "serde")]
+mod replay;
 pub mod rigid;
 pub mod scene;
 pub mod schedule;
@@ -27,6 +29,8 @@ mod world;
 pub use clock::{Bound, Clock};
 pub use command::{Command, CommandError, Nodes};
 pub use measure::Measures;
+#[cfg(feature = "serde")]
+pub use replay::{Mismatch, Player, Recorder, Recording, ReplayError};
 pub use schedule::Offload;
 pub use sorb_kernels::{
     SimdLevel,

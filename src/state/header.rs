@@ -34,13 +34,13 @@ pub(super) struct Header {
 /// What tells scenes apart: the text of the scene, and the digest of its parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct Identity {
-    pub(super) scene: String,
-    pub(super) parameters: u64,
+    pub(crate) scene: String,
+    pub(crate) parameters: u64,
 }
 
 impl World {
     /// The identity of the scene, computed once.
-    pub(super) fn identity(&self) -> Result<&Identity, StateError> {
+    pub(crate) fn identity(&self) -> Result<&Identity, StateError> {
         if let Some(identity) = self.identity.get() {
             return Ok(identity);
         }
@@ -53,12 +53,22 @@ impl World {
     }
 }
 
+impl World {
+    /// Refuses parameters that a version of the library derived from the same scene, if they are not those of this one.
+    pub(crate) fn check_parameters(&self, parameters: u64, library: &str) -> Result<(), StateError> {
+        if self.identity()?.parameters == parameters {
+            return Ok(());
+        }
+        Err(StateError::Parameters { library: library.to_owned(), here: LIBRARY })
+    }
+}
+
 /// A scene as text.
 pub(super) fn text_of(scene: &Scene) -> Result<String, StateError> {
     scene.to_json().map_err(|error| StateError::Text(Box::new(error)))
 }
 
 /// The scene of a text.
-pub(super) fn scene_of(text: &str) -> Result<Scene, StateError> {
+pub(crate) fn scene_of(text: &str) -> Result<Scene, StateError> {
     Scene::from_json(text, "the scene in the file").map_err(|error| StateError::Text(Box::new(error)))
 }

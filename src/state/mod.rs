@@ -24,10 +24,14 @@ mod take;
 
 pub use error::StateError;
 #[cfg(feature = "serde")]
-pub(crate) use header::Identity;
+pub(crate) use file::{Kind, read, write};
+#[cfg(feature = "serde")]
+pub(crate) use header::{Identity, scene_of};
 #[cfg(feature = "serde")]
 pub use save::{Difference, Save};
 pub use snapshot::Snapshot;
+#[cfg(feature = "serde")]
+pub(crate) use take::invalid;
 
 use sorb_kernels::column::Life;
 use xxhash_rust::xxh3::Xxh3;

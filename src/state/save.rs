@@ -107,9 +107,7 @@ impl World {
             let (expected, found) = (self.scene().name.clone(), save.scene()?.name);
             return Err(StateError::Scene { expected, found });
         }
-        if identity.parameters != save.header.parameters {
-            return Err(StateError::Parameters { library: save.header.library.clone(), here: LIBRARY });
-        }
+        self.check_parameters(save.header.parameters, &save.header.library)?;
         self.take_state(&save.parts())
     }
 }

@@ -22,7 +22,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-pub(super) fn invalid(what: &str, reason: impl Into<String>) -> StateError {
+pub(crate) fn invalid(what: &str, reason: impl Into<String>) -> StateError {
     StateError::Invalid { what: what.to_owned(), reason: reason.into() }
 }
 

@@ -1,10 +1,12 @@
 //! The same bits after any interruption: saves, restores, commands, recordings and roll backs.
 
 mod asleep;
+mod commands;
 #[path = "../common/mod.rs"]
 mod common;
 mod damage;
 mod matrix;
+mod recordings;
 mod size;
 
 use common::busy;

@@ -1,6 +1,6 @@
 //! One digest, over threads, SIMD levels and interruptions.
 
-use sorb::{SimdLevel, Snapshot, World, scene::Scene};
+use sorb::{Player, Recorder, Recording, SimdLevel, Snapshot, World, scene::Scene};
 
 use super::{RESOLUTION, busy, common, levels, options, restored, saved, world_on};
 
@@ -54,10 +54,30 @@ fn rolled_back_again_and_again(scene: &Scene, threads: usize, simd: SimdLevel) -
     world.digest()
 }
 
+/// Forty single steps with key frames.
+fn recorded(scene: &Scene) -> Recording {
+    let mut world = world_on(scene, 1, SimdLevel::Fallback);
+    let recorder = Recorder::new(&world, Some(EVERY));
+    let mut recorder = recorder.unwrap_or_else(|error| panic!("{}: {error}", scene.name));
+    for _ in 0..STEPS {
+        recorder.step(&mut world).unwrap_or_else(|error| panic!("{}: {error}", scene.name));
+    }
+    recorder.into_recording()
+}
+
+/// Every step is compared.
+fn replayed(recording: &Recording, threads: usize, simd: SimdLevel) -> u64 {
+    let player = Player::new(recording, &options(threads, simd));
+    let mut player = player.unwrap_or_else(|error| panic!("{error}"));
+    while player.advance().unwrap_or_else(|error| panic!("{error}")) {}
+    player.world().digest()
+}
+
 fn matrix(name: &str) {
     let scene = busy::scene(name, RESOLUTION);
     let first = straight(&scene, 1, SimdLevel::Fallback);
     let expected = first.digest();
+    let recording = recorded(&scene);
     for simd in levels() {
         for threads in THREADS {
             let is = |what: &str, digest: u64| {
@@ -65,6 +85,7 @@ fn matrix(name: &str) {
             };
             is("straight", straight(&scene, threads, simd).digest());
             is("saved and restored", restored_again_and_again(&scene, threads, simd));
+            is("replayed", replayed(&recording, threads, simd));
             is("rolled back", rolled_back_again_and_again(&scene, threads, simd));
         }
     }
