@@ -7,6 +7,7 @@ mod common;
 mod damage;
 mod matrix;
 mod recordings;
+mod rollback;
 mod size;
 
 use common::busy;
