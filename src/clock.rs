@@ -12,6 +12,8 @@ use sorb_kernels::{
     params::{Params, Solver},
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::{rigid::RigidEngine, scene::Scene};
 
 /// Part of the time in which an elastic wave crosses a cell that a step of `sbd` may take. The solver is stable beyond, but one sweep a
@@ -30,7 +32,7 @@ const DESCENT: f32 = 2.0;
 const WET_DESCENT: f32 = 4.0;
 
 /// Time since the start, and what the last step found.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
     /// Simulated time \[s\].
     pub time: f64,
@@ -165,6 +167,19 @@ impl Steps {
         let crossing = limits.reach_of_bodies(h) / clock.body_speed;
         bounds.push((crossing.max(SHORTEST_BY_BODY * limits.minimum), Bound::BodySpeed));
         smallest(&bounds)
+    }
+
+    /// The smallest of the bounds that do not change \[s\].
+    pub(crate) fn constant(&self) -> (f32, Bound) {
+        (self.limits.constant, self.limits.constant_bound)
+    }
+
+    /// The same bounds with another smallest one.
+    #[cfg(feature = "serde")]
+    #[must_use]
+    pub(crate) fn with_constant(mut self, constant: f32, bound: Bound) -> Self {
+        (self.limits.constant, self.limits.constant_bound) = (constant, bound);
+        self
     }
 
     /// The part that does not change.

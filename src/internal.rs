@@ -33,6 +33,11 @@ pub fn params(world: &World) -> &Params {
     &world.params
 }
 
+/// Overwrites a column of a world on the CPU with values that are noticed when something reads them.
+pub fn poison(world: &mut World, column: Column) {
+    world.stores.host.data_mut(column).poison();
+}
+
 /// Plans a step for a scene. `observed` columns are kept up to date although no phase reads them.
 ///
 /// # Errors

@@ -4,6 +4,7 @@
 //! and shape. How the state is kept and which kernels a step has is in [`internal`], without any promise.
 
 mod clock;
+mod command;
 mod digest;
 #[cfg(feature = "gpu")]
 pub mod gpu;
@@ -14,21 +15,30 @@ pub mod internal;
 mod measure;
 #[cfg(feature = "render")]
 pub mod render;
+#[cfg(feature = "serde")]
+mod replay;
 pub mod rigid;
 pub mod scene;
 pub mod schedule;
 mod setup;
 pub mod sponge;
+mod state;
 mod stores;
 mod world;
 
 pub use clock::{Bound, Clock};
+pub use command::{Command, CommandError, Nodes};
 pub use measure::Measures;
+#[cfg(feature = "serde")]
+pub use replay::{Mismatch, Player, Recorder, Recording, ReplayError};
 pub use schedule::Offload;
 pub use sorb_kernels::{
     SimdLevel,
     cpu::{Cpu, CpuError},
 };
+#[cfg(feature = "serde")]
+pub use state::{Difference, Save};
+pub use state::{Snapshot, StateError};
 pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;

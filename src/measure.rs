@@ -54,7 +54,7 @@ impl Measures {
             measures.add_sponges(world);
         }
         for body in 0..world.bodies().len() {
-            if let Some(body) = Mechanics::of(world.rigid_engine(), body, world.scene().gravity) {
+            if let Some(body) = Mechanics::of(world.rigid_engine(), body, world.params.gravity) {
                 measures.linear_momentum += body.linear_momentum;
                 measures.angular_momentum += body.angular_momentum;
                 measures.kinetic_energy += body.kinetic_energy;
@@ -91,7 +91,7 @@ impl Measures {
 
     fn add_sponges(&mut self, world: &World) {
         let (lattice, scene) = (world.lattice(), world.scene());
-        let gravity = scene.gravity.as_dvec3();
+        let gravity = world.params.gravity.as_dvec3();
         let (mut mass, mut volume, mut pores, mut lowest) = (0.0, 0.0, 0.0, f64::INFINITY);
         for (node, position) in world.node_positions().iter().enumerate() {
             let sponge = &scene.sponges[lattice.node_sponge[node] as usize];

@@ -37,6 +37,14 @@ impl Device {
         match *self {}
     }
 
+    pub(crate) fn bring_home(&mut self, _: &mut Columns) -> bool {
+        match *self {}
+    }
+
+    pub(crate) fn leave_behind(&mut self) {
+        match *self {}
+    }
+
     pub(crate) fn has_all(&self) -> bool {
         match *self {}
     }

@@ -66,7 +66,8 @@ fn matrix(name: &str) {
         assert_ne!(digest_after(common::world(&other), STEPS), expected, "{name}: gravity by one bit");
     }
     assert_ne!(digest_after(common::world(&scene), STEPS - 1), expected, "{name}: one step less");
-    let text = format!("{}\n{}\ndigest {expected:016x}", first.scene().title, common::line(&first));
+    let text =
+        format!("{}\n{}\ndigest {:016x}", first.scene().title, common::line(&first), first.state_digest());
     common::golden(&format!("digest_{name}"), &text);
 }
 

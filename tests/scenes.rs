@@ -62,7 +62,7 @@ impl Run {
                 run.text.push_str(&(common::line(&world) + "\n"));
             }
         }
-        run.text.push_str(&format!("digest {:016x}", world.digest()));
+        run.text.push_str(&format!("digest {:016x}", world.state_digest()));
         run
     }
 

@@ -9,6 +9,13 @@ use sorb::scene::{self, Quality, Scene, SceneError};
 pub(crate) struct Choice {
     /// Name of a scene that comes with the program (see `sorb scenes`), or path of a .toml or .json file
     scene: String,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+}
+
+/// Changes of a scene.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Changes {
     /// Trade-off between precision and run time: fast, balanced (the defaults) or accurate; by default the keys of the
     /// scene. `--set` comes after it
     #[arg(long, value_name = "QUALITY")]
@@ -22,12 +29,22 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
+    /// Reads the scene and changes it.
+    ///
+    /// # Errors
+    /// As [`Changes::load`].
+    pub(crate) fn load(&self) -> Result<Scene, SceneError> {
+        self.changes.load(&self.scene)
+    }
+}
+
+impl Changes {
     /// Reads the scene, applies the quality, changes it, then refines it.
     ///
     /// # Errors
     /// As [`named`], [`Scene::with_quality`], [`Scene::with_overrides`] and [`Scene::scaled`].
-    pub(crate) fn load(&self) -> Result<Scene, SceneError> {
-        let mut scene = named(&self.scene)?;
+    pub(crate) fn load(&self, name: &str) -> Result<Scene, SceneError> {
+        let mut scene = named(name)?;
         if let Some(quality) = self.quality {
             scene = scene.with_quality(quality)?;
         }

@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf};
 
-use sorb::{StepError, WorldError, render::RenderError, scene::SceneError};
+use sorb::{ReplayError, StateError, StepError, WorldError, render::RenderError, scene::SceneError};
 
 /// Error of the command.
 #[derive(Debug, thiserror::Error)]
@@ -33,6 +33,30 @@ pub(crate) enum CliError {
         path: PathBuf,
         /// Error of the system.
         source: io::Error,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// A save or a recording is not usable, or cannot be written.
+    #[error("{}: {source}", path.display())]
+    State {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<StateError>,
+    },
+    /// A recording cannot be played to its end.
+    #[error("{}: {source}", path.display())]
+    Replay {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: Box<ReplayError>,
     },
     /// Standard output cannot be written.
     #[error("cannot write to standard output: {0}")]
@@ -65,10 +89,30 @@ impl CliError {
         |source| Self::Write { path, source }
     }
 
+    /// Adds the file to an error of reading it.
+    pub(crate) fn read(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> Self {
+        let path = path.into();
+        |source| Self::Read { path, source }
+    }
+
+    /// Adds the file to an error of a save or a recording.
+    pub(crate) fn state(path: impl Into<PathBuf>) -> impl FnOnce(StateError) -> Self {
+        let path = path.into();
+        |source| Self::State { path, source: Box::new(source) }
+    }
+
+    /// Adds the file to an error of playing it.
+    pub(crate) fn replay(path: impl Into<PathBuf>) -> impl FnOnce(ReplayError) -> Self {
+        let path = path.into();
+        |source| Self::Replay { path, source: Box::new(source) }
+    }
+
     /// Exit code of the command.
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::CheckFailed(_) => 1,
+            Self::Replay { source, .. } if matches!(**source, ReplayError::Mismatch(_)) => 1,
+            Self::Replay { source, .. } if matches!(**source, ReplayError::Step { .. }) => 3,
             Self::Diverged { .. } => 3,
             _ => 2,
         }

@@ -2,10 +2,14 @@
 
 mod check;
 mod choice;
+mod diff;
 mod doctor;
 mod error;
+mod machine;
 mod output;
 mod plan;
+mod record;
+mod replay;
 mod run;
 mod scenes;
 mod schema;
@@ -43,6 +47,12 @@ enum Command {
     Plan(plan::Arguments),
     /// Simulates a scene and writes measures and pictures
     Run(Box<run::Arguments>),
+    /// Records a scene: a digest of every frame, and key frames
+    Record(Box<record::Arguments>),
+    /// Plays a recording, and compares every frame
+    Replay(Box<replay::Arguments>),
+    /// Says where two saves differ first
+    Diff(diff::Arguments),
     /// Compares the simulator with analytic, experimental and converged references
     Validate(validate::Arguments),
     /// Shows the features of this machine and this build
@@ -57,6 +67,9 @@ fn main() -> ExitCode {
         Some(Command::Schema) => schema::run(),
         Some(Command::Plan(arguments)) => plan::run(&arguments),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Record(arguments)) => record::run(&arguments),
+        Some(Command::Replay(arguments)) => replay::run(&arguments),
+        Some(Command::Diff(arguments)) => diff::run(&arguments),
         Some(Command::Validate(arguments)) => validate::run(&arguments),
         Some(Command::Doctor(arguments)) => doctor::run(&arguments),
     };

@@ -1,5 +1,7 @@
 //! The command from the outside: exit codes, messages, files.
 
+#[path = "command/replays.rs"]
+mod replays;
 #[path = "command/runs.rs"]
 mod runs;
 #[path = "command/scenes.rs"]

@@ -3,7 +3,6 @@
 use glam::{DVec3, Mat3, Quat, Vec3};
 
 use crate::{
-    column::ColumnData,
     lanes::{self, LANES, Simd, f32x8, select},
     layout::constants,
     rounding::Rounding,
@@ -192,23 +191,6 @@ impl Body {
 /// All bodies.
 #[derive(Clone, Debug, Default)]
 pub struct Bodies(pub Vec<Body>);
-
-impl ColumnData for Bodies {
-    fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
-        for body in &self.0 {
-            let BodyState { position, rotation, linear_velocity, angular_velocity } = body.state;
-            position.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-            rotation.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-            linear_velocity.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-            angular_velocity.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-        }
-    }
-    fn poison(&mut self) {
-        for body in &mut self.0 {
-            (body.state.position, body.state.linear_velocity) = (Vec3::NAN, Vec3::NAN);
-        }
-    }
-}
 
 /// A body placed in the world, for distance queries.
 pub(crate) struct Placed<'a, S: Simd> {

@@ -15,12 +15,31 @@ pub fn padded(rows: usize) -> usize {
 /// Lifetime of the content of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Life {
-    /// Survives a step; part of the digest and of a saved state.
+    /// Survives a step; part of every digest and of a saved state.
     State,
-    /// Set up with the scene and never written by a kernel.
+    /// Rebuilt in steps that have work for it, and kept in others, while a part of the scene sleeps. No kernel reads it before
+    /// it is written; measures and pictures do. Part of a saved state.
+    Kept,
+    /// Set up with the scene and changed by commands of the host only. Part of a saved state.
+    Commanded,
+    /// Set up with the scene and never changed.
     Constant,
     /// Rebuilt in every step; never read before it is written.
     Scratch,
+}
+
+impl Life {
+    /// Whether a step writes the column before it reads it.
+    #[must_use]
+    pub const fn is_rebuilt(self) -> bool {
+        matches!(self, Self::Scratch | Self::Kept)
+    }
+
+    /// Whether a saved state holds the column.
+    #[must_use]
+    pub const fn is_saved(self) -> bool {
+        matches!(self, Self::State | Self::Kept | Self::Commanded)
+    }
 }
 
 /// A number in the rows of a column of four floats, or a vector in the first three.
@@ -112,10 +131,16 @@ pub enum PlainMut<'a> {
     Words(&'a mut Vec<u32>),
 }
 
-/// Functions of columns for hashing, and for the audit of the tests.
+/// The words of a column, which saved files, digests, comparisons and transfers to a device share.
 pub trait ColumnData {
     /// Calls `visit` with every 32-bit word of the first `rows` rows, in order.
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32));
+    /// Takes over what [`Self::visit_words`] gave of as many rows. False, and nothing is changed, where there are more or fewer
+    /// words than the column has, and for lists, cells and the lattice, which are computed from other columns.
+    fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
+        let _ = (rows, words);
+        false
+    }
     /// Overwrites everything with values that are noticed when a kernel reads them.
     fn poison(&mut self);
     /// The array, if it is a plain one.
@@ -128,9 +153,28 @@ pub trait ColumnData {
     }
 }
 
+/// Takes over the words of the first rows, `width` words each, if there are as many; the padding stays.
+pub(crate) fn take_rows<T>(
+    data: &mut [T],
+    rows: usize,
+    words: &[u32],
+    width: usize,
+    take: impl Fn(&mut T, &[u32]),
+) -> bool {
+    let own = data.iter_mut().take(rows);
+    let fits = own.len() * width == words.len();
+    if fits {
+        own.zip(words.chunks_exact(width)).for_each(|(own, words)| take(own, words));
+    }
+    fits
+}
+
 impl ColumnData for Vec<f32> {
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
         self.iter().take(rows).for_each(|value| visit(value.to_bits()));
+    }
+    fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
+        take_rows(self, rows, words, 1, |own, words| *own = f32::from_bits(words[0]))
     }
     fn poison(&mut self) {
         self.fill(f32::NAN);
@@ -147,6 +191,11 @@ impl ColumnData for Vec<[f32; 4]> {
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
         self.iter().take(rows).flatten().for_each(|value| visit(value.to_bits()));
     }
+    fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
+        take_rows(self, rows, words, 4, |own, words| {
+            own.iter_mut().zip(words).for_each(|(own, word)| *own = f32::from_bits(*word));
+        })
+    }
     fn poison(&mut self) {
         self.fill([f32::NAN; 4]);
     }
@@ -161,6 +210,9 @@ impl ColumnData for Vec<[f32; 4]> {
 impl ColumnData for Vec<u32> {
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
         self.iter().take(rows).for_each(|value| visit(*value));
+    }
+    fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
+        take_rows(self, rows, words, 1, |own, words| *own = words[0])
     }
     fn poison(&mut self) {
         self.fill(u32::MAX);

@@ -202,7 +202,7 @@ columns! {
         /// For every particle, the particles within the support radius, itself included.
         FluidNeighbors = neighbors: Neighbors("1"), Scratch;
         /// Mass density rho.
-        FluidDensity = density: values("kg/m^3"), Scratch;
+        FluidDensity = density: values("kg/m^3"), Kept;
         /// Acceleration by all forces of this step; w: permitted compression without delay, see `sph::forces`.
         FluidAcceleration = acceleration: rows("m/s^2"; ALLOWED_COMPRESSION 3 "1"), Scratch;
         /// Weight of the deficit of neighbours of a particle near the surface, see `sph::deficit`.
@@ -212,7 +212,7 @@ columns! {
         /// For every entry of those lists, node volume times W.
         FluidControlWeights = control_weights: ListValues("1"), Scratch on host;
         /// Interior value of the particle: sum of node volumes times W, 0 outside of sponges, 1 inside.
-        FluidInterior = interior: values("1"), Scratch, needs Sponge;
+        FluidInterior = interior: values("1"), Kept, needs Sponge;
         /// Drag rate of the particle; y: its derivative by the speed relative to the sponge \[1/m\]; z: root of the
         /// compliance of the material to the pressure, over that of water, see `couple::solid_yield` \[1\].
         FluidDragRate = drag_rate: rows(; DRAG_RATE 0 "1/s", INERTIAL_DRAG_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
@@ -299,9 +299,9 @@ columns! {
         /// Sum of node volumes times W at the node, at rest: the reference of saturation.
         NodeInterior = interior: values("1"), Constant on host;
         /// Body that holds the node, or `u32::MAX`.
-        NodeGrip = grip: words("1") padded Word(u32::MAX), Constant;
+        NodeGrip = grip: words("1") padded Word(u32::MAX), Commanded;
         /// Position of a held node in the frame of its body.
-        NodeGripOffset = grip_offset: rows("m"), Constant;
+        NodeGripOffset = grip_offset: rows("m"), Commanded;
         /// Tets, their colours and the chunks that colours are solved in.
         NodeTopology = topology: Topology("1"), Constant on host;
         /// Neighbours and tets of every node.
@@ -336,7 +336,7 @@ columns! {
         /// of the water \[1/m\]; w: porosity \[1\].
         NodePores = pores: rows(; VOLUME_RATIO 0 "1", DRAG_RATE 1 "1/s", INERTIAL_DRAG_RATE 2 "1/m", POROSITY 3 "1"), Scratch;
         /// Water-filled pore volume over pore volume.
-        NodeSaturation = saturation: values("1"), Scratch;
+        NodeSaturation = saturation: values("1"), Kept;
         /// Wetness of the material of the node, 0 to 1; its saturation in this step, at most 1; share of the receding
         /// capillary pressure in its suction; w: mobility of the water, `k_r / S`. Empty where no property of a sponge depends
         /// on wetness, see `couple::wetting`.

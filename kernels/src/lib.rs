@@ -26,6 +26,7 @@ pub mod reduce;
 pub mod rounding;
 pub mod smoothing;
 pub mod stage;
+mod state;
 pub mod step;
 mod sweep;
 #[cfg(test)]

@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use crate::{body::Wrench, column::ColumnData};
+use crate::{
+    body::Wrench,
+    column::{ColumnData, take_rows},
+};
 
 /// Extremes for the bounds of the time step, over one chunk of rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,6 +42,16 @@ impl ColumnData for Extremes {
             visit(extreme.not_finite);
         }
     }
+    fn take_words(&mut self, _rows: usize, words: &[u32]) -> bool {
+        let count = self.0.len();
+        take_rows(&mut self.0, count, words, 3, |own, words| {
+            *own = Extreme {
+                speed_squared: f32::from_bits(words[0]),
+                acceleration_squared: f32::from_bits(words[1]),
+                not_finite: words[2],
+            };
+        })
+    }
     fn poison(&mut self) {
         self.0.fill(Extreme {
             speed_squared: f32::NAN,
@@ -73,6 +86,14 @@ impl ColumnData for Wrenches {
                 visit((value.to_bits() >> 32) as u32);
             }
         }
+    }
+    fn take_words(&mut self, _rows: usize, words: &[u32]) -> bool {
+        let value = |pair: &[u32]| f64::from_bits(u64::from(pair[0]) | u64::from(pair[1]) << 32);
+        let vector = |words: &[u32]| DVec3::new(value(words), value(&words[2..]), value(&words[4..]));
+        let count = self.0.len();
+        take_rows(&mut self.0, count, words, 12, |own, words| {
+            *own = Wrench { impulse: vector(words), angular_impulse: vector(&words[6..]) };
+        })
     }
     fn poison(&mut self) {
         self.0.fill(Wrench { impulse: DVec3::NAN, angular_impulse: DVec3::NAN });

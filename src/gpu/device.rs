@@ -21,15 +21,14 @@ use crate::{
     schedule::{Awake, Place, Plan, Plans},
 };
 
-/// Scratch columns that measures and pictures read.
-const LOOKED_AT: [Column; 3] = [Column::FluidDensity, Column::FluidInterior, Column::NodeSaturation];
 /// Scratch columns that the clock of the host reads.
 const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve, Column::NodeExtremes];
 
 /// Scratch columns that the host reads after a step that it shares with a device.
 pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
     let observed = observed.iter().filter(|column| !column.is_on_host_only());
-    LOOKED_AT.iter().chain(&EXTREMES).chain(observed).copied().collect()
+    let kept = Column::ALL.iter().filter(|column| column.life() == Life::Kept);
+    kept.chain(&EXTREMES).chain(observed).copied().collect()
 }
 
 /// Runs the kernels of a world on a device.
@@ -86,8 +85,7 @@ impl Device {
         let shares = plans.whole().shares(&looked_at(observed));
         let written: Vec<Column> = shares.on_gpu().flat_map(|kernel| kernel.writes).copied().collect();
         let wanted = |column: &Column| {
-            let is_state = column.life() == Life::State;
-            (is_state || LOOKED_AT.contains(column) || observed.contains(column))
+            (column.life().is_saved() || observed.contains(column))
                 && written.contains(column)
                 && !column.is_on_host_only()
         };
@@ -184,6 +182,22 @@ impl Device {
         self.kept.take().filter(|_| is_earlier)
     }
 
+    /// Makes the present state that of the host, and uploads it anew before the next step. False if the device is lost.
+    pub(crate) fn bring_home(&mut self, host: &mut Columns) -> bool {
+        self.view(host);
+        let is_there = self.is_looked_at();
+        if is_there {
+            self.give_up(host);
+        }
+        is_there
+    }
+
+    /// Forgets the state of the device for another one, which the host has.
+    pub(crate) fn leave_behind(&mut self) {
+        (self.resident, self.is_ahead, self.kept) = (None, false, None);
+        self.mirror.take();
+    }
+
     /// The read-back state becomes that of the host: the newest one if the device is lost.
     fn leave(&mut self, host: &mut Columns) {
         if let Some(mut mirror) = self.mirror.take() {
@@ -199,10 +213,7 @@ impl Device {
             return Ok(());
         }
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
-        // Some of the columns that are read back are not computed anew while a part sleeps.
-        let lives = |column: &Column| {
-            (column.life() != Life::Scratch || LOOKED_AT.contains(column)) && !column.is_on_host_only()
-        };
+        let lives = |column: &Column| column.life() != Life::Scratch && !column.is_on_host_only();
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
         resident.upload(host, &columns, false)?;
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);

@@ -14,7 +14,7 @@ use crate::{
     rigid::BodyKind,
     schedule::{Runner, run::slot},
     stores::Stores,
-    world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies, sleep::Sleep},
+    world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies},
 };
 
 /// Largest number of steps of a submission: the host must be able to stop.
@@ -184,7 +184,7 @@ impl World {
         }
         if self.scene.time.sleep_after > 0.0 {
             // Everything wakes, and rest is detected anew.
-            self.sleep = Sleep::new(&self.scene, &self.params);
+            self.sleep = self.sleep.anew(&self.scene, &self.params, &self.commands.targets);
             self.apply_sleep();
         }
         if matches!(self.failed, Some(StepError::Gpu(_))) {
@@ -201,12 +201,6 @@ impl World {
             ..self.options.clone()
         };
         self.place_by(&options)
-    }
-
-    /// Whether any sponge is awake.
-    fn has_moving_nodes(&self) -> bool {
-        let sponges = self.scene.sponges.len();
-        (0..sponges).any(|sponge| !self.is_sponge_asleep(sponge))
     }
 
     /// Takes the results of the device, moves the bodies, and refuses values that are not finite.
@@ -229,7 +223,8 @@ impl World {
             } else if !answer.wrenches.is_empty() {
                 self.fluid_forces.add(&answer.wrenches, answer.last_step);
                 let bodies = &mut self.stores.host.bodies;
-                move_bodies(self.engine.as_mut(), &self.light, bodies, &answer.wrenches, answer.last_step)
+                let given = (&answer.wrenches[..], &self.commands.forces[..]);
+                move_bodies(self.engine.as_mut(), &self.light, bodies, given, answer.last_step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;
             }
         }

@@ -56,7 +56,7 @@ impl Measures {
         self.linear_momentum += sums.momentum;
         self.angular_momentum += sums.angular;
         self.kinetic_energy += 0.5 * sums.speed_squared;
-        self.potential_energy -= world.scene.gravity.as_dvec3().dot(sums.position);
+        self.potential_energy -= world.params.gravity.as_dvec3().dot(sums.position);
         self.sponge_centre = sums.position / sums.mass;
         if sums.volume > 0.0 {
             self.saturation = sums.saturation / sums.volume;

@@ -60,7 +60,7 @@ struct Fresh {
 impl Fresh {
     /// After the upload of a state.
     fn at_upload() -> Self {
-        let lives = |column: &Column| column.life() != Life::Scratch;
+        let lives = |column: &Column| !column.life().is_rebuilt();
         Self { host: Column::ALL.to_vec(), device: Column::ALL.iter().copied().filter(lives).collect() }
     }
 

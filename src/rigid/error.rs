@@ -105,6 +105,18 @@ pub enum RigidError {
         /// Time at the end of the step \[s\].
         time: f64,
     },
+    /// The engine lacks something that it may lack.
+    #[error("the rigid-body engine supports no {what}")]
+    Unsupported {
+        /// What is missing.
+        what: &'static str,
+    },
+    /// Saved bytes are not those of an engine of these bodies.
+    #[error("saved bodies: {reason}")]
+    Saved {
+        /// What is wrong with them.
+        reason: String,
+    },
     /// A host's own engine failed.
     #[error("rigid-body engine: {message}")]
     Engine {

@@ -13,7 +13,7 @@
 //! released under water starts a third too slowly, one of a tenth of the density a fifth. From a quarter of the density on
 //! nothing changes. With less than a quarter the ball still gains energy (docs/pressure-solve.md, docs/history.md).
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::{BodyKind, RigidEngine, Wrench};
 use crate::scene::{FluidSolver, Scene};
@@ -42,6 +42,11 @@ impl LightBodies {
             _ => [1.0; 2],
         });
         Self { shares: shares.collect(), gravity: scene.gravity.as_dvec3() }
+    }
+
+    /// Sets the acceleration of gravity \[m/s^2\].
+    pub(crate) fn set_gravity(&mut self, gravity: Vec3) {
+        self.gravity = gravity.as_dvec3();
     }
 
     /// Wrenches for the engine, from those that fluid and nodes gave the bodies in a step \[s\].
@@ -83,8 +88,6 @@ fn share(density: f32, displaced: f32) -> f64 {
 
 #[cfg(all(test, feature = "rigid"))]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
     use crate::{
         rigid::{BodySetup, RapierEngine},

@@ -15,9 +15,11 @@ mod mass;
 mod mechanics;
 #[cfg(feature = "rigid")]
 mod rapier;
+mod saved;
 mod script;
 mod scripted;
 mod setup;
+mod target;
 #[cfg(test)]
 mod tests;
 
@@ -37,8 +39,9 @@ pub use rapier::RapierEngine;
 pub(crate) use script::Script;
 pub use scripted::ScriptedEngine;
 pub use setup::BodySetup;
+pub use target::Target;
 
-use glam::Mat3;
+use glam::{Mat3, Vec3};
 use std::fmt;
 
 /// Interface between the simulator and the engine that moves the rigid bodies.
@@ -85,6 +88,60 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
 
     /// Copies the engine with all of its state: the copy continues with the same bits.
     fn boxed_clone(&self) -> Box<dyn RigidEngine>;
+
+    /// Takes over the state of another engine of the same bodies, in the same memory; false if it cannot, and nothing has
+    /// changed. The default cannot.
+    fn copy_from(&mut self, other: &dyn RigidEngine) -> bool {
+        let _ = other;
+        false
+    }
+
+    /// Appends everything that decides the future and does not follow from the bodies that the engine was built from: an engine
+    /// of the same bodies that [`restore`](Self::restore)s it continues with the same bits, and saves the same bytes after
+    /// every step.
+    ///
+    /// # Errors
+    /// The default: [`RigidError::Unsupported`].
+    fn save(&self, out: &mut Vec<u8>) -> Result<(), RigidError> {
+        let _ = out;
+        Err(RigidError::Unsupported { what: "saves" })
+    }
+
+    /// Takes over what [`save`](Self::save) appended in an engine of the same bodies.
+    ///
+    /// # Errors
+    /// Bytes that no engine of these bodies has saved; the engine is unchanged. The default: [`RigidError::Unsupported`].
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), RigidError> {
+        let _ = bytes;
+        Err(RigidError::Unsupported { what: "restores" })
+    }
+
+    /// Gives a dynamic body a velocity \[m/s\] and an angular velocity \[rad/s\].
+    ///
+    /// # Errors
+    /// The default: [`RigidError::Unsupported`].
+    fn set_velocity(&mut self, index: usize, linear: Vec3, angular: Vec3) -> Result<(), RigidError> {
+        let _ = (index, linear, angular);
+        Err(RigidError::Unsupported { what: "velocities from outside" })
+    }
+
+    /// Gives a kinematic body a pose to go to, in place of its script.
+    ///
+    /// # Errors
+    /// The default: [`RigidError::Unsupported`].
+    fn set_target(&mut self, index: usize, target: Target) -> Result<(), RigidError> {
+        let _ = (index, target);
+        Err(RigidError::Unsupported { what: "poses from outside" })
+    }
+
+    /// Sets the acceleration of gravity \[m/s^2\].
+    ///
+    /// # Errors
+    /// The default: [`RigidError::Unsupported`].
+    fn set_gravity(&mut self, gravity: Vec3) -> Result<(), RigidError> {
+        let _ = gravity;
+        Err(RigidError::Unsupported { what: "another gravity" })
+    }
 }
 
 impl Clone for Box<dyn RigidEngine> {

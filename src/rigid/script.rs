@@ -1,6 +1,6 @@
 //! Scripted poses and velocities, in closed form of the time.
 
-use super::{BodyState, Motion};
+use super::{BodyState, Motion, Target};
 use glam::{DQuat, DVec3};
 
 /// Relative distance below which the time counts as having reached the end of a motion.
@@ -14,18 +14,23 @@ const TIME_TOLERANCE: f64 = 2.0 * (f32::EPSILON as f64);
 pub(crate) struct Script {
     start: BodyState,
     motions: Vec<Motion>,
+    /// In place of the motions, once there is one.
+    pub(super) target: Option<Target>,
 }
 
 impl Script {
     /// The motions must be valid and the rotation of unit length.
     pub(crate) fn new(start: BodyState, motions: &[Motion]) -> Self {
-        Self { start, motions: motions.to_vec() }
+        Self { start, motions: motions.to_vec(), target: None }
     }
 
     /// Pose at `time` \[s\] and the exact derivative of the pose to the right of it.
     ///
     /// Every motion acts on the result of the motions before it in the list.
     pub(crate) fn state(&self, time: f64) -> BodyState {
+        if let Some(target) = &self.target {
+            return target.state(time);
+        }
         if self.motions.is_empty() {
             return self.start;
         }
@@ -78,7 +83,7 @@ fn elapsed(time: f64, start: f32, end: f32) -> (f64, bool) {
 }
 
 /// The rotation by `angle` \[rad\] about a unit axis, with the same bits on every platform.
-fn axis_angle(axis: DVec3, angle: f64) -> DQuat {
+pub(super) fn axis_angle(axis: DVec3, angle: f64) -> DQuat {
     let (sin, cos) = libm::sincos(0.5 * angle);
     DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos)
 }

@@ -1,7 +1,8 @@
+use super::saved::{append, check_targets, read};
 use super::script::Script;
 use super::setup::{check_step, checked_state};
-use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Wrench};
-use glam::Mat3;
+use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Target, Wrench};
+use glam::{Mat3, Vec3};
 
 /// Fixed and kinematic bodies only; needs no physics engine.
 #[derive(Clone, Debug)]
@@ -77,6 +78,32 @@ impl RigidEngine for ScriptedEngine {
     }
 
     fn hold(&mut self, _index: usize, _is_held: bool) {}
+
+    fn save(&self, out: &mut Vec<u8>) -> Result<(), RigidError> {
+        let targets: Vec<_> = self.scripts.iter().map(|script| script.target).collect();
+        append(&(self.time, targets), out)
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), RigidError> {
+        let (time, targets): (f64, Vec<Option<Target>>) = read(bytes)?;
+        check_targets(time, &targets, &self.kinds)?;
+        self.time = time;
+        for ((state, script), target) in self.states.iter_mut().zip(&mut self.scripts).zip(targets) {
+            script.target = target;
+            *state = script.state(time);
+        }
+        Ok(())
+    }
+
+    fn set_target(&mut self, index: usize, target: Target) -> Result<(), RigidError> {
+        self.scripts[index].target = Some(target);
+        self.states[index] = self.scripts[index].state(self.time);
+        Ok(())
+    }
+
+    fn set_gravity(&mut self, _gravity: Vec3) -> Result<(), RigidError> {
+        Ok(())
+    }
 
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())

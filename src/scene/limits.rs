@@ -49,6 +49,11 @@ pub fn limits() -> impl Iterator<Item = &'static Limit> {
         .chain(of(CAMERA))
 }
 
+/// The range of a key, as [`limits`] has it.
+pub(crate) fn limit(key: &str) -> Option<&'static Limit> {
+    limits().find(|limit| limit.key == key)
+}
+
 /// A range and access to its numbers; `None` where the present variant lacks the key.
 pub(super) struct Row<T> {
     pub(super) limit: Limit,

@@ -64,8 +64,10 @@ pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
 pub use fluid::{
     Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm, ViscosityIntegration,
 };
+pub(crate) use limits::limit;
 pub use limits::{Limit, limits};
 pub use motion::Motion;
+pub(crate) use number::number_text;
 #[cfg(feature = "serde")]
 pub use presets::{Preset, preset, presets};
 #[cfg(feature = "serde")]

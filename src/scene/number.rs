@@ -56,7 +56,7 @@ impl Numbers for UVec3 {
 }
 
 /// The shortest text that reads back as the same number, with an exponent where there would be many zeros.
-pub(super) fn number_text(value: f32) -> String {
+pub(crate) fn number_text(value: f32) -> String {
     let size = value.abs();
     if size != 0.0 && size.is_finite() && !(1e-3..1e6).contains(&size) {
         format!("{value:e}")

@@ -162,7 +162,7 @@ impl Plan {
                 let early = kernel
                     .reads
                     .iter()
-                    .find(|column| column.life() == Life::Scratch && !written.contains(column));
+                    .find(|column| column.life().is_rebuilt() && !written.contains(column));
                 if let Some(column) = early {
                     return Err(PlanError { kernel: kernel.name, column: column.name() });
                 }

@@ -26,6 +26,23 @@ impl FluidForces {
         self.time += f64::from(step);
     }
 
+    /// What is saved: the sums, and their time.
+    pub(crate) fn saved(&self) -> (Vec<DVec3>, f64) {
+        (self.impulses.clone(), self.time)
+    }
+
+    /// Takes over what was saved.
+    #[cfg(feature = "serde")]
+    pub(crate) fn take(&mut self, (impulses, time): (Vec<DVec3>, f64)) {
+        (self.impulses, self.time) = (impulses, time);
+    }
+
+    /// Takes over other sums in the same memory.
+    pub(crate) fn copy(&mut self, from: &Self) {
+        self.impulses.clone_from(&from.impulses);
+        self.time = from.time;
+    }
+
     /// Mean force on every body \[N\]; empty before the first step.
     pub(crate) fn means(&self) -> Vec<DVec3> {
         self.impulses.iter().map(|impulse| *impulse / self.time).collect()

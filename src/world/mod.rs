@@ -1,9 +1,10 @@
 //! The world: the one object that a host builds, steps and reads.
 
+mod commands;
 mod error;
 #[cfg(all(test, feature = "serde"))]
 mod failing;
-mod forces;
+pub(crate) mod forces;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
 mod look;
@@ -15,6 +16,8 @@ mod start;
 mod views;
 
 use std::sync::Arc;
+#[cfg(feature = "serde")]
+use std::sync::OnceLock;
 
 use glam::Vec3;
 use sorb_kernels::{
@@ -29,6 +32,7 @@ use sorb_kernels::{
 
 use crate::{
     clock::{Bound, Clock, Dormant, Steps, within},
+    command::Commands,
     gpu::Gpu,
     rigid::{LightBodies, RigidEngine},
     scene::Scene,
@@ -109,10 +113,13 @@ pub struct World {
     pub(crate) steps: Steps,
     pub(crate) clock: Clock,
     pub(crate) sleep: sleep::Sleep,
-    /// What the fluid gave the bodies; no part of the state.
+    pub(crate) commands: Commands,
+    /// What the fluid gave the bodies; decides nothing.
     pub(crate) fluid_forces: forces::FluidForces,
     pub(crate) failed: Option<StepError>,
     pub(crate) options: Options,
+    #[cfg(feature = "serde")]
+    pub(crate) identity: OnceLock<crate::state::Identity>,
 }
 
 impl World {
@@ -166,9 +173,12 @@ impl World {
             light: LightBodies::new(scene),
             plans,
             clock: Clock::default(),
+            commands: Commands::default(),
             fluid_forces: forces::FluidForces::default(),
             failed: None,
             options: options.clone(),
+            #[cfg(feature = "serde")]
+            identity: OnceLock::new(),
         };
         world.place()?;
         let Columns { rows, fluid, nodes, bodies, .. } = &world.stores.host;
@@ -203,6 +213,7 @@ impl World {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
+        self.begin_step()?;
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let is_over = self.sleep_until(end);
         // What is slept through leaves the forces as they were.
@@ -245,6 +256,7 @@ impl World {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
+        self.begin_step()?;
         if let Some(slept) = self.sleep_within(left) {
             let time = self.clock.time;
             let maximum_speed = self.clock.fluid_speed.max(self.clock.node_speed);
@@ -254,6 +266,12 @@ impl World {
         let report = self.remember(report)?;
         self.watch();
         Ok(report)
+    }
+
+    /// Carries out commands.
+    fn begin_step(&mut self) -> Result<(), StepError> {
+        let result = self.carry_out();
+        self.remember(result)
     }
 
     /// Stores a failure: the world takes no steps after it.
@@ -288,7 +306,7 @@ impl World {
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
         let awake = self.awake();
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
-        let Self { runner, cpu, params, stores, engine, light, fluid_forces, .. } = self;
+        let Self { runner, cpu, params, stores, engine, light, fluid_forces, commands, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {
             if are_bodies_still {
@@ -297,7 +315,8 @@ impl World {
             }
             let given = wrenches(columns);
             fluid_forces.add(&given, step);
-            rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, &given, step);
+            let given = (&given[..], &commands.forces[..]);
+            rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, given, step);
         };
         if let Some(device) = &mut stores.device {
             device.step_with(cpu, &mut stores.host, params)?;
@@ -322,10 +341,17 @@ impl World {
         if let Some(node) = nodes.not_finite.checked_sub(1) {
             return Err(StepError::Node { node, step, time });
         }
-        self.clock.fluid_speed = fluid.speed_squared.sqrt();
-        self.clock.fluid_acceleration = fluid.acceleration_squared.sqrt();
-        self.clock.node_speed = nodes.speed_squared.sqrt();
-        self.clock.fluid_pressure = columns.fluid.pressure_solve.pressure();
+        // Sleeping parts keep their values.
+        if !self.is_fluid_asleep() {
+            self.clock.fluid_speed = fluid.speed_squared.sqrt();
+            self.clock.fluid_acceleration = fluid.acceleration_squared.sqrt();
+            if self.params.fluid.incompressible.is_some() {
+                self.clock.fluid_pressure = columns.fluid.pressure_solve.pressure();
+            }
+        }
+        if self.has_moving_nodes() {
+            self.clock.node_speed = nodes.speed_squared.sqrt();
+        }
         self.clock.body_speed = fastest_body(&columns.bodies.states.0);
         Ok(())
     }

@@ -6,6 +6,7 @@ use sorb_kernels::{
     columns::{BodyStore, Columns},
 };
 
+use super::commands::add_forces;
 use crate::rigid::{LightBodies, RigidEngine, RigidError};
 
 /// Largest speed of particles or nodes \[m/s\].
@@ -35,15 +36,16 @@ pub(super) fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
     (0..count).map(total).collect()
 }
 
-/// Passes the wrenches of fluid and sponges to the engine, and stores the new states of the bodies.
+/// Passes the wrenches of fluid and sponges, and the forces of commands, to the engine, and stores the new states of the bodies.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
     light: &LightBodies,
     bodies: &mut BodyStore,
-    given: &[(Wrench, Wrench)],
+    (given, forces): (&[(Wrench, Wrench)], &[[Vec3; 2]]),
     step: f32,
 ) -> Result<(), RigidError> {
-    let wrenches = light.wrenches(engine, given, step);
+    let mut wrenches = light.wrenches(engine, given, step);
+    add_forces(forces, &bodies.states.0, &mut wrenches, step);
     engine.step(step, &wrenches)?;
     for (index, body) in bodies.states.0.iter_mut().enumerate() {
         body.state = engine.state(index);

@@ -223,9 +223,10 @@ impl World {
         Measures::of(self)
     }
 
-    /// Digest of the state: equal digests mean equal bits, on any machine, with any threads and SIMD level.
+    /// Digest of the state columns, the clock and what sleeps: a part of [`Self::digest`], without the contacts of bodies, and
+    /// the one in the snapshots of this project. Equal digests may diverge later.
     #[must_use]
-    pub fn digest(&self) -> u64 {
+    pub fn state_digest(&self) -> u64 {
         digest::digest(self.columns(), &self.clock, &self.sleep.dormant())
     }
 }

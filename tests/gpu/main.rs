@@ -7,6 +7,7 @@ mod alike;
 mod asleep;
 mod pictures;
 mod placement;
+mod replay;
 mod state;
 
 use std::sync::{Arc, OnceLock};

@@ -42,8 +42,8 @@ fn a_lost_device_costs_what_was_not_looked_at() {
             common::frame(&mut world);
             common::frame(&mut never_lost);
         }
-        assert_eq!(world.digest(), never_lost.digest(), "{name}");
-        let (digest, clock) = (world.digest(), *world.clock());
+        assert_eq!(world.state_digest(), never_lost.state_digest(), "{name}");
+        let (digest, clock) = (world.state_digest(), *world.clock());
         common::frame(&mut world);
         lose(&mut world, &lost);
         let on_cpu = {
@@ -53,7 +53,7 @@ fn a_lost_device_costs_what_was_not_looked_at() {
         };
         world.move_to(Some(&gpu())).unwrap_or_else(|error| panic!("{name}: {error}"));
         for (mut world, bound) in [(world, 0.0), (on_cpu, 1e-3)] {
-            assert_eq!((world.digest(), *world.clock()), (digest, clock), "{name}");
+            assert_eq!((world.state_digest(), *world.clock()), (digest, clock), "{name}");
             let mut never_lost = never_lost.clone();
             for _ in 0..2 {
                 common::frame(&mut world);
@@ -61,7 +61,7 @@ fn a_lost_device_costs_what_was_not_looked_at() {
             }
             let (found, what) = difference(&never_lost.measures(), &world.measures());
             assert!(found <= bound, "{name}: {what} differs by {found:.1e}");
-            assert_eq!(world.digest() == never_lost.digest(), bound == 0.0, "{name}");
+            assert_eq!(world.state_digest() == never_lost.state_digest(), bound == 0.0, "{name}");
         }
     }
 }
@@ -71,15 +71,15 @@ fn a_device_that_is_lost_before_anyone_looked_costs_everything() {
     let scene = busy::scene("ball_drop", 0.5);
     let lost = another_gpu();
     let mut world = world_on(&scene, &lost);
-    let first = world.digest();
+    let first = world.state_digest();
     common::frame(&mut world);
     lose(&mut world, &lost);
     world.move_to(Some(&gpu())).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((world.digest(), world.clock().time), (first, 0.0));
+    assert_eq!((world.state_digest(), world.clock().time), (first, 0.0));
     let mut again = world_on(&scene, &gpu());
     common::frame(&mut world);
     common::frame(&mut again);
-    assert_eq!(world.digest(), again.digest());
+    assert_eq!(world.state_digest(), again.state_digest());
 }
 
 #[test]
@@ -88,10 +88,10 @@ fn a_world_can_leave_a_device_that_works() {
     let mut world = world_on(&scene, &gpu());
     common::frame(&mut world);
     let mut copy = world.clone();
-    let digest = copy.digest();
+    let digest = copy.state_digest();
     world.move_to(None).unwrap_or_else(|error| panic!("{error}"));
     assert!(world.gpu().is_none() && world.plan().placement().is_none());
-    assert_eq!(world.digest(), digest);
+    assert_eq!(world.state_digest(), digest);
     common::frame(&mut world);
     world.move_to(Some(&gpu())).unwrap_or_else(|error| panic!("{error}"));
     assert!(world.gpu().is_some());

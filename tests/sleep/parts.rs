@@ -211,7 +211,7 @@ fn scenes_that_are_awake_do_not_care_whether_they_may_sleep() {
             frame(&mut world);
         }
         assert!(!world.is_fluid_asleep() && !world.is_sponge_asleep(0) && !world.is_body_asleep(1));
-        world.digest()
+        world.state_digest()
     };
     let scene = common::busy::scene("ball_drop", 0.5);
     let never = moves(&scene, 0.0);

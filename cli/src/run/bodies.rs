@@ -9,6 +9,7 @@ use std::{
 
 use sorb::World;
 
+use super::table::begin;
 use crate::error::CliError;
 
 const HEADING: &str = "frame,time_s,body,x_m,y_m,z_m,qx,qy,qz,qw,vx_m_per_s,vy_m_per_s,vz_m_per_s,\
@@ -22,14 +23,16 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// Creates the file with its heading.
+    /// Creates the file with its heading, and with the rows of frames that are done, as
+    /// [`Table::create`](super::table::Table::create).
     ///
     /// # Errors
-    /// The file cannot be written.
-    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+    /// The file cannot be read or written.
+    pub(super) fn create(path: &Path, done: u32) -> Result<Self, CliError> {
+        let begin = begin(path, HEADING, done)?;
         let file = File::create(path).map_err(CliError::write(path))?;
         let mut bodies = Self { path: path.to_owned(), file };
-        bodies.write(HEADING)?;
+        bodies.write(&begin)?;
         Ok(bodies)
     }
 

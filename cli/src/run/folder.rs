@@ -9,20 +9,20 @@ use crate::error::CliError;
 
 /// The folder that holds the results of one run.
 #[derive(Debug)]
-pub(super) struct Folder {
+pub(crate) struct Folder {
     path: PathBuf,
 }
 
 impl Folder {
-    /// Creates the folder, or empties it of the results of an earlier run.
+    /// Creates the folder, or empties it of the results of an earlier run, unless this run continues it.
     ///
     /// # Errors
     /// The system refuses to create the folder or to remove its contents.
-    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+    pub(crate) fn create(path: &Path, continues: bool) -> Result<Self, CliError> {
         fs::create_dir_all(path).map_err(CliError::write(path))?;
         let folder = Self { path: path.to_owned() };
         // Without a table these files do not belong to a run.
-        if folder.table().exists() {
+        if !continues && folder.table().exists() {
             for old in folder.earlier() {
                 fs::remove_file(&old).map_err(CliError::write(old))?;
             }
@@ -40,42 +40,51 @@ impl Folder {
         frames
             .map(|entry| entry.path())
             .filter(|path| is_number(path) && path.extension().is_some_and(|extension| extension == "png"))
-            .chain([self.summary(), self.bodies(), self.animation()].into_iter().filter(|path| path.exists()))
+            .chain(
+                [self.summary(), self.bodies(), self.animation(), self.save()]
+                    .into_iter()
+                    .filter(|path| path.exists()),
+            )
             .collect()
     }
 
     /// The folder itself.
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// A row of measures for every frame.
-    pub(super) fn table(&self) -> PathBuf {
+    pub(crate) fn table(&self) -> PathBuf {
         self.path.join("measures.csv")
     }
 
     /// A row for every body and frame.
-    pub(super) fn bodies(&self) -> PathBuf {
+    pub(crate) fn bodies(&self) -> PathBuf {
         self.path.join("bodies.csv")
     }
 
     /// The run in one JSON object.
-    pub(super) fn summary(&self) -> PathBuf {
+    pub(crate) fn summary(&self) -> PathBuf {
         self.path.join("summary.json")
     }
 
+    /// The last state that was saved.
+    pub(crate) fn save(&self) -> PathBuf {
+        self.path.join("state.sorb")
+    }
+
     /// The folder of the pictures.
-    pub(super) fn frames(&self) -> PathBuf {
+    pub(crate) fn frames(&self) -> PathBuf {
         self.path.join("frames")
     }
 
     /// All pictures as one animated PNG.
-    pub(super) fn animation(&self) -> PathBuf {
+    pub(crate) fn animation(&self) -> PathBuf {
         self.path.join("animation.png")
     }
 
     /// Names of what a run leaves in the folder: with a table of bodies, with pictures.
-    pub(super) fn contents(bodies: bool, pictures: bool) -> String {
+    pub(crate) fn contents(bodies: bool, pictures: bool) -> String {
         let bodies = if bodies { ", bodies.csv" } else { "" };
         let pictures = if pictures { ", animation.png, frames/" } else { "" };
         format!("measures.csv{bodies}, summary.json{pictures}")

@@ -1,16 +1,17 @@
 //! `sorb run`: simulates a scene, and writes measures and pictures.
 
 mod bodies;
-mod folder;
-mod options;
-mod pictures;
+pub(crate) mod folder;
+pub(crate) mod options;
+pub(crate) mod pictures;
 mod progress;
+mod saves;
 mod summary;
 mod table;
 
 use std::time::{Duration, Instant};
 
-use sorb::{FrameReport, Measures, Options, StepError, World};
+use sorb::{FrameReport, Measures, StepError, World};
 
 use crate::{error::CliError, output};
 use bodies::Bodies;
@@ -18,12 +19,16 @@ use folder::Folder;
 pub(crate) use options::Arguments;
 use pictures::Pictures;
 use progress::Progress;
+use saves::Saves;
+pub(crate) use saves::read_save;
 use summary::Summary;
 use table::Table;
 
 /// Times and measures of the frames so far.
 #[derive(Debug, Default)]
 struct Record {
+    /// Frames before the first state.
+    first: usize,
     /// Real time of the simulation alone.
     wall: Duration,
     /// Real time of drawing and writing pictures.
@@ -39,28 +44,21 @@ struct Record {
 /// # Errors
 /// The scene or the options are invalid, results cannot be written, or the simulation diverged.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let scene = arguments.choice.load()?;
-    let frames = arguments.frames(&scene);
-    let options = Options {
-        threads: arguments.threads,
-        simd: arguments.simd.0,
-        offload: arguments.backend.clone(),
-        #[cfg(feature = "gpu")]
-        gpu_times: arguments.gpu_times,
-        ..Options::default()
-    };
-    let mut world = World::with_options(&scene, &options)?;
-    let folder = Folder::create(&arguments.folder(&scene))?;
+    let (mut world, done) = begin(arguments)?;
+    let scene = world.scene().clone();
+    let frames = arguments.frames(&scene, done);
+    let folder = Folder::create(&arguments.folder(&scene), done > 0)?;
     let mut tables = Tables {
-        measures: Table::create(&folder.table())?,
-        bodies: if scene.bodies.is_empty() { None } else { Some(Bodies::create(&folder.bodies())?) },
+        measures: Table::create(&folder.table(), done)?,
+        bodies: if scene.bodies.is_empty() { None } else { Some(Bodies::create(&folder.bodies(), done)?) },
     };
     let mut pictures = None;
-    if arguments.pictures {
-        pictures = Some(Pictures::create(&folder, arguments, &scene, frames)?);
+    if arguments.drawing.pictures {
+        pictures = Some(Pictures::create(&folder, &arguments.drawing, &scene, done..=done + frames)?);
     }
     let progress = Progress::new(&scene, frames, arguments.quiet);
-    let mut record = Record::default();
+    let mut saves = arguments.save_every.map(|every| Saves::new(&folder, &world, every));
+    let mut record = Record { first: done as usize, ..Record::default() };
     record.frame(&world, None, &mut tables, pictures.as_mut())?;
     let mut failure = None;
     for _ in 0..frames {
@@ -70,6 +68,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
                 record.advanced(start.elapsed());
                 record.frame(&world, Some(&report), &mut tables, pictures.as_mut())?;
                 progress.frame(&report, start.elapsed());
+                if let Some(saves) = &mut saves {
+                    saves.frame(&world)?;
+                }
             }
             Err(error) => {
                 record.wall += start.elapsed();
@@ -83,6 +84,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
         pictures.finish()?;
     }
     finish(arguments, &world, &record, &folder, failure)
+}
+
+/// The world in its first state, and the frames before that.
+fn begin(arguments: &Arguments) -> Result<(World, u32), CliError> {
+    let options = arguments.machine.options();
+    if let Some(path) = &arguments.from {
+        let save = read_save(path)?;
+        let world = save.world(&options).map_err(CliError::state(path))?;
+        return Ok((world, u32::try_from(save.frames()).unwrap_or(u32::MAX)));
+    }
+    let scene =
+        arguments.load()?.ok_or_else(|| CliError::Usage("name a scene, or a save with --from".to_owned()))?;
+    Ok((World::with_options(&scene, &options)?, 0))
 }
 
 /// What gets a row in every frame.
@@ -109,13 +123,17 @@ impl Record {
         pictures: Option<&mut Pictures>,
     ) -> Result<(), CliError> {
         self.measures = world.measures();
-        tables.measures.row(self.frames_ms.len(), &self.measures, report)?;
-        if let Some(bodies) = &mut tables.bodies {
-            bodies.rows(self.frames_ms.len(), world)?;
+        let frame = self.first + self.frames_ms.len();
+        // The run that left a save has written the rows of its frame.
+        if report.is_some() || self.first == 0 {
+            tables.measures.row(frame, &self.measures, report)?;
+            if let Some(bodies) = &mut tables.bodies {
+                bodies.rows(frame, world)?;
+            }
         }
         let start = Instant::now();
         if let Some(pictures) = pictures {
-            pictures.frame(world, self.frames_ms.len())?;
+            pictures.frame(world, frame)?;
         }
         self.picture += start.elapsed();
         Ok(())
@@ -130,7 +148,7 @@ fn finish(
     folder: &Folder,
     failure: Option<StepError>,
 ) -> Result<(), CliError> {
-    let summary = Summary::new(world, record, arguments.choice.resolution, failure.as_ref());
+    let summary = Summary::new(world, record, arguments.changes.resolution, failure.as_ref());
     let mut json = serde_json::to_string_pretty(&summary)?;
     json.push('\n');
     std::fs::write(folder.summary(), &json).map_err(CliError::write(folder.summary()))?;
@@ -138,7 +156,7 @@ fn finish(
         output::print(&json)?;
     } else if !arguments.quiet {
         let path = folder.path().display();
-        let contents = Folder::contents(!world.scene().bodies.is_empty(), arguments.pictures);
+        let contents = Folder::contents(!world.scene().bodies.is_empty(), arguments.drawing.pictures);
         output::print(&format!("{summary}results in {path}: {contents}\n"))?;
     }
     match failure {

@@ -3,53 +3,36 @@
 use std::path::PathBuf;
 
 use sorb::{
-    Offload, SimdLevel,
     render::Style,
-    scene::{Scene, Time},
+    scene::{Scene, SceneError, Time},
 };
 
-use crate::choice::Choice;
+use crate::{choice::Changes, machine::Machine};
 
 /// Arguments of `sorb run`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
+    /// Name of a scene that comes with the program (see `sorb scenes`), or path of a .toml or .json file
+    #[arg(required_unless_present = "from")]
+    scene: Option<String>,
     #[command(flatten)]
-    pub(super) choice: Choice,
-    /// Number of frames to simulate; by default as many as fill the scene's `time.duration`
-    #[arg(long, value_name = "N", conflicts_with = "time")]
-    frames: Option<u32>,
-    /// Time to simulate in s, rounded to whole frames
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    time: Option<f64>,
-    /// Number of threads, 1 to 1024, by default one per core; results do not depend on it
-    #[arg(long, value_name = "N")]
-    pub(super) threads: Option<usize>,
-    /// SIMD level: auto, fallback, sse2, sse4.2, avx2, avx512 or neon; results do not depend on it
-    #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = simd, hide_possible_values = true)]
-    pub(super) simd: Simd,
-    /// Where to run: cpu, gpu, auto (a GPU for large scenes), from:KERNEL (that kernel and all after it on the GPU), or
-    /// each:NAME=PLACE,.. where a name is a kernel, a family or all, and a place is cpu or gpu
-    #[arg(long, value_name = "BACKEND", default_value = "cpu")]
-    pub(super) backend: Offload,
-    /// Measures the time of every kernel on the GPU, which makes its steps a little longer
-    #[cfg(feature = "gpu")]
-    #[arg(long)]
-    pub(super) gpu_times: bool,
+    pub(super) changes: Changes,
+    /// Continues the run that left this save, with its scene: results, and tables in the same folder, are those of a run that
+    /// was never interrupted
+    #[arg(long, value_name = "SAVE", conflicts_with_all = ["scene", "quality", "set", "resolution"])]
+    pub(super) from: Option<PathBuf>,
+    /// Writes the state to the folder of the results whenever this time has passed in the scene, in s: `state.sorb`
+    #[arg(long, value_name = "SECONDS", value_parser = interval)]
+    pub(super) save_every: Option<f64>,
+    #[command(flatten)]
+    length: Length,
+    #[command(flatten)]
+    pub(super) machine: Machine,
     /// Folder for the results, by default out/SCENE; an earlier run in it is replaced
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Draws PNG frames and an animated PNG (APNG, which web browsers play)
-    #[arg(long)]
-    pub(super) pictures: bool,
-    /// Pictures per simulated second, at most; the animation plays at the speed of the simulated world
-    #[arg(long, value_name = "RATE", default_value_t = 30.0, value_parser = picture_rate)]
-    pub(super) picture_rate: f32,
-    /// Size of the pictures in pixels, each side 16 to 8192
-    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size)]
-    pub(super) size: Size,
-    /// Style of the water
-    #[arg(long, value_name = "STYLE", default_value = "spheres")]
-    pub(super) style: StyleName,
+    #[command(flatten)]
+    pub(super) drawing: Drawing,
     /// Prints the summary as a JSON object to standard output, and nothing else
     #[arg(long)]
     pub(super) json: bool,
@@ -58,31 +41,69 @@ pub(crate) struct Arguments {
     pub(super) quiet: bool,
 }
 
-/// A level, or none for the best one of the machine.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Simd(pub(super) Option<SimdLevel>);
-
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Size(pub(super) u32, pub(super) u32);
+pub(crate) struct Size(pub(crate) u32, pub(crate) u32);
 
 /// Name of a style of the water.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub(super) enum StyleName {
+pub(crate) enum StyleName {
     /// Every particle is a droplet
     Spheres,
     /// The water is one transparent surface
     Surface,
 }
 
-impl Arguments {
+/// Length of a run.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Length {
+    /// Number of frames to simulate; by default as many as fill the scene's `time.duration`
+    #[arg(long, value_name = "N", conflicts_with = "time")]
+    frames: Option<u32>,
+    /// Time to simulate in s, rounded to whole frames
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<f64>,
+}
+
+/// What pictures look like.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Drawing {
+    /// Draws PNG frames and an animated PNG (APNG, which web browsers play)
+    #[arg(long)]
+    pub(crate) pictures: bool,
+    /// Pictures per simulated second, at most; the animation plays at the speed of the simulated world
+    #[arg(long, value_name = "RATE", default_value_t = 30.0, value_parser = picture_rate)]
+    pub(crate) picture_rate: f32,
+    /// Size of the pictures in pixels, each side 16 to 8192
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size)]
+    pub(crate) size: Size,
+    /// Style of the water
+    #[arg(long, value_name = "STYLE", default_value = "spheres")]
+    pub(crate) style: StyleName,
+}
+
+impl Length {
     /// Number of frames to simulate.
-    pub(super) fn frames(&self, scene: &Scene) -> u32 {
+    pub(crate) fn frames(&self, scene: &Scene) -> u32 {
         let Time { frame_rate, duration, .. } = scene.time;
         self.frames.unwrap_or_else(|| {
             let seconds = self.time.unwrap_or_else(|| f64::from(duration));
             (seconds * f64::from(frame_rate)).round() as u32
         })
+    }
+}
+
+impl Arguments {
+    /// The scene of the arguments; none for one that continues a run.
+    pub(super) fn load(&self) -> Result<Option<Scene>, SceneError> {
+        self.scene.as_ref().map(|name| self.changes.load(name)).transpose()
+    }
+
+    /// Number of frames to simulate after those that are done: by default the rest of the scene's `time.duration`.
+    pub(super) fn frames(&self, scene: &Scene, done: u32) -> u32 {
+        let frames = self.length.frames(scene);
+        let is_given = self.length.frames.is_some() || self.length.time.is_some();
+        if is_given { frames } else { frames.saturating_sub(done) }
     }
 
     /// The out folder.
@@ -100,26 +121,12 @@ impl From<StyleName> for Style {
     }
 }
 
-/// Refuses unknown names and levels that the machine lacks.
-fn simd(name: &str) -> Result<Simd, String> {
-    if name == "auto" {
-        return Ok(Simd(None));
-    }
-    let names = |levels: &mut dyn Iterator<Item = SimdLevel>| {
-        levels.map(SimdLevel::name).collect::<Vec<_>>().join(", ")
-    };
-    let level = SimdLevel::from_name(name)
-        .ok_or_else(|| format!("no such level; levels: auto, {}", names(&mut SimdLevel::ALL.into_iter())))?;
-    if level.is_supported() {
-        Ok(Simd(Some(level)))
-    } else {
-        let supported = names(&mut SimdLevel::ALL.into_iter().filter(|level| level.is_supported()));
-        Err(format!("not supported by this machine; supported: {supported}"))
-    }
-}
-
 fn seconds(text: &str) -> Result<f64, String> {
     ranged(text, 0.0, 1e5).ok_or_else(|| "expected a number from 0 to 100000 s".to_owned())
+}
+
+fn interval(text: &str) -> Result<f64, String> {
+    ranged(text, 1e-3, 1e5).ok_or_else(|| "expected a number from 0.001 to 100000 s".to_owned())
 }
 
 fn picture_rate(text: &str) -> Result<f32, String> {

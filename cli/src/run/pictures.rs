@@ -1,6 +1,6 @@
 //! PNG frames and the animation.
 
-use std::{fs, path::PathBuf};
+use std::{fs, ops::RangeInclusive, path::PathBuf};
 
 use sorb::{
     World,
@@ -8,12 +8,12 @@ use sorb::{
     scene::Scene,
 };
 
-use super::{folder::Folder, options::Arguments};
+use super::{folder::Folder, options::Drawing};
 use crate::error::CliError;
 
 /// PNG frames and the animation, while they are written.
 #[derive(Debug)]
-pub(super) struct Pictures {
+pub(crate) struct Pictures {
     frames: PathBuf,
     animation: Animation,
     camera: Camera,
@@ -28,29 +28,30 @@ impl Pictures {
     ///
     /// # Errors
     /// The system refuses to create them.
-    pub(super) fn create(
+    pub(crate) fn create(
         folder: &Folder,
-        arguments: &Arguments,
+        drawing: &Drawing,
         scene: &Scene,
-        frames: u32,
+        frames: RangeInclusive<u32>,
     ) -> Result<Self, CliError> {
         fs::create_dir_all(folder.frames()).map_err(CliError::write(folder.frames()))?;
         let rate = scene.time.frame_rate;
         // Whole frames, so that pictures are evenly spaced. Rounding up keeps the rate below the requested one.
-        let every = (rate / arguments.picture_rate - 1e-3).ceil().max(1.0) as u32;
-        let (width, height) = (arguments.size.0, arguments.size.1);
+        let every = (rate / drawing.picture_rate - 1e-3).ceil().max(1.0) as u32;
+        let (width, height) = (drawing.size.0, drawing.size.1);
+        let count = frames.end() / every + 1 - frames.start().div_ceil(every);
         let animation = Animation::create(
             folder.animation(),
             width,
             height,
             (rate / every as f32).clamp(0.02, 1e3),
-            1 + frames / every,
+            count,
         )?;
         Ok(Self {
             frames: folder.frames(),
             animation,
             camera: scene.viewpoint().into(),
-            style: arguments.style.into(),
+            style: drawing.style.into(),
             size: (width, height),
             every: every as usize,
         })
@@ -60,7 +61,7 @@ impl Pictures {
     ///
     /// # Errors
     /// The picture cannot be written.
-    pub(super) fn frame(&mut self, world: &World, frame: usize) -> Result<(), CliError> {
+    pub(crate) fn frame(&mut self, world: &World, frame: usize) -> Result<(), CliError> {
         if !frame.is_multiple_of(self.every) {
             return Ok(());
         }
@@ -74,7 +75,7 @@ impl Pictures {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn finish(self) -> Result<(), CliError> {
+    pub(crate) fn finish(self) -> Result<(), CliError> {
         self.animation.finish()?;
         Ok(())
     }

@@ -49,15 +49,17 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Creates the file with its heading.
+    /// Creates the file with its heading. For a run that continues after some frames, it keeps the rows of these if the file
+    /// has them.
     ///
     /// # Errors
-    /// The file cannot be written.
-    pub(super) fn create(path: &Path) -> Result<Self, CliError> {
+    /// The file cannot be read or written.
+    pub(super) fn create(path: &Path, done: u32) -> Result<Self, CliError> {
+        let names = COLUMNS.map(|(name, _)| name).join(",");
+        let begin = begin(path, &format!("frame,{names},steps,shortest_step_s,bound\n"), done)?;
         let file = File::create(path).map_err(CliError::write(path))?;
         let mut table = Self { path: path.to_owned(), file };
-        let names = COLUMNS.map(|(name, _)| name).join(",");
-        table.line(&format!("frame,{names},steps,shortest_step_s,bound\n"))?;
+        table.line(&begin)?;
         Ok(table)
     }
 
@@ -88,6 +90,24 @@ impl Table {
     fn line(&mut self, line: &str) -> Result<(), CliError> {
         self.file.write_all(line.as_bytes()).map_err(CliError::write(&self.path))
     }
+}
+
+/// How a table begins: its heading, and the rows of the frames that are done, from the file of the run that did them.
+///
+/// # Errors
+/// The file is there, and cannot be read.
+pub(super) fn begin(path: &Path, heading: &str, done: u32) -> Result<String, CliError> {
+    let mut text = heading.to_owned();
+    if done > 0 && path.exists() {
+        let earlier = std::fs::read_to_string(path).map_err(CliError::read(path))?;
+        let is_done = |row: &&str| {
+            row.split(',').next().is_some_and(|frame| frame.parse().is_ok_and(|frame: u32| frame <= done))
+        };
+        // A row without an end was not completed.
+        let rows = earlier.split_inclusive('\n').filter(|row| row.ends_with('\n')).filter(is_done);
+        rows.for_each(|row| text.push_str(row));
+    }
+    Ok(text)
 }
 
 /// Measures as a JSON object with the names of the table.

@@ -1,10 +1,10 @@
 //! What is said to the device before steps, and what it says after them: its clock, and what bodies were given.
 
 use super::{
+    form::vector,
     layout::{Value, place_of, zero},
     pack::Capacities,
     program::REPETITIONS,
-    transfer::vector,
 };
 use crate::{
     body::Wrench,

@@ -19,6 +19,7 @@ mod cells;
 mod device;
 mod error;
 mod facts;
+mod form;
 mod groups;
 pub(crate) mod layout;
 mod pack;

@@ -2,11 +2,11 @@
 
 use super::{
     error::GpuError,
+    form::vector,
     groups::groups_of,
     layout::Value,
     pack::Summands,
     resident::Resident,
-    transfer::vector,
     twins::{SUMS, TOTAL},
 };
 use crate::{

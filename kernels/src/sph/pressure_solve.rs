@@ -308,6 +308,14 @@ impl ColumnData for PressureSolve {
             .into_iter()
             .for_each(|value| visit(value.to_bits()));
     }
+    fn take_words(&mut self, _rows: usize, words: &[u32]) -> bool {
+        let [rounds, is_converged, values @ ..] = words else { return false };
+        let &[length, error, pressure, tolerance] = values else { return false };
+        let [length, error, pressure, tolerance] = [length, error, pressure, tolerance].map(f32::from_bits);
+        self.state =
+            Solve { rounds: *rounds, is_converged: *is_converged != 0, length, error, pressure, tolerance };
+        true
+    }
     fn poison(&mut self) {
         let (rounds, is_converged) = (u32::MAX, self.state.is_converged);
         let [length, tolerance, error, pressure, target_scale, speed] = [f32::NAN; 6];

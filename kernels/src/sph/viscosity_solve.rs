@@ -170,6 +170,13 @@ impl ColumnData for ViscositySolve {
         [rounds, u32::from(is_converged), u32::from(is_solved)].into_iter().for_each(&mut *visit);
         [length, share, residual, change].into_iter().for_each(|value| visit(value.to_bits()));
     }
+    fn take_words(&mut self, _rows: usize, words: &[u32]) -> bool {
+        let &[rounds, converged, solved, length, share, residual, change] = words else { return false };
+        let [length, share, residual, change] = [length, share, residual, change].map(f32::from_bits);
+        let (is_converged, is_solved) = (converged != 0, solved != 0);
+        self.state = State { length, share, residual, change, rounds, is_converged, is_solved };
+        true
+    }
     fn poison(&mut self) {
         // Whether the residual counts is all that is read of it in the end.
         let State { is_converged, is_solved, .. } = self.state;

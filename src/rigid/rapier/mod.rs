@@ -1,8 +1,9 @@
 mod build;
+mod saved;
 
 use super::script::Script;
 use super::setup::{check_step, checked_state};
-use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Wrench};
+use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Target, Wrench};
 use build::{check_container, collision_shape, parameters, rapier_mass};
 use glam::{Mat3, Vec3};
 use rapier3d::prelude::{
@@ -318,6 +319,38 @@ impl RigidEngine for RapierEngine {
         [state.linear_velocity, state.angular_velocity] = velocities;
         body.set_linvel(state.linear_velocity, true);
         body.set_angvel(state.angular_velocity, true);
+    }
+
+    fn save(&self, out: &mut Vec<u8>) -> Result<(), RigidError> {
+        self.append_to(out)
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), RigidError> {
+        self.read_from(bytes)
+    }
+
+    fn set_velocity(&mut self, index: usize, linear: Vec3, angular: Vec3) -> Result<(), RigidError> {
+        if self.kinds[index] == BodyKind::Dynamic {
+            let body = &mut self.bodies[self.handles[index]];
+            body.set_linvel(linear, true);
+            body.set_angvel(angular, true);
+            let state = &mut self.states[index];
+            (state.linear_velocity, state.angular_velocity) = (linear, angular);
+        }
+        Ok(())
+    }
+
+    fn set_target(&mut self, index: usize, target: Target) -> Result<(), RigidError> {
+        if let (BodyKind::Kinematic, Some(script)) = (self.kinds[index], &mut self.scripts[index]) {
+            script.target = Some(target);
+            self.states[index] = script.state(self.time);
+        }
+        Ok(())
+    }
+
+    fn set_gravity(&mut self, gravity: Vec3) -> Result<(), RigidError> {
+        self.gravity = gravity;
+        Ok(())
     }
 
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {

@@ -20,6 +20,17 @@ impl Bounds {
         })
     }
 
+    /// From its lowest and highest corner \[m\].
+    #[cfg(feature = "serde")]
+    pub(super) fn new([low, high]: [Vec3; 2]) -> Self {
+        Self { low, high }
+    }
+
+    /// Its lowest and highest corner \[m\].
+    pub(super) fn corners(&self) -> [Vec3; 2] {
+        [self.low, self.high]
+    }
+
     /// Around a body; all of space for a plane.
     pub(super) fn of_body(body: &Body) -> Self {
         let turned = Mat3::from_quat(body.state.rotation);

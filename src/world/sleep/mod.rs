@@ -12,22 +12,26 @@
 
 mod bounds;
 mod parts;
+mod saved;
+mod stillness;
+#[cfg(feature = "serde")]
+mod taken;
 mod waking;
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 use sorb_kernels::{clock::TIME_RESOLUTION, params::Params};
 
 use crate::{
     clock::Dormant,
+    rigid::Target,
     scene::{Motion, Scene, Time},
     world::World,
 };
 use bounds::Bounds;
-use parts::{Kind, Part, Rules};
-
-/// Largest speed of a single particle or node over the mean. Thin films glide on floors with slip, but a falling drop or a
-/// swinging corner is awake.
-const LARGEST: f64 = 100.0;
+pub(crate) use parts::Kind;
+use parts::{Part, Rules};
+pub(crate) use saved::Saved;
+use stillness::{Places, Way};
 
 /// Parts of the time between two checks at which positions are recorded as well. A vibration with the period of the checks,
 /// or a fraction of it, has the same position at each of them, but not at both of these times (sampling alias).
@@ -46,21 +50,16 @@ pub(crate) struct Sleep {
     is_asleep: bool,
     /// Positions at the last check.
     before: Option<Places>,
-    /// Positions between that and the next check, at the times of [`BETWEEN`].
-    between: Vec<Places>,
+    /// How far every part has moved since then, at the times of [`BETWEEN`].
+    between: Vec<Vec<Way>>,
+    /// Sponges with nodes that commands have given to a body, which may move them from afar: they never sleep.
+    gripped: Vec<usize>,
+    /// Memory for positions.
+    spare: Places,
     /// Time up to which displacements are known \[s\].
     watched: f64,
     /// Largest displacement of particles and nodes since their boxes were computed \[m\].
     ways: [f32; 2],
-}
-
-#[derive(Clone, Debug)]
-struct Places {
-    time: f64,
-    /// By identity.
-    particles: Vec<Vec3>,
-    nodes: Vec<Vec3>,
-    bodies: Vec<(Vec3, Quat)>,
 }
 
 impl Sleep {
@@ -78,6 +77,8 @@ impl Sleep {
             is_asleep: false,
             before: None,
             between: Vec::new(),
+            gripped: Vec::new(),
+            spare: Places::default(),
             watched: 0.0,
             ways: [0.0; 2],
         }
@@ -99,6 +100,36 @@ impl Sleep {
     /// Whether a part sleeps; false for an unknown part.
     fn has(&self, kind: Kind) -> bool {
         self.parts.iter().any(|part| part.kind == kind && part.is_asleep)
+    }
+
+    /// All parts awake, with what commands have changed.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn anew(&self, scene: &Scene, params: &Params, targets: &[Option<Target>]) -> Self {
+        let mut sleep = Self { gripped: self.gripped.clone(), ..Self::new(scene, params) };
+        for (body, target) in targets.iter().enumerate() {
+            target.iter().for_each(|target| sleep.follow(body, target));
+        }
+        sleep
+    }
+
+    /// Replaces the motions of a body by the way to a target.
+    pub(crate) fn follow(&mut self, body: usize, target: &Target) {
+        self.motions.retain(|(of, _)| *of != body);
+        // Rounded outwards: the body must not move outside of it.
+        let (start, end) = ((target.start as f32).next_down(), (target.end as f32).next_up());
+        let (velocity, turn) = (target.velocity().as_vec3(), target.angular_velocity().as_vec3());
+        self.motions.push((body, Motion::Linear { velocity, start, end }));
+        if turn != Vec3::ZERO {
+            let (axis, rate) = (turn, turn.length());
+            self.motions.push((body, Motion::Turn { axis, pivot: target.from, rate, start, end }));
+        }
+    }
+
+    /// Lets sponges never sleep again.
+    pub(crate) fn keep_awake(&mut self, sponges: &[usize]) {
+        let new = sponges.iter().filter(|sponge| !self.gripped.contains(sponge));
+        let new: Vec<usize> = new.copied().collect();
+        self.gripped.extend(new);
     }
 
     /// Whether a script moves a body between two times.
@@ -125,32 +156,6 @@ impl Sleep {
         let next = intervals.filter(|(_, end)| *end > time).map(|(start, _)| start - time);
         let rest = next.fold(left, f64::min);
         (self.is_asleep && rest > 0.0).then_some(rest)
-    }
-
-    /// Distance between two positions, across a periodic side where that is shorter.
-    fn way(&self, before: Vec3, now: Vec3) -> f32 {
-        let (apart, periods) = (now - before, self.rules.periods);
-        let turns = Vec3::select(periods.cmpgt(Vec3::ZERO), (apart / periods).round(), Vec3::ZERO);
-        (apart - turns * periods).length()
-    }
-
-    /// Whether positions are unchanged within `way` \[m\].
-    fn are_still<'a>(&self, places: impl Iterator<Item = (&'a Vec3, &'a Vec3)>, way: f64) -> bool {
-        let (mut sum, mut count, mut largest) = (0.0_f64, 0.0_f64, 0.0_f32);
-        for (before, now) in places {
-            let own = self.way(*before, *now);
-            sum += f64::from(own);
-            count += 1.0;
-            largest = if own < largest { largest } else { own };
-        }
-        sum <= way * count && f64::from(largest) <= LARGEST * way
-    }
-
-    /// Whether a body is at its former place.
-    fn is_body_still(before: (Vec3, Quat), now: (Vec3, Quat), way: f64) -> bool {
-        // Radians count as metres of a body of one metre.
-        let angle = 2.0 * (now.1 - before.1).length().min((now.1 + before.1).length());
-        f64::from(before.0.distance(now.0).max(angle)) <= way
     }
 }
 
@@ -191,6 +196,12 @@ impl World {
         self.sleep.has(Kind::Body(index))
     }
 
+    /// Whether any sponge is awake.
+    pub(crate) fn has_moving_nodes(&self) -> bool {
+        let sponges = self.scene.sponges.len();
+        (0..sponges).any(|sponge| !self.is_sponge_asleep(sponge))
+    }
+
     /// Sleeps until a time \[s\], or until a script moves a body, if the scene is asleep; returns whether the time is
     /// reached.
     pub(crate) fn sleep_until(&mut self, end: f64) -> bool {
@@ -229,7 +240,9 @@ impl World {
         }
         if next.is_some_and(|part| since >= part * self.sleep.after) {
             let places = self.places();
-            self.sleep.between.push(places);
+            let ways = self.sleep.before.as_ref().map(|before| self.ways(before, &places));
+            self.sleep.between.extend(ways);
+            self.sleep.spare = places;
         }
         has_woken
     }
@@ -242,8 +255,10 @@ impl World {
         }
         self.take_bounds();
         let before = self.sleep.before.take();
-        let has_changed = before.is_some_and(|before| self.fall_asleep(&before, &now));
-        (self.sleep.before, self.sleep.between) = (Some(now), Vec::new());
+        let has_changed = before.as_ref().is_some_and(|before| self.fall_asleep(before, &now));
+        self.sleep.spare = before.unwrap_or_default();
+        self.sleep.before = Some(now);
+        self.sleep.between.clear();
         if has_changed {
             self.apply_sleep();
         }
@@ -255,22 +270,24 @@ impl World {
         let moving = self.movers(before.time);
         let is_moved = self.sleep.moves(before.time, now.time);
         let (sleep, as_a_whole) = (&self.sleep, self.sleeps_as_a_whole());
-        let is_still = |part: &Part| {
+        let ways = self.ways(before, now);
+        let is_still = |index: usize, part: &Part| {
             let is_beside = if as_a_whole {
                 is_moved
             } else {
                 moving.iter().any(|mover| sleep.rules.is_kept_awake(part, mover))
             };
-            let is_rested = part.awake_since <= before.time && !is_beside;
-            part.is_asleep || is_rested && self.is_still(part.kind, before, now)
+            let is_gripped = matches!(part.kind, Kind::Sponge(own) if sleep.gripped.contains(&own));
+            let is_rested = part.awake_since <= before.time && !is_beside && !is_gripped;
+            part.is_asleep || is_rested && self.is_still(index, part.kind, &ways, now.time - before.time)
         };
         let mut first = sleep.rules.islands(&sleep.parts, |_| true);
         if as_a_whole {
             first.fill(0);
         }
         let mut are_still = vec![true; first.len()];
-        for (part, first) in sleep.parts.iter().zip(&first) {
-            are_still[*first] &= is_still(part);
+        for (index, (part, first)) in sleep.parts.iter().zip(&first).enumerate() {
+            are_still[*first] &= is_still(index, part);
         }
         let mut has_changed = false;
         for (part, first) in self.sleep.parts.iter_mut().zip(&first) {
@@ -279,50 +296,5 @@ impl World {
         }
         self.sleep.is_asleep = !is_moved && self.sleep.parts.iter().all(|part| part.is_asleep);
         has_changed
-    }
-
-    /// Whether a part kept its place at all checks since, and is slow.
-    fn is_still(&self, kind: Kind, before: &Places, now: &Places) -> bool {
-        let (sleep, way) = (&self.sleep, self.sleep.speed * (now.time - before.time));
-        let is_slow = |speed: f32| f64::from(speed) <= LARGEST * sleep.speed;
-        let looks = || sleep.between.iter().chain([now]);
-        match kind {
-            Kind::Fluid => {
-                let is_still =
-                    |later: &Places| sleep.are_still(before.particles.iter().zip(&later.particles), way);
-                is_slow(self.clock.fluid_speed) && looks().all(is_still)
-            }
-            Kind::Sponge(index) => {
-                let rows = || self.node_rows(index).into_iter().flatten();
-                let velocities = self.node_velocities();
-                let square =
-                    |row: usize| velocities.get(row).map_or(0.0, |[x, y, z, _]| x * x + y * y + z * z);
-                let is_still = |later: &Places| {
-                    let place = |row| before.nodes.get(row).zip(later.nodes.get(row));
-                    sleep.are_still(rows().filter_map(place), way)
-                };
-                is_slow(rows().map(square).fold(0.0, f32::max).sqrt()) && looks().all(is_still)
-            }
-            Kind::Body(index) => {
-                looks().all(|later| Sleep::is_body_still(before.bodies[index], later.bodies[index], way))
-            }
-        }
-    }
-
-    fn places(&self) -> Places {
-        let place = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
-        let ids = self.particle_ids();
-        let mut particles = vec![Vec3::ZERO; ids.len()];
-        for (id, row) in ids.iter().zip(self.particle_positions()) {
-            if let Some(particle) = particles.get_mut(*id as usize) {
-                *particle = place(row);
-            }
-        }
-        Places {
-            time: self.clock.time,
-            particles,
-            nodes: self.node_positions().iter().map(place).collect(),
-            bodies: self.bodies().iter().map(|body| (body.state.position, body.state.rotation)).collect(),
-        }
     }
 }

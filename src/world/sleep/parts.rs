@@ -14,7 +14,7 @@ const JOIN: f32 = 1.5;
 
 /// What a part is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// All particles.
     Fluid,
     /// A sponge, by its number.

@@ -84,7 +84,7 @@ impl World {
     /// Around a dynamic body, now and in the next step.
     fn body_bounds(&self, index: usize) -> Bounds {
         let (body, step) = (&self.bodies()[index], self.scene.time.maximum_step);
-        let next = (body.fastest() + step * self.scene.gravity.length()) * step;
+        let next = (body.fastest() + step * self.params.gravity.length()) * step;
         Bounds::of_body(body).grown(next)
     }
 
@@ -145,6 +145,17 @@ impl World {
         }
         let is_reached = |part: &Part| awake.iter().any(|awake| sleep.rules.is_reached(part, awake));
         sleep.parts.iter().map(|part| part.is_asleep && is_reached(part)).collect()
+    }
+
+    /// Wakes the islands of parts of some kinds, and ends the sleep of the whole scene.
+    pub(crate) fn wake_kinds(&mut self, is_meant: impl Fn(Kind) -> bool) {
+        let as_a_whole = self.sleeps_as_a_whole();
+        let is_meant = |part: &Part| part.is_asleep && (as_a_whole || is_meant(part.kind));
+        let woken: Vec<bool> = self.sleep.parts.iter().map(is_meant).collect();
+        if woken.contains(&true) {
+            self.wake(&woken);
+        }
+        self.sleep.is_asleep = false;
     }
 
     /// Wakes the islands of some parts.

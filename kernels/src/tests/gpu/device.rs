@@ -35,7 +35,7 @@ fn stepped(gpu: &Arc<Gpu>, scene: &Scene, steps: u32) -> (Columns, Outcome, u32)
     let fail = |error: GpuError| -> ! { panic!("{error}") };
     let mut resident =
         Resident::new(gpu, &columns, &scene.params, LIMITS).unwrap_or_else(|error| fail(error));
-    let lives = |column: &Column| column.life() != Life::Scratch;
+    let lives = |column: &Column| !column.life().is_rebuilt();
     let uploaded: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
     resident.upload(&mut columns, &uploaded, false).unwrap_or_else(|error| fail(error));
     let mut program = resident.program(&kernels_of(scene)).unwrap_or_else(|error| fail(error));

@@ -1,0 +1,244 @@
+//! How a device holds a column: its buffer, its bytes, and its words there and back.
+
+use super::{
+    answer::Extreme as Word,
+    groups::wrench_bytes,
+    layout::Value,
+    pack::{Capacities, DeviceBody},
+    transfer::take_plain,
+};
+use crate::{
+    body::Wrench,
+    column::{Plain, padded},
+    columns::{Column, Columns, RowCounts},
+    cpu::CHUNK,
+    grid::neighbors::Neighbors,
+    reduce::{Extreme, Extremes, Wrenches},
+    sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
+};
+
+/// Particles as `sph::advect` leaves them, which the next step sorts.
+pub(super) const NEXT: [(Column, &str); 3] = [
+    (Column::FluidPosition, "fluid_position_next"),
+    (Column::FluidVelocity, "fluid_velocity_next"),
+    (Column::FluidId, "fluid_id_next"),
+];
+
+/// The form of a column on a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    /// The rows of a plain array.
+    Plain,
+    /// Lists of rows, by the index of their capacity.
+    Lists(usize),
+    /// Words of a buffer that fluid and nodes share.
+    Extremes,
+    /// State of the solve for the pressure.
+    PressureSolve,
+    /// State of the solve for the viscosity.
+    ViscositySolve,
+    /// Wrenches of every group of rows on every body.
+    Wrenches,
+    /// Bodies, which the device never changes.
+    Bodies,
+    /// A device computes it anew, or does without.
+    Nowhere,
+}
+
+impl Form {
+    /// The form of a column.
+    pub(super) fn of(column: Column) -> Self {
+        match column {
+            _ if column.is_on_host_only() => Self::Nowhere,
+            _ if column.element().bytes() > 0 => Self::Plain,
+            Column::FluidNeighbors => Self::Lists(0),
+            Column::FluidControls => Self::Lists(1),
+            Column::ControlFluid => Self::Lists(2),
+            Column::NodePairs => Self::Lists(3),
+            Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
+            Column::FluidPressureSolve => Self::PressureSolve,
+            Column::FluidViscositySolve => Self::ViscositySolve,
+            Column::BodyFluidWrenches | Column::BodyNodeWrenches => Self::Wrenches,
+            Column::BodyStates => Self::Bodies,
+            _ => Self::Nowhere,
+        }
+    }
+
+    /// Whether it can be read back.
+    pub(super) fn returns(self) -> bool {
+        !matches!(self, Self::Bodies | Self::Nowhere)
+    }
+
+    /// The buffer of a column; `sorted` says that the particles are in the order of this step.
+    pub(super) fn buffer(self, column: Column, sorted: bool) -> &'static str {
+        let next = NEXT.iter().find(|(next, _)| *next == column && !sorted);
+        match (self, next) {
+            (Self::Extremes, _) => "extremes",
+            (_, Some((_, name))) => name,
+            (_, None) => column.buffer(),
+        }
+    }
+
+    /// Bytes that the device holds of a column with rows, with lists of these capacities.
+    pub(super) fn bytes(self, column: Column, rows: RowCounts, capacities: Capacities) -> usize {
+        let count = rows.of(column.store());
+        match self {
+            Self::Plain => count * column.element().bytes(),
+            Self::Lists(which) => count * (capacities[which] as usize + 1) * 4,
+            Self::Extremes => 4 * Word::ALL.len(),
+            Self::PressureSolve => Solve::BYTES as usize,
+            Self::ViscositySolve => ViscositySolve::BYTES as usize,
+            Self::Wrenches => wrench_bytes(pushing(column, rows), rows.bodies),
+            Self::Bodies => count * DeviceBody::BYTES as usize,
+            Self::Nowhere => 0,
+        }
+    }
+
+    /// Reads a column from its words on the device.
+    pub(super) fn take(self, column: Column, columns: &mut Columns, words: &[u32], capacities: Capacities) {
+        match self {
+            Self::Plain => take_plain(columns, column, words),
+            Self::Lists(which) => take_lists(columns, which, words, capacities),
+            Self::Extremes => take_extremes(columns, column, words),
+            Self::PressureSolve => columns.fluid.pressure_solve.state = Value::take(words),
+            Self::ViscositySolve => columns.fluid.viscosity_solve.state = Value::take(words),
+            Self::Wrenches => take_wrenches(columns, column, words),
+            Self::Bodies | Self::Nowhere => {}
+        }
+    }
+}
+
+/// Rows of the store that pushes bodies.
+fn pushing(column: Column, rows: RowCounts) -> usize {
+    if column == Column::BodyFluidWrenches { rows.fluid } else { rows.nodes }
+}
+
+/// The words of the first rows of a plain array.
+pub(super) fn plain_bytes(columns: &Columns, column: Column, rows: usize) -> &[u8] {
+    match columns.data(column).plain() {
+        Some(Plain::Rows(data)) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        Some(Plain::Values(data)) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        Some(Plain::Words(data)) => bytemuck::cast_slice(&data[..rows.min(data.len())]),
+        None => &[],
+    }
+}
+
+/// Lists, their number, and the number of rows that they are of.
+pub(super) fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usize, usize) {
+    let rows = columns.rows;
+    match which {
+        0 => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
+        1 => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
+        2 => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
+        _ => (&mut columns.nodes.pairs, rows.nodes, rows.nodes),
+    }
+}
+
+/// Where a list has its length (0) and its entries (from 1): one line for all k-th entries, but a line a list for controls,
+/// whose threads share a list.
+pub(super) fn list_layout(
+    which: usize,
+    rows: usize,
+    capacities: Capacities,
+) -> impl Fn(usize, usize) -> usize {
+    let length = capacities[which] as usize + 1;
+    move |k, row| if which == 2 { row * length + k } else { k * rows + row }
+}
+
+fn take_lists(columns: &mut Columns, which: usize, words: &[u32], capacities: Capacities) {
+    let (lists, rows, targets) = lists(columns, which);
+    let place = list_layout(which, rows, capacities);
+    let length = |row: usize| words[place(0, row)] as usize;
+    let entries = |row: usize| (1..=length(row)).map(|k| words[place(k, row)]).collect();
+    let mut all: Vec<Vec<u32>> = (0..rows).map(entries).collect();
+    all.resize_with(padded(rows), Vec::new);
+    *lists = Neighbors::from_lists(&all, targets as u32);
+}
+
+fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
+    let words: &[f32] = bytemuck::cast_slice(words);
+    let wrench =
+        |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
+    let mut wrenches: Vec<Wrench> = words.chunks_exact(8).map(wrench).collect();
+    // Chunks of the CPU, which may go on with them, are smaller than groups.
+    let chunks = padded(pushing(column, columns.rows)).div_ceil(CHUNK);
+    wrenches.resize(chunks * columns.rows.bodies, Wrench::default());
+    let all = &mut columns.bodies;
+    let is_fluid = column == Column::BodyFluidWrenches;
+    *if is_fluid { &mut all.fluid_wrenches } else { &mut all.node_wrenches } = Wrenches(wrenches);
+}
+
+pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
+    glam::DVec3::new(f64::from(words[0]), f64::from(words[1]), f64::from(words[2]))
+}
+
+fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
+    let row = |word: u32| if word == 0 { 0 } else { u32::MAX - word + 1 };
+    // All of it in the first chunk, none in the others, which the CPU may go on with.
+    let chunks = columns.rows.of(column.store()).div_ceil(CHUNK).max(1);
+    let all = |extreme: Extreme| {
+        let mut all = vec![Extreme::default(); chunks];
+        all[0] = extreme;
+        Extremes(all)
+    };
+    if column == Column::FluidExtremes {
+        columns.fluid.extremes = all(Extreme {
+            speed_squared: f32::from_bits(words[Word::FluidSpeed as usize]),
+            acceleration_squared: f32::from_bits(words[Word::FluidAcceleration as usize]),
+            not_finite: row(words[Word::FluidRow as usize]),
+        });
+    } else {
+        columns.nodes.extremes = all(Extreme {
+            speed_squared: f32::from_bits(words[Word::NodeSpeed as usize]),
+            acceleration_squared: 0.0,
+            not_finite: row(words[Word::NodeRow as usize]),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: RowCounts = RowCounts { fluid: 100, nodes: 30, tets: 90, bodies: 2 };
+    const CAPACITIES: Capacities = [8, 8, 8, 8];
+
+    #[test]
+    fn every_column_that_a_device_holds_has_bytes() {
+        for column in Column::ALL.iter().copied() {
+            let form = Form::of(column);
+            assert_eq!(form.bytes(column, ROWS, CAPACITIES) > 0, form != Form::Nowhere, "{}", column.name());
+            assert_eq!(form == Form::Nowhere, column.is_on_host_only(), "{}", column.name());
+        }
+        // All words of the shared buffer are read back, for either side.
+        assert_eq!(Form::Extremes.bytes(Column::NodeExtremes, ROWS, CAPACITIES), 40);
+    }
+
+    #[test]
+    fn words_of_columns_that_are_not_plain_go_there_and_back() {
+        let mut columns = Columns { rows: ROWS, ..Columns::default() };
+        let words: Vec<u32> = (1..=10).collect();
+        for column in [Column::FluidExtremes, Column::FluidPressureSolve, Column::BodyFluidWrenches] {
+            let form = Form::of(column);
+            let words = if form == Form::Wrenches {
+                (0..form.bytes(column, ROWS, CAPACITIES) as u32 / 4)
+                    .map(|word| (word as f32).to_bits())
+                    .collect()
+            } else {
+                words.clone()
+            };
+            form.take(column, &mut columns, &words, CAPACITIES);
+            let of = |columns: &Columns| {
+                let mut words = Vec::new();
+                columns.data(column).visit_words(usize::MAX, &mut |word| words.push(word));
+                words
+            };
+            let found = of(&columns);
+            columns.data_mut(column).poison();
+            assert_ne!(of(&columns), found, "{}: the control", column.name());
+            assert!(columns.data_mut(column).take_words(usize::MAX, &found));
+            assert_eq!(of(&columns), found, "{}", column.name());
+            assert!(!columns.data_mut(column).take_words(usize::MAX, &found[1..]), "one word less");
+        }
+    }
+}

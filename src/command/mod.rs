@@ -1,0 +1,117 @@
+//! Commands: what a host changes while a world runs, as data.
+//!
+//! [`World::push`](crate::World::push) checks a command and keeps it; the next step begins with all that were pushed, in their
+//! order. The same commands before the same steps give the same bits. Recordings hold commands with their step.
+
+mod check;
+
+use glam::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::{rigid::Target, scene::Problem};
+
+/// A change of a running world. Bodies have the numbers of the scene, from 0. Other kinds may be added.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
+pub enum Command {
+    /// A force and a torque on a dynamic body, in all steps from the next one on. Another one replaces them, zeros end them.
+    Force {
+        /// Number of the body.
+        body: u32,
+        /// Force at its centre of mass. Range -1e6 to 1e6 N.
+        force: Vec3,
+        /// Torque. Range -1e6 to 1e6 N m.
+        torque: Vec3,
+    },
+    /// An impulse on a dynamic body, at once.
+    Impulse {
+        /// Number of the body.
+        body: u32,
+        /// Impulse at its centre of mass. Range -1e6 to 1e6 N s.
+        impulse: Vec3,
+        /// Angular impulse. Range -1e6 to 1e6 N m s.
+        angular_impulse: Vec3,
+    },
+    /// The velocity of a dynamic body, at once.
+    Velocity {
+        /// Number of the body.
+        body: u32,
+        /// Velocity of its centre of mass. Range -100 to 100 m/s.
+        linear_velocity: Vec3,
+        /// Angular velocity. Range -1000 to 1000 rad/s.
+        angular_velocity: Vec3,
+    },
+    /// A pose that a kinematic body goes to, at constant velocity and rate, in place of its motions.
+    Pose {
+        /// Number of the body.
+        body: u32,
+        /// Position of its centre. Range -1000 to 1000 m.
+        position: Vec3,
+        /// Rotation from its frame to the world, of unit length.
+        rotation: Quat,
+        /// Time to get there. Range 0.000001 to 100000 s.
+        duration: f32,
+    },
+    /// The acceleration of gravity.
+    Gravity {
+        /// Range -100 to 100 m/s^2.
+        gravity: Vec3,
+    },
+    /// Nodes of sponges that a body holds from now on, where they are in its frame, which may move.
+    Grip {
+        /// Number of the body, of any kind.
+        body: u32,
+        /// The nodes.
+        nodes: Nodes,
+    },
+    /// Nodes that nothing holds any more, whatever held them.
+    Release {
+        /// The nodes; those that nothing holds are left out.
+        nodes: Nodes,
+    },
+}
+
+/// Nodes of sponges.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[non_exhaustive]
+pub enum Nodes {
+    /// Those in a ball at the beginning of the step.
+    Sphere {
+        /// Its centre. Range -1000 to 1000 m.
+        centre: Vec3,
+        /// Its radius. Range 0.0001 to 100 m.
+        radius: f32,
+    },
+    /// These rows of [`World::node_positions`](crate::World::node_positions).
+    Rows(Vec<u32>),
+}
+
+/// Why a command was refused; nothing has changed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("command: {}", .problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+#[non_exhaustive]
+pub struct CommandError {
+    /// What is wrong, with the key, the value and the range, as for keys of scenes. At least one.
+    pub problems: Vec<Problem>,
+}
+
+/// What commands have set, and those that wait for the next step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Commands {
+    pub(crate) pending: Vec<Command>,
+    /// Force \[N\] and torque \[N m\] on every body; empty before the first.
+    pub(crate) forces: Vec<[Vec3; 2]>,
+    /// Where kinematic bodies go; empty before the first.
+    pub(crate) targets: Vec<Option<Target>>,
+}
+
+impl Commands {
+    /// Takes over other commands in the same memory.
+    pub(crate) fn copy(&mut self, from: &Self) {
+        self.pending.clone_from(&from.pending);
+        self.forces.clone_from(&from.forces);
+        self.targets.clone_from(&from.targets);
+    }
+}

@@ -1,0 +1,113 @@
+//! A state from sections of bytes.
+
+use glam::Vec3;
+use sorb_kernels::columns::Column;
+
+use super::{
+    body::{ENGINE, REST, SLEEP, saved_columns},
+    columns::{copy_words, fits, take_column},
+    error::StateError,
+    rest::Rest,
+};
+use crate::world::World;
+
+/// Sections by name.
+#[derive(Debug)]
+pub(super) struct Parts<'a>(pub(super) Vec<(&'a str, &'a [u8])>);
+
+impl<'a> Parts<'a> {
+    /// The bytes of a section; none if it is absent.
+    pub(super) fn of(&self, name: &str) -> &'a [u8] {
+        self.0.iter().find(|(own, _)| *own == name).map_or(&[], |(_, bytes)| bytes)
+    }
+}
+
+pub(crate) fn invalid(what: &str, reason: impl Into<String>) -> StateError {
+    StateError::Invalid { what: what.to_owned(), reason: reason.into() }
+}
+
+impl World {
+    /// Takes over a state of the same scene.
+    ///
+    /// # Errors
+    /// The state is not of this scene, or impossible; the world is unchanged.
+    pub(super) fn take_state(&mut self, parts: &Parts<'_>) -> Result<(), StateError> {
+        self.check_sections(parts)?;
+        let rest: Rest =
+            postcard::from_bytes(parts.of(REST)).map_err(|error| invalid(REST, error.to_string()))?;
+        if let Some(defect) = rest.defect(self) {
+            return Err(invalid(REST, defect));
+        }
+        let Rest { clock, step, gravity, constant, sleep, commands, fluid_forces } = rest;
+        let sleep = self.sleep_from(sleep, SLEEP.map(|name| places(parts.of(name))), &commands.targets);
+        let sleep = sleep.map_err(|reason| invalid("sleep", reason))?;
+        if self.stores.host.rows.bodies > 0 {
+            self.engine.restore(parts.of(ENGINE))?;
+        }
+        for column in saved_columns() {
+            take_column(&mut self.stores.host, column, parts.of(column.name()));
+        }
+        self.light.set_gravity(gravity);
+        (self.clock, self.sleep, self.commands, self.failed) = (clock, sleep, commands, None);
+        (self.params.gravity, self.params.step) = (gravity, step);
+        self.fluid_forces.take(fluid_forces);
+        if let Some(device) = &mut self.stores.device {
+            device.leave_behind();
+        }
+        self.resume_sleep(constant);
+        Ok(())
+    }
+
+    /// Refuses sections that are no columns of this scene, or of other sizes.
+    fn check_sections(&self, parts: &Parts<'_>) -> Result<(), StateError> {
+        let columns = &self.stores.host;
+        let known = |name: &str| {
+            name == ENGINE
+                || name == REST
+                || SLEEP.contains(&name)
+                || saved_columns().any(|column| column.name() == name)
+        };
+        if let Some((name, _)) = parts.0.iter().find(|(name, _)| !known(name)) {
+            return Err(invalid(name, "this library has no such column"));
+        }
+        for column in saved_columns() {
+            let bytes = parts.of(column.name()).len();
+            if !fits(columns, column, bytes) {
+                let rows = columns.rows.of(column.store());
+                let row = column.element().bytes();
+                return Err(invalid(column.name(), format!("{bytes} bytes for {rows} rows of {row} bytes")));
+            }
+        }
+        let mut is_known = vec![false; columns.rows.fluid];
+        for id in parts.of(Column::FluidId.name()).as_chunks::<4>().0 {
+            match is_known.get_mut(u32::from_le_bytes(*id) as usize) {
+                Some(known) if !*known => *known = true,
+                _ => {
+                    return Err(invalid(
+                        Column::FluidId.name(),
+                        "identities are not 0 to their number less one",
+                    ));
+                }
+            }
+        }
+        let holds = |body: u32| body == u32::MAX || (body as usize) < columns.rows.bodies;
+        let mut grips = parts.of(Column::NodeGrip.name()).as_chunks::<4>().0.iter();
+        match grips.find(|grip| !holds(u32::from_le_bytes(**grip))) {
+            Some(grip) => {
+                let body = u32::from_le_bytes(*grip);
+                Err(invalid(Column::NodeGrip.name(), format!("there is no body of number {body}")))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Positions from their bytes.
+fn places(bytes: &[u8]) -> Vec<Vec3> {
+    let place = |bytes: &[u8; 12]| {
+        let mut words = [0_u32; 3];
+        copy_words(bytes, &mut words);
+        Vec3::from_array(words.map(f32::from_bits))
+    };
+    bytes.as_chunks::<12>().0.iter().map(place).collect()
+}

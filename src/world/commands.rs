@@ -1,0 +1,193 @@
+//! Commands of a host, applied at the beginning of a step.
+
+use glam::{DVec3, Vec3};
+use sorb_kernels::{
+    body::{Body, Wrench},
+    columns::{Columns, lane},
+};
+
+use super::{StepError, World, fastest_body, sleep::Kind};
+use crate::{
+    command::{Command, CommandError, Nodes},
+    rigid::{RigidError, Target},
+};
+
+impl World {
+    /// Checks a command, and keeps it for the beginning of the next step; commands are carried out in the order in which they
+    /// were pushed. They wake what they act on.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// use sorb::{Command, World, glam::Vec3, scene::Scene};
+    ///
+    /// let mut world = World::new(&Scene::new("space"))?;
+    /// world.push(Command::Gravity { gravity: Vec3::new(0.0, -1.62, 0.0) })?;
+    /// let error = world.push(Command::Gravity { gravity: Vec3::splat(1e6) });
+    /// assert!(error.is_err_and(|error| error.to_string().contains("out of range -100 to 100 m/s^2")));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// A value is out of range, or there is no such body or node; nothing has changed.
+    pub fn push(&mut self, command: Command) -> Result<(), CommandError> {
+        self.check_command(&command)?;
+        self.commands.pending.push(command);
+        Ok(())
+    }
+
+    /// Carries out what was pushed.
+    pub(super) fn carry_out(&mut self) -> Result<(), StepError> {
+        if self.commands.pending.is_empty() {
+            return Ok(());
+        }
+        // A device that cannot be read is lost, which the step reports.
+        if self.commands.pending.iter().any(changes_columns) && !self.stores.bring_home() {
+            return Ok(());
+        }
+        let pending = std::mem::take(&mut self.commands.pending);
+        for command in &pending {
+            self.carry_out_one(command).map_err(|error| StepError::Rigid(error.to_string()))?;
+        }
+        self.clock.body_speed = fastest_body(&self.stores.host.bodies.states.0);
+        Ok(())
+    }
+
+    fn carry_out_one(&mut self, command: &Command) -> Result<(), RigidError> {
+        match command {
+            Command::Force { body, force, torque } => {
+                let count = self.bodies().len();
+                self.commands.forces.resize(count, [Vec3::ZERO; 2]);
+                self.commands.forces[*body as usize] = [*force, *torque];
+                self.wake_kinds(|kind| kind == Kind::Body(*body as usize));
+            }
+            Command::Impulse { body, impulse, angular_impulse } => {
+                let index = *body as usize;
+                self.wake_kinds(|kind| kind == Kind::Body(index));
+                let state = self.engine.state(index);
+                let linear = state.linear_velocity + *impulse * self.engine.inverse_mass(index);
+                let angular = state.angular_velocity + self.engine.inverse_inertia(index) * *angular_impulse;
+                self.set_velocity(index, linear, angular)?;
+            }
+            Command::Velocity { body, linear_velocity, angular_velocity } => {
+                let index = *body as usize;
+                self.wake_kinds(|kind| kind == Kind::Body(index));
+                self.set_velocity(index, *linear_velocity, *angular_velocity)?;
+            }
+            Command::Pose { body, position, rotation, duration } => {
+                let (index, start) = (*body as usize, self.clock.time);
+                let state = self.engine.state(index);
+                let target = Target {
+                    from: state.position,
+                    from_rotation: state.rotation,
+                    position: *position,
+                    rotation: rotation.as_dquat().normalize().as_quat(),
+                    start,
+                    end: start + f64::from(*duration),
+                };
+                self.engine.set_target(index, target)?;
+                let count = self.bodies().len();
+                self.commands.targets.resize(count, None);
+                self.commands.targets[index] = Some(target);
+                self.sleep.follow(index, &target);
+                self.take_over_body(index);
+                self.wake_kinds(|_| false);
+            }
+            Command::Gravity { gravity } => {
+                self.set_gravity(*gravity)?;
+                self.wake_kinds(|_| true);
+            }
+            Command::Grip { body, nodes } => self.grip(*body, nodes),
+            Command::Release { nodes } => self.release(nodes),
+        }
+        Ok(())
+    }
+
+    fn set_velocity(&mut self, index: usize, linear: Vec3, angular: Vec3) -> Result<(), RigidError> {
+        self.engine.set_velocity(index, linear, angular)?;
+        self.take_over_body(index);
+        Ok(())
+    }
+
+    fn take_over_body(&mut self, index: usize) {
+        self.stores.host.bodies.states.0[index].state = self.engine.state(index);
+    }
+
+    /// Sets the gravity of everything.
+    pub(crate) fn set_gravity(&mut self, gravity: Vec3) -> Result<(), RigidError> {
+        self.engine.set_gravity(gravity)?;
+        self.light.set_gravity(gravity);
+        self.params.gravity = gravity;
+        Ok(())
+    }
+
+    fn grip(&mut self, body: u32, nodes: &Nodes) {
+        let columns = &mut self.stores.host;
+        let state = columns.bodies.states.0[body as usize].state;
+        let rows = rows_of(columns, nodes);
+        let inverse = state.rotation.conjugate();
+        for row in &rows {
+            let [x, y, z, _] = columns.nodes.position[*row];
+            let offset = inverse * (Vec3::new(x, y, z) - state.position);
+            columns.nodes.grip[*row] = body;
+            columns.nodes.grip_offset[*row] = [offset.x, offset.y, offset.z, 0.0];
+            columns.nodes.position[*row][lane::nodes::position::INVERSE_MASS] = 0.0;
+        }
+        self.wake_sponges(&rows, true);
+    }
+
+    fn release(&mut self, nodes: &Nodes) {
+        let columns = &mut self.stores.host;
+        let mut rows = rows_of(columns, nodes);
+        rows.retain(|row| columns.nodes.grip[*row] != u32::MAX);
+        for row in &rows {
+            let density = self.scene.sponges[columns.nodes.sponge[*row] as usize].density;
+            columns.nodes.grip[*row] = u32::MAX;
+            columns.nodes.grip_offset[*row] = [0.0; 4];
+            columns.nodes.position[*row][lane::nodes::position::INVERSE_MASS] =
+                1.0 / (density * columns.nodes.volume[*row]);
+        }
+        self.wake_sponges(&rows, false);
+    }
+
+    /// Wakes the sponges of some nodes, which bodies may move from afar if they hold them.
+    fn wake_sponges(&mut self, rows: &[usize], is_held: bool) {
+        let mut sponges: Vec<usize> =
+            rows.iter().map(|row| self.stores.host.nodes.sponge[*row] as usize).collect();
+        sponges.sort_unstable();
+        sponges.dedup();
+        if is_held {
+            self.sleep.keep_awake(&sponges);
+        }
+        self.wake_kinds(|kind| matches!(kind, Kind::Sponge(own) if sponges.contains(&own)));
+    }
+}
+
+/// Whether a command changes what a device has a copy of.
+fn changes_columns(command: &Command) -> bool {
+    matches!(command, Command::Gravity { .. } | Command::Grip { .. } | Command::Release { .. })
+}
+
+/// Rows of nodes, in order.
+fn rows_of(columns: &Columns, nodes: &Nodes) -> Vec<usize> {
+    match nodes {
+        Nodes::Rows(rows) => rows.iter().map(|row| *row as usize).collect(),
+        Nodes::Sphere { centre, radius } => {
+            let rows = columns.nodes.position.iter().take(columns.rows.nodes).enumerate();
+            let is_inside = |row: &[f32; 4]| {
+                centre.distance_squared(Vec3::new(row[0], row[1], row[2])) <= radius * radius
+            };
+            rows.filter(|(_, row)| is_inside(row)).map(|(row, _)| row).collect()
+        }
+    }
+}
+
+/// Adds the forces of commands in a step \[s\] to the wrenches on bodies.
+pub(crate) fn add_forces(forces: &[[Vec3; 2]], bodies: &[Body], wrenches: &mut [Wrench], step: f32) {
+    debug_assert!(forces.is_empty() || forces.len() == bodies.len());
+    for (wrench, [force, torque]) in wrenches.iter_mut().zip(forces) {
+        let whole = |vector: &Vec3| -> DVec3 { vector.as_dvec3() * f64::from(step) };
+        wrench.impulse += whole(force);
+        wrench.angular_impulse += whole(torque);
+    }
+}
