@@ -44,7 +44,7 @@ use crate::{
 
 pub use error::{StepError, WorldError};
 pub(crate) use moving::move_bodies;
-use moving::{column_pressure, fastest, fastest_body, wrenches};
+use moving::{column_pressure, fastest, fastest_body, take_masses, wrenches};
 
 /// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]
@@ -306,6 +306,8 @@ impl World {
     fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
         let awake = self.awake();
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
+        let (bodies, sleep) = (&mut self.stores.host.bodies.states.0, &self.sleep);
+        take_masses(self.engine.as_ref(), bodies, |index| sleep.has(sleep::Kind::Body(index)));
         let Self { runner, cpu, params, stores, engine, light, fluid_forces, commands, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {

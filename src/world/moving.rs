@@ -1,8 +1,8 @@
 //! Speeds of particles, nodes and bodies, and the motion of bodies by the wrenches of fluid and sponges.
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use sorb_kernels::{
-    body::{Body, Wrench},
+    body::{Body, BodyKind, Wrench},
     columns::{BodyStore, Columns},
 };
 
@@ -36,6 +36,15 @@ pub(super) fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
     (0..count).map(total).collect()
 }
 
+/// What forces do to the bodies in this step: nothing to those that are held.
+pub(super) fn take_masses(engine: &dyn RigidEngine, bodies: &mut [Body], is_held: impl Fn(usize) -> bool) {
+    for (index, body) in bodies.iter_mut().enumerate() {
+        let is_free = body.kind == BodyKind::Dynamic && !is_held(index);
+        body.inverse_mass = if is_free { engine.inverse_mass(index) } else { 0.0 };
+        body.inverse_inertia = if is_free { engine.inverse_inertia(index) } else { Mat3::ZERO };
+    }
+}
+
 /// Passes the wrenches of fluid and sponges, and the forces of commands, to the engine, and stores the new states of the bodies.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
@@ -49,7 +58,6 @@ pub(crate) fn move_bodies(
     engine.step(step, &wrenches)?;
     for (index, body) in bodies.states.0.iter_mut().enumerate() {
         body.state = engine.state(index);
-        body.inverse_inertia = engine.inverse_inertia(index);
     }
     Ok(())
 }

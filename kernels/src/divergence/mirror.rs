@@ -182,3 +182,101 @@ fn closest_of_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> (Vec3, Curvature) {
     let scale = 1.0 / (va + vb + vc);
     (a + ab * (vb * scale) + ac * (vc * scale), Curvature::Flat)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{Mat3, Quat};
+
+    use super::*;
+    use crate::{
+        body::{BodyKind, BodyState},
+        rounding::Rounding,
+        testing::Random,
+    };
+
+    const SPACING: f32 = 0.005;
+
+    fn body(shape: Shape) -> Body {
+        let state = BodyState {
+            position: Vec3::new(0.01, -0.02, 0.005),
+            rotation: Quat::from_xyzw(0.3, -0.2, 0.5, 0.8).normalize(),
+            linear_velocity: Vec3::ZERO,
+            angular_velocity: Vec3::ZERO,
+        };
+        let rounding = Rounding::new(&shape, SPACING);
+        let kind = BodyKind::Fixed;
+        let (inverse_mass, inverse_inertia) = (0.0, Mat3::ZERO);
+        let (friction, touches_nodes, no_slip) = (0.0, true, false);
+        Body { shape, kind, state, friction, touches_nodes, no_slip, rounding, inverse_mass, inverse_inertia }
+    }
+
+    fn octahedron() -> Shape {
+        let size = 0.03;
+        let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+        let vertices = axes.iter().flat_map(|axis| [-size * *axis, size * *axis]).collect();
+        let signs = [-1.0_f32, 1.0];
+        let normals = signs.map(|x| signs.map(|y| signs.map(|z| Vec3::new(x, y, z).normalize())));
+        let planes =
+            normals.as_flattened().as_flattened().iter().map(|n| (*n, size / 3.0_f32.sqrt())).collect();
+        let triangles =
+            vec![[1, 3, 5], [3, 0, 5], [0, 2, 5], [2, 1, 5], [3, 1, 4], [0, 3, 4], [2, 0, 4], [1, 2, 4]];
+        Shape::Hull { planes, vertices, triangles }
+    }
+
+    /// Largest differences of the map of velocities times the volume ratio from the derivative of the image by the point, and of the volume
+    /// ratio from its determinant; and the same of a plain reflection.
+    fn differences(shape: Shape) -> (f32, f32) {
+        let (body, mut random) = (body(shape), Random(3));
+        let mirror = Mirror::new(&body);
+        let (mut worst, mut of_reflection, mut images) = (0.0_f32, 0.0_f32, 0);
+        for _ in 0..4000 {
+            let mut unit = || random.unit() - 0.5;
+            let point = body.state.position + 0.1 * Vec3::new(unit(), unit(), unit());
+            // Where all are on the same kind of face or edge the derivative is a difference.
+            let step = 1e-4;
+            let at = |offset: Vec3| mirror.image(point + offset, 1.6 * SPACING);
+            let ends = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| (at(step * axis), at(-step * axis)));
+            let Some(image) = at(Vec3::ZERO) else { continue };
+            let columns = ends.map(|(a, b)| Some((a?, b?)));
+            let [Some(x), Some(y), Some(z)] = columns else { continue };
+            let is_smooth = [x, y, z].iter().all(|(a, b)| {
+                let bend = a.position + b.position - 2.0 * image.position;
+                bend.length() < 0.02 * step && (a.volume_ratio - b.volume_ratio).abs() < 0.2
+            });
+            if !is_smooth {
+                continue;
+            }
+            images += 1;
+            let of = |(a, b): (Mirrored, Mirrored)| (a.position - b.position) / (2.0 * step);
+            let derivative = Mat3::from_cols(of(x), of(y), of(z));
+            let (a, b) = (image.along, image.between);
+            let map =
+                Mat3::from_cols(Vec3::new(a.x, b.z, b.y), Vec3::new(b.z, a.y, b.x), Vec3::new(b.y, b.x, a.z));
+            let far =
+                |map: Mat3| (map - derivative).to_cols_array().into_iter().map(f32::abs).fold(0.0, f32::max);
+            worst = worst.max(far(map * image.volume_ratio));
+            worst = worst.max((image.volume_ratio + derivative.determinant()).abs());
+            let n = (point - image.position).normalize();
+            let reflection = Mat3::IDENTITY - 2.0 * Mat3::from_cols(n * n.x, n * n.y, n * n.z);
+            of_reflection = of_reflection.max(far(reflection * image.volume_ratio));
+        }
+        assert!(images > 50, "{images}");
+        (worst, of_reflection)
+    }
+
+    #[test]
+    fn images_carry_the_flux_and_the_volume_of_what_they_mirror() {
+        let shapes = [
+            Shape::Sphere { radius: 0.03 },
+            Shape::Capsule { half_height: 0.02, radius: 0.02 },
+            Shape::Cuboid { half_extents: Vec3::new(0.03, 0.02, 0.025) },
+            octahedron(),
+        ];
+        for shape in shapes {
+            let (found, of_reflection) = differences(shape.clone());
+            assert!(found < 0.03, "{found:.1e} of {shape:?}");
+            // Negative control: the reflection alone.
+            assert!(of_reflection > 0.3, "{of_reflection:.1e} of {shape:?}");
+        }
+    }
+}

@@ -238,6 +238,13 @@ impl ListValues {
         }
     }
 
+    /// The value of the k-th neighbour of a query.
+    #[cfg(test)]
+    pub(crate) fn of(&self, lists: &Neighbors, query: usize, place: usize) -> f32 {
+        let range = lists.chunk(query).range(query % CHUNK);
+        self.chunk(query)[range][place][query % LANES]
+    }
+
     /// The values of the chunk that begins at query `first`.
     #[inline(always)]
     pub(crate) fn chunk(&self, first: usize) -> &[[f32; LANES]] {

@@ -3,6 +3,7 @@
 mod audit;
 mod compare;
 mod descent;
+mod divergence;
 mod drag;
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;

@@ -98,7 +98,7 @@ impl Sleep {
     }
 
     /// Whether a part sleeps; false for an unknown part.
-    fn has(&self, kind: Kind) -> bool {
+    pub(crate) fn has(&self, kind: Kind) -> bool {
         self.parts.iter().any(|part| part.kind == kind && part.is_asleep)
     }
 

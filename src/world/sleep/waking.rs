@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::{Mat3, Vec3};
+use glam::Vec3;
 use sorb_kernels::{
     asleep::Asleep,
     body::{Body, BodyKind},
@@ -196,11 +196,8 @@ impl World {
         let bodies = &mut self.stores.host.bodies;
         for (index, body) in bodies.states.0.iter_mut().enumerate() {
             if body.kind == BodyKind::Dynamic {
-                let is_held = dormant.bodies.contains(&index);
-                self.engine.hold(index, is_held);
+                self.engine.hold(index, dormant.bodies.contains(&index));
                 body.state = self.engine.state(index);
-                body.inverse_mass = if is_held { 0.0 } else { self.engine.inverse_mass(index) };
-                body.inverse_inertia = if is_held { Mat3::ZERO } else { self.engine.inverse_inertia(index) };
             }
         }
         self.clock.body_speed = fastest_body(&bodies.states.0);

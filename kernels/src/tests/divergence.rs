@@ -1,0 +1,140 @@
+//! The force by pressures is the transpose of the divergence, with images and bodies: it keeps energy and both momenta.
+
+use glam::{DVec3, Vec3};
+
+use super::scene::{CHANNEL, FULL, Options, Scene, TORUS, best};
+use crate::{columns::lane, divergence::image_rows::Images, testing::Random};
+
+fn vector(row: [f32; 4]) -> DVec3 {
+    DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]))
+}
+
+fn random_row(random: &mut Random, scale: f32) -> [f32; 4] {
+    let mut next = || scale * (random.unit() - 0.5);
+    [next(), next(), next(), 0.0]
+}
+
+/// What a fault does to a scene between the force and the divergence.
+type Fault = fn(&mut Scene);
+
+/// `sum P div v - sum a . v - sum f . u` over the sum of the magnitudes, for random pressures, velocities and motions of bodies.
+fn imbalance(options: Options, fault: Fault) -> f64 {
+    let kernel = crate::kernel_named("divergence::acceleration").expect("there is one");
+    let mut scene = Scene::new(options.suiting(kernel)).before("divergence::acceleration", &best());
+    let mut random = Random(7);
+    let count = scene.columns.rows.fluid;
+    let fluid = &mut scene.columns.fluid;
+    for row in 0..count {
+        let is_dense = fluid.renormalisation[row][lane::fluid::renormalisation::DENSITY] >= 0.75;
+        fluid.predicted[row][lane::fluid::predicted::PRESSURE] = if is_dense { random.unit() } else { 0.0 };
+    }
+    for (row, source) in fluid.image_predicted.0.iter_mut().zip(&fluid.images.source) {
+        row[3] = fluid.predicted[*source as usize][lane::fluid::predicted::PRESSURE];
+    }
+    fluid.velocity.iter_mut().for_each(|row| row[..3].fill(0.0));
+    let store = &mut scene.columns.bodies;
+    store.expected.fill([0.0; 4]);
+    store.expected_spin.fill([0.0; 4]);
+    scene.run(&best(), &["divergence::acceleration"]);
+    let step = f64::from(scene.params.step);
+    let a: Vec<DVec3> = scene.columns.fluid.correction.iter().map(|row| vector(*row) / step).collect();
+    // Any field of velocities, and any motion of bodies.
+    let spacing = scene.params.fluid.spacing;
+    let fluid = &mut scene.columns.fluid;
+    fluid.correction.iter_mut().take(count).for_each(|row| *row = random_row(&mut random, 1.0));
+    fluid.factors.iter_mut().for_each(|row| row[lane::fluid::factors::TARGET] = 0.0);
+    let store = &mut scene.columns.bodies;
+    store.solved.iter_mut().for_each(|row| *row = random_row(&mut random, 1.0));
+    store.solved_spin.iter_mut().for_each(|row| *row = random_row(&mut random, 0.1 / spacing));
+    let motions: Vec<_> =
+        store.solved.iter().zip(&store.solved_spin).map(|(u, w)| (vector(*u), vector(*w))).collect();
+    fault(&mut scene);
+    scene.run(&best(), &["divergence::residual"]);
+    let (fluid, store) = (&scene.columns.fluid, &scene.columns.bodies);
+    let (mut sum, mut size) = (0.0, 0.0);
+    let mut add = |term: f64| {
+        sum += term;
+        size += term.abs();
+    };
+    for (row, a) in a.iter().enumerate().take(count) {
+        let pressure = f64::from(fluid.predicted[row][lane::fluid::predicted::PRESSURE]);
+        let closing = f64::from(fluid.pressure_rows[row][lane::fluid::pressure_rows::COMPRESSION]) / step;
+        add(-pressure * closing);
+        add(-a.dot(vector(fluid.correction[row])));
+    }
+    let momentum = f64::from(scene.params.fluid.particle_mass) * step;
+    for (body, (linear, angular)) in motions.iter().enumerate() {
+        let given = store.pressure_wrenches.total(body, motions.len());
+        add(-given.impulse.dot(*linear) / momentum);
+        add(-given.angular_impulse.dot(*angular) / momentum);
+    }
+    sum.abs() / size
+}
+
+#[test]
+fn the_force_by_pressures_is_the_transpose_of_the_divergence() {
+    for options in [FULL, CHANNEL, TORUS, Options { walls: false, ..FULL }, Options { bodies: false, ..FULL }]
+    {
+        let found = imbalance(options, |_| ());
+        assert!(found < 2e-7, "{found:.1e} in {options:?}");
+    }
+}
+
+#[test]
+fn faults_of_images_and_bodies_are_noticed() {
+    let faults: [(&str, Fault); 4] = [
+        ("images in bodies without their volume", |scene| {
+            let Images { near, pairs, position, source, .. } = &mut scene.columns.fluid.images;
+            let count = source.len();
+            let stored = pairs.clone();
+            pairs.fill(near, |row, image| {
+                let ratio = if image < count { position[image][3] } else { 1.0 };
+                let own = near.of(row, count).position(|other| other as usize == image);
+                own.map_or(0.0, |place| stored.of(near, row, place) / ratio)
+            });
+        }),
+        ("reflection instead of the map of fluxes", |scene| {
+            let images = &mut scene.columns.fluid.images;
+            for (along, between) in images.along.iter_mut().zip(&mut images.between) {
+                along[..3].fill(1.0);
+                between[..3].fill(0.0);
+            }
+        }),
+        ("bodies outside of the solve", |scene| {
+            scene.columns.bodies.solved.fill([0.0; 4]);
+            scene.columns.bodies.solved_spin.fill([0.0; 4]);
+        }),
+        ("walls that do not mirror", |scene| {
+            let images = &mut scene.columns.fluid.images;
+            for (along, between) in images.along.iter_mut().zip(&mut images.between) {
+                (along[3], between[3]) = (1.0, 1.0);
+            }
+            images.foot.iter_mut().for_each(|row| row[3] = 1.0);
+        }),
+    ];
+    for (name, fault) in faults {
+        let found = imbalance(FULL, fault);
+        assert!(found > 1e-4, "{name} is not noticed: {found:.1e}");
+    }
+}
+
+#[test]
+fn a_common_motion_of_water_and_bodies_has_no_divergence() {
+    let kernel = crate::kernel_named("divergence::residual").expect("there is one");
+    let largest = |bodies_move: bool| {
+        // Walls do not move with the water.
+        let mut scene = Scene::new(Options { walls: false, ..FULL }.suiting(kernel));
+        scene = scene.before("divergence::residual", &best());
+        let motion = Vec3::new(1.0, -2.0, 0.5).extend(0.0).to_array();
+        let fluid = &mut scene.columns.fluid;
+        fluid.correction.fill(motion);
+        fluid.factors.iter_mut().for_each(|row| row[lane::fluid::factors::TARGET] = 0.0);
+        scene.columns.bodies.solved.fill(if bodies_move { motion } else { [0.0; 4] });
+        scene.columns.bodies.solved_spin.fill([0.0; 4]);
+        scene.run(&best(), &["divergence::residual"]);
+        let left = |row: &[f32; 4]| row[lane::fluid::pressure_rows::COMPRESSION].abs();
+        scene.columns.fluid.pressure_rows.iter().map(left).fold(0.0, f32::max)
+    };
+    let (found, control) = (largest(true), largest(false));
+    assert!(found < 1e-5 * control, "{found:.1e} of {control:.1e}");
+}
