@@ -310,10 +310,10 @@ impl ColumnData for PressureSolve {
     }
     fn take_words(&mut self, _rows: usize, words: &[u32]) -> bool {
         let [rounds, is_converged, values @ ..] = words else { return false };
-        let &[length, error, pressure, tolerance] = values else { return false };
-        let [length, error, pressure, tolerance] = [length, error, pressure, tolerance].map(f32::from_bits);
-        self.state =
-            Solve { rounds: *rounds, is_converged: *is_converged != 0, length, error, pressure, tolerance };
+        let Ok(values) = <[u32; 6]>::try_from(values) else { return false };
+        let [length, error, pressure, tolerance, target_scale, speed] = values.map(f32::from_bits);
+        let (rounds, is_converged) = (*rounds, *is_converged != 0);
+        self.state = Solve { rounds, is_converged, length, error, pressure, tolerance, target_scale, speed };
         true
     }
     fn poison(&mut self) {
