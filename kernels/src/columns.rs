@@ -381,7 +381,7 @@ columns! {
         /// Expected angular velocity.
         BodyExpectedSpin = expected_spin: rows("rad/s"), Scratch, needs Divergence;
         /// Impulses of the pressure of the present round of a solve for the divergence.
-        BodyPressureWrenches = pressure_wrenches: Wrenches("N s"), Scratch;
+        BodyPressureWrenches = pressure_wrenches: Wrenches("N s"), Scratch on host;
         /// Velocity by them.
         BodySolved = solved: rows("m/s"), Scratch, needs Divergence;
         /// Angular velocity by them.

@@ -26,12 +26,15 @@ impl Columns {
 }
 
 impl Bodies {
-    /// Takes over the poses and velocities of the same bodies, or all of them if these are others.
+    /// Takes over poses, velocities and what follows from them of the same bodies, or all of them if these are others.
     pub fn copy_states(&mut self, from: &Self) {
         if self.0.len() != from.0.len() {
             self.0.clone_from(&from.0);
         }
-        self.0.iter_mut().zip(&from.0).for_each(|(own, other)| own.state = other.state);
+        for (own, other) in self.0.iter_mut().zip(&from.0) {
+            own.state = other.state;
+            (own.inverse_mass, own.inverse_inertia) = (other.inverse_mass, other.inverse_inertia);
+        }
     }
 }
 

@@ -42,7 +42,7 @@ pub use setup::BodySetup;
 pub use target::Target;
 
 use glam::{Mat3, Vec3};
-use std::fmt;
+use std::{any::Any, fmt};
 
 /// Interface between the simulator and the engine that moves the rigid bodies.
 ///
@@ -88,6 +88,11 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
 
     /// Copies the engine with all of its state: the copy continues with the same bits.
     fn boxed_clone(&self) -> Box<dyn RigidEngine>;
+
+    /// The engine itself, for [`copy_from`](Self::copy_from) of its own kind; the default is none.
+    fn as_any(&self) -> Option<&dyn Any> {
+        None
+    }
 
     /// Takes over the state of another engine of the same bodies, in the same memory; false if it cannot, and nothing has
     /// changed. The default cannot.

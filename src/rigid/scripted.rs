@@ -3,6 +3,7 @@ use super::script::Script;
 use super::setup::{check_step, checked_state};
 use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Target, Wrench};
 use glam::{Mat3, Vec3};
+use std::any::Any;
 
 /// Fixed and kinematic bodies only; needs no physics engine.
 #[derive(Clone, Debug)]
@@ -78,6 +79,23 @@ impl RigidEngine for ScriptedEngine {
     }
 
     fn hold(&mut self, _index: usize, _is_held: bool) {}
+
+    fn as_any(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+
+    fn copy_from(&mut self, other: &dyn RigidEngine) -> bool {
+        let Some(other) = other.as_any().and_then(|other| other.downcast_ref::<Self>()) else { return false };
+        if other.states.len() != self.states.len() {
+            return false;
+        }
+        self.time = other.time;
+        self.states.copy_from_slice(&other.states);
+        for (own, other) in self.scripts.iter_mut().zip(&other.scripts) {
+            own.target = other.target;
+        }
+        true
+    }
 
     fn save(&self, out: &mut Vec<u8>) -> Result<(), RigidError> {
         let targets: Vec<_> = self.scripts.iter().map(|script| script.target).collect();

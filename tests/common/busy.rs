@@ -30,11 +30,25 @@ pub(crate) fn as_in_the_paper(scene: &mut Scene) {
     }
 }
 
+/// The solve for the divergence, which has no sponges yet, around bodies that float and sink.
+fn without_sponges(scene: &mut Scene) {
+    scene.sponges.clear();
+    if let Some(fluid) = &mut scene.fluid {
+        fluid.solver = FluidSolver::Divergence;
+    }
+    for body in &mut scene.bodies {
+        (body.kind, body.density) = (BodyKind::Dynamic, 1200.0);
+        body.motions.clear();
+        body.position.y = 0.06;
+    }
+}
+
 /// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based
-/// fluids.
+/// fluids, `_divergence` the solve for the divergence.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
     let (name, projected) = name.strip_suffix("_pbf").map_or((name, false), |name| (name, true));
+    let (name, divergence) = name.strip_suffix("_divergence").map_or((name, false), |name| (name, true));
     let mut scene = scene::preset(name)
         .and_then(|scene| scene.scaled(resolution))
         .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -87,6 +101,9 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
             scene.sponges[0].saturation = 0.3;
         }
         _ => {}
+    }
+    if divergence {
+        without_sponges(&mut scene);
     }
     scene
 }

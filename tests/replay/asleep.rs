@@ -64,7 +64,12 @@ fn restores_while_parts_fall_asleep_sleep_and_wake() {
 fn nothing_else_survives_a_step() {
     use sorb::internal::{column::Life, columns::Column, poison};
     let scratch = |column: &&Column| column.life() == Life::Scratch;
-    for scene in [pool(), super::busy::scene("life", 0.4), super::busy::scene("ball_drop_paper", 0.4)] {
+    for scene in [
+        pool(),
+        super::busy::scene("life", 0.4),
+        super::busy::scene("life_divergence", 0.4),
+        super::busy::scene("ball_drop_paper", 0.4),
+    ] {
         let (mut straight, mut world) = (common::world(&scene), common::world(&scene));
         for frame in 0..if scene.name == "pool" { FRAMES } else { 6 } {
             common::frame(&mut straight);

@@ -17,7 +17,7 @@ use sorb::{Options, SimdLevel, World, scene::Scene};
 const RESOLUTION: f32 = 0.6;
 
 /// All scenes of the library, busy, and others with other solvers.
-const SCENES: [&str; 13] = [
+const SCENES: [&str; 14] = [
     "standing",
     "ball_drop",
     "squish",
@@ -31,6 +31,7 @@ const SCENES: [&str; 13] = [
     "ball_drop_paper",
     "dry_paper",
     "life_pbf",
+    "life_divergence",
 ];
 
 fn options(threads: usize, simd: SimdLevel) -> Options {

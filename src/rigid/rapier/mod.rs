@@ -11,7 +11,7 @@ use rapier3d::prelude::{
     IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsPipeline, Pose, Real,
     RigidBodyBuilder, RigidBodyHandle, RigidBodySet, RigidBodyType, SharedShape, SoftBodySet,
 };
-use std::fmt;
+use std::{any::Any, fmt};
 
 /// Largest number of rapier3d steps in one step.
 const MAXIMUM_PASSES: f32 = 32.0;
@@ -319,6 +319,33 @@ impl RigidEngine for RapierEngine {
         [state.linear_velocity, state.angular_velocity] = velocities;
         body.set_linvel(state.linear_velocity, true);
         body.set_angvel(state.angular_velocity, true);
+    }
+
+    fn as_any(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+
+    fn copy_from(&mut self, other: &dyn RigidEngine) -> bool {
+        let Some(other) = other.as_any().and_then(|other| other.downcast_ref::<Self>()) else { return false };
+        if other.states.len() != self.states.len() {
+            return false;
+        }
+        (self.gravity, self.time, self.parameters) = (other.gravity, other.time, other.parameters);
+        self.states.copy_from_slice(&other.states);
+        self.held.copy_from_slice(&other.held);
+        for (own, other) in self.scripts.iter_mut().flatten().zip(other.scripts.iter().flatten()) {
+            own.target = other.target;
+        }
+        // rapier3d has no copy in place.
+        self.islands = other.islands.clone();
+        self.broad_phase = other.broad_phase.clone();
+        self.narrow_phase = other.narrow_phase.clone();
+        self.bodies = other.bodies.clone();
+        self.colliders = other.colliders.clone();
+        self.continuous = other.continuous.clone();
+        // Its working memory refers to the sets as they were.
+        self.pipeline = PhysicsPipeline::new();
+        true
     }
 
     fn save(&self, out: &mut Vec<u8>) -> Result<(), RigidError> {
