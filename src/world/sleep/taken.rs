@@ -1,6 +1,6 @@
 //! Sleep that is taken over from a saved state.
 
-use glam::{Mat3, Vec3};
+use glam::Vec3;
 use sorb_kernels::{asleep::Asleep, clock::Bound};
 
 use super::{Bounds, Places, Saved, Sleep, Way};
@@ -68,11 +68,6 @@ impl World {
         self.steps = Steps::new(&self.scene, &self.params, bodies, &*self.engine, &left_out);
         if let Some(bound) = Bound::ALL.get(usize::from(bound)) {
             self.steps = self.steps.clone().with_constant(constant, *bound);
-        }
-        for (index, body) in self.stores.host.bodies.states.0.iter_mut().enumerate() {
-            let is_held = left_out.bodies.contains(&index);
-            body.inverse_mass = if is_held { 0.0 } else { self.engine.inverse_mass(index) };
-            body.inverse_inertia = if is_held { Mat3::ZERO } else { self.engine.inverse_inertia(index) };
         }
         self.leave_out(&left_out);
     }
