@@ -1,4 +1,5 @@
 mod build;
+mod copies;
 mod saved;
 
 use super::script::Script;
@@ -330,21 +331,7 @@ impl RigidEngine for RapierEngine {
         if other.states.len() != self.states.len() {
             return false;
         }
-        (self.gravity, self.time, self.parameters) = (other.gravity, other.time, other.parameters);
-        self.states.copy_from_slice(&other.states);
-        self.held.copy_from_slice(&other.held);
-        for (own, other) in self.scripts.iter_mut().flatten().zip(other.scripts.iter().flatten()) {
-            own.target = other.target;
-        }
-        // rapier3d has no copy in place.
-        self.islands = other.islands.clone();
-        self.broad_phase = other.broad_phase.clone();
-        self.narrow_phase = other.narrow_phase.clone();
-        self.bodies = other.bodies.clone();
-        self.colliders = other.colliders.clone();
-        self.continuous = other.continuous.clone();
-        // Its working memory refers to the sets as they were.
-        self.pipeline = PhysicsPipeline::new();
+        self.take_over(other);
         true
     }
 
@@ -382,30 +369,6 @@ impl RigidEngine for RapierEngine {
 
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())
-    }
-}
-
-impl Clone for RapierEngine {
-    fn clone(&self) -> Self {
-        Self {
-            gravity: self.gravity,
-            names: self.names.clone(),
-            kinds: self.kinds.clone(),
-            handles: self.handles.clone(),
-            scripts: self.scripts.clone(),
-            states: self.states.clone(),
-            held: self.held.clone(),
-            time: self.time,
-            parameters: self.parameters,
-            islands: self.islands.clone(),
-            broad_phase: self.broad_phase.clone(),
-            narrow_phase: self.narrow_phase.clone(),
-            bodies: self.bodies.clone(),
-            colliders: self.colliders.clone(),
-            continuous: self.continuous.clone(),
-            // Working memory: rapier3d leaves it out of its own snapshots as well.
-            pipeline: PhysicsPipeline::new(),
-        }
     }
 }
 
