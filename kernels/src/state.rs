@@ -9,8 +9,8 @@ use crate::{
 };
 
 impl Columns {
-    /// Takes over all columns of a state ([`Life::is_saved`]) from columns of the same scene. Allocates nothing where these
-    /// columns have the room.
+    /// Takes over all columns of a state ([`Life::is_saved`](crate::column::Life::is_saved)) from columns of the same scene.
+    /// Allocates nothing where these columns have the room.
     pub fn copy_state(&mut self, from: &Self) {
         self.rows = from.rows;
         for column in Column::ALL.iter().filter(|column| column.life().is_saved()) {

@@ -9,7 +9,7 @@ use super::common;
 fn saves_are_small() {
     for name in super::busy::SCENES {
         let mut world = common::world(&common::preset(name, 1.0));
-        for _ in 0..40 {
+        for _ in 0..10 {
             common::frame(&mut world);
         }
         let (raw, packed) = sizes(&world);
