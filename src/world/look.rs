@@ -66,8 +66,11 @@ impl World {
     pub(crate) fn filled(&self) -> Vec<f64> {
         let fluid = &self.params.fluid;
         let ratio = |density: &f32| f64::from(*density) / f64::from(fluid.rest_density);
+        let count = self.particle_positions().len();
+        if count == 0 {
+            return Vec::new();
+        }
         if fluid.incompressible.is_none() {
-            let count = self.particle_positions().len();
             return self.columns().fluid.density.iter().take(count).map(ratio).collect();
         }
         let Columns { fluid: summed, rows, .. } = self.summed_density();
