@@ -240,7 +240,7 @@ columns! {
         /// present round.
         FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
         /// Images of the particles in walls and bodies.
-        FluidImages = images: Images("m"), Scratch on host;
+        FluidImages = images: Images("m"), Scratch;
         /// For every image, that of a vector of its particle.
         FluidImageVectors = image_vectors: ImageRows("1"), Scratch on host;
         /// For every image in walls alone the renormalisation of its particle, mirrored, along the axes: xx, yy, zz. Zero for those in
@@ -381,7 +381,7 @@ columns! {
         /// Expected angular velocity.
         BodyExpectedSpin = expected_spin: rows("rad/s"), Scratch, needs Divergence;
         /// Impulses of the pressure of the present round of a solve for the divergence.
-        BodyPressureWrenches = pressure_wrenches: Wrenches("N s"), Scratch on host;
+        BodyPressureWrenches = pressure_wrenches: Wrenches("N s"), Scratch;
         /// Velocity by them.
         BodySolved = solved: rows("m/s"), Scratch, needs Divergence;
         /// Angular velocity by them.

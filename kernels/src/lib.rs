@@ -74,7 +74,7 @@ kernels! {
     divergence {
         images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick,
     } shared {
-        closing, pub image_rows, mirror, rate, reflect, symmetric,
+        closing, pub image_rows, pub(crate) mirror, pub(crate) rate, pub(crate) reflect, symmetric,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
     /// descent or by Neo-Hookean constraints, and contact of its nodes.

@@ -24,7 +24,8 @@ fn choose_step() {
         if (clock.fluid_pressure > 0.0) {
             offer(PRESSURE_COURANT * params.spacing / sqrt(PEAK_PRESSURE * clock.fluid_pressure), BOUND_PRESSURE);
         }
-        if (clock.fluid_acceleration > 0.0) {
+        // A solve for the divergence has no error that grows with the acceleration of a particle.
+        if (clock.fluid_acceleration > 0.0 && params.divergence == 0u) {
             offer(ACCELERATION_COURANT * sqrt(radius / clock.fluid_acceleration), BOUND_ACCELERATION);
         }
     }
@@ -79,13 +80,19 @@ fn check() {
     if (clock.running == 0u) {
         return;
     }
-    clock.longest = vec4<u32>(
+    clock.longest[0] = vec4<u32>(
         extremes[EXTREME_NEIGHBORS],
         extremes[EXTREME_CONTROLS],
         extremes[EXTREME_CONTROL_FLUID],
         extremes[EXTREME_PAIRS],
     );
-    if (any(clock.longest != vec4<u32>(0u))) {
+    clock.longest[1] = vec4<u32>(
+        extremes[EXTREME_NEAR_IMAGES],
+        extremes[EXTREME_IMAGE_PARTICLES],
+        extremes[EXTREME_IMAGES],
+        0u,
+    );
+    if (any((clock.longest[0] | clock.longest[1]) != vec4<u32>(0u))) {
         clock.status = STATUS_LIST_FULL;
         clock.running = 0u;
     }

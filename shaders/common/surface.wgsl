@@ -35,7 +35,7 @@ fn hull_surface(body: Body, local: vec3<f32>) -> Surface {
     var nearest = Surface(vec3<f32>(0.0, 1.0, 0.0), -3.4e38);
     for (var face = 0u; face < body.planes; face += 1u) {
         let plane = planes[body.first_plane + face];
-        let distance = dot(local, plane.xyz) - plane.w;
+        let distance = dot(local, plane.xyz) - plane.w * body.size;
         if (distance > nearest.distance) {
             nearest = Surface(plane.xyz, distance);
         }

@@ -1,3 +1,4 @@
+// #include wrap
 // Second half of semi-implicit Euler: x <- x + h v, kept inside the walls and wrapped along periodic axes; the largest
 // speed, and the first row that is not finite. Writes the particles to the columns that the next step sorts.
 
@@ -12,18 +13,6 @@
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<workgroup> largest: atomic<u32>;
-
-// A particle that leaves the box along a periodic axis enters it on the other side; values that are not finite stay so.
-fn wrapped_into_box(x: vec3<f32>) -> vec3<f32> {
-    let low = params.period_low;
-    let high = params.period_high;
-    let period = params.periods;
-    let repeats = period > vec3<f32>(0.0);
-    let divisor = select(vec3<f32>(1.0), period, repeats);
-    let moved = clamp(x - period * floor((x - low) / divisor), low, high);
-    let leaves = repeats & ((x < low) | (x >= high)) & (abs(x) < vec3<f32>(3.0e38));
-    return select(x, moved, leaves);
-}
 
 @compute @workgroup_size(GROUP)
 fn main(

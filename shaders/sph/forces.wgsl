@@ -47,13 +47,16 @@ fn main(
         let u = closeness(params.smoothing, square);
         let cube = u * u * u;
         let relative = its_velocity.xyz - own_velocity.xyz;
-        push += ((own.w + there.w) * cube) * apart;
+        // A solve for the divergence has all of the pressure.
+        if (params.divergence == 0u) {
+            push += ((own.w + there.w) * cube) * apart;
+            if (min(own.w, there.w) > 0.0) {
+                roughness += cube * (there.w - own.w + dot(weight, apart));
+            }
+        }
         let volume = select(its_velocity.w, rest_volume, is_known);
         pull += (volume * u) * relative;
         central += (volume * cube * dot(relative, apart) / (square + softening)) * apart;
-        if (min(own.w, there.w) > 0.0) {
-            roughness += cube * (there.w - own.w + dot(weight, apart));
-        }
     }
     // mu / rho_i = mu V_i / m.
     let pressure_scale = params.smoothing.gradient * params.particle_mass;

@@ -21,6 +21,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if (lane == 0u) {
         let displacement = sqrt(sum / f32(max(params.fluid_rows, 1u))) / params.spacing;
         let tolerance = max(displacement * ERROR_PER_DISPLACEMENT, MINIMUM_TOLERANCE);
-        fluid_pressure_solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u, 1.0, 0.0);
+        fluid_pressure_solve = Solve(FIRST_LENGTH, min(tolerance, params.solve_tolerance), 0.0, 0.0, 0u, 0u, 0.0, 0.0);
     }
 }

@@ -16,13 +16,13 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     // Sums of missing groups stay zero.
     let groups = arrayLength(&solve_sums) / 2u;
     var own = vec4<f32>(0.0);
-    var pressures = 0.0;
+    var rest = vec4<f32>(0.0);
     for (var k = lane; k < groups; k += GROUP_THREADS) {
         own += solve_sums[k * 2u];
-        pressures += solve_sums[k * 2u + 1u].x;
+        rest += solve_sums[k * 2u + 1u];
     }
     let sums = group_row(lane, own, false);
-    let pressure_sum = group_row(lane, vec4<f32>(pressures, 0.0, 0.0, 0.0), false).x;
+    let others = group_row(lane, rest, false);
     if (lane != 0u) {
         return;
     }
@@ -30,18 +30,24 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let rounds = fluid_pressure_solve.rounds + 1u;
     fluid_pressure_solve.rounds = rounds;
     fluid_pressure_solve.error = sums.x / particles;
-    fluid_pressure_solve.pressure = sqrt(pressure_sum / particles);
+    fluid_pressure_solve.pressure = sqrt(others.x / particles);
     extremes[EXTREME_PRESSURE] = bitcast<u32>(fluid_pressure_solve.pressure);
-    let has_converged = fluid_pressure_solve.error <= fluid_pressure_solve.tolerance || rounds >= params.solve_rounds;
+    // A solve for the divergence has a first round that changes no pressure, and stands light bodies.
+    let still = params.divergence;
+    let most = select(1.0, params.lightest, params.divergence != 0u);
+    let largest = UNEVENNESS * fluid_pressure_solve.tolerance;
+    let is_even = still == 0u || others.y / particles <= largest * largest * (largest * largest);
+    let is_small = fluid_pressure_solve.error <= fluid_pressure_solve.tolerance && is_even && rounds > still;
+    let has_converged = is_small || rounds >= params.solve_rounds;
     fluid_pressure_solve.is_converged = select(0u, 1u, has_converged);
     convergence[0] = select(1u, 0u, has_converged);
-    fluid_pressure_solve.length = FIRST_LENGTH;
+    fluid_pressure_solve.length = FIRST_LENGTH * most;
     let below = select(sums.w, sums.z, rounds % 2u == 0u);
     let above = select(sums.z, sums.y, rounds % 2u == 0u);
-    if (rounds > 1u && sums.z > 0.0 && below > 0.0) {
+    if (rounds > 1u + still && sums.z > 0.0 && below > 0.0) {
         let ratio = above / below;
         if (is_finite(ratio)) {
-            fluid_pressure_solve.length = clamp(ratio, MINIMUM_LENGTH, MAXIMUM_LENGTH);
+            fluid_pressure_solve.length = clamp(ratio, MINIMUM_LENGTH * most, MAXIMUM_LENGTH);
         }
     }
 }

@@ -9,6 +9,22 @@
 @group(0) @binding(5) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
+// With a solve for the divergence the core of a body, which the ball of `ball_of` sweeps: what has images must not pass the surface that
+// they belong to.
+fn core_of(body: Body) -> Body {
+    var core = body;
+    if (params.divergence != 0u) {
+        core.extents = select(body.extents, body.core, body.shape == SHAPE_KIND_CUBOID);
+        core.size = select(1.0, body.core.x, body.shape == SHAPE_KIND_HULL);
+    }
+    return core;
+}
+
+fn ball_of(body: Body) -> f32 {
+    let is_round = body.shape != SHAPE_KIND_CUBOID && body.shape != SHAPE_KIND_HULL;
+    return select(body.rounding, 0.0, is_round || params.divergence == 0u);
+}
+
 @compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -28,12 +44,13 @@ fn main(
     }
     let margin = params.spacing * WALL_MARGIN;
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let before = body_states[index];
+        let before = core_of(body_states[index]);
+        let gap = margin + ball_of(body_states[index]);
         let after = at_end(before);
         let end = start + clock.step * own.xyz;
         var moved = vec3<f32>(0.0);
         if (is_row) {
-            moved = swept(before, after, margin, start, end);
+            moved = swept(before, after, gap, start, end);
         }
         if (group_touches(lane, any(moved != vec3<f32>(0.0)))) {
             let change = moved * clock.inverse_step;

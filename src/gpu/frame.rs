@@ -14,7 +14,9 @@ use crate::{
     rigid::BodyKind,
     schedule::{Runner, run::slot},
     stores::Stores,
-    world::{FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies},
+    world::{
+        FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies, sleep::Kind, take_masses,
+    },
 };
 
 /// Largest number of steps of a submission: the host must be able to stop.
@@ -140,6 +142,9 @@ impl World {
         let clock = Instant::now();
         self.keep_state();
         let Stores { host, device } = &mut self.stores;
+        take_masses(self.engine.as_ref(), &mut host.bodies.states.0, |index| {
+            self.sleep.has(Kind::Body(index))
+        });
         let Some(device) = device else {
             return Err(GpuError::Refused { reason: "the world has no device".to_owned() }.into());
         };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sorb_kernels::{
     columns::{Column, RowCounts},
-    gpu::{CLOCK_BYTES, Gpu, GpuError, column_bytes},
+    gpu::{BODY_BYTES, CLOCK_BYTES, Gpu, GpuError, column_bytes},
     params::Params,
     step::RIGID,
 };
@@ -164,7 +164,7 @@ impl Request<'_> {
         let first = self.plan.lines().iter().map(|line| line.name).find(|name| self.plan.runs(name));
         let wrenches = "clock, bodies.fluid_wrenches, bodies.node_wrenches";
         vec![
-            transfer(first, true, "bodies.states", bodies * 144),
+            transfer(first, true, "bodies.states", bodies * BODY_BYTES),
             transfer(Some(RIGID.name), false, wrenches, clock + bodies * 64),
         ]
     }

@@ -43,8 +43,8 @@ use crate::{
 };
 
 pub use error::{StepError, WorldError};
-pub(crate) use moving::move_bodies;
-use moving::{column_pressure, fastest, fastest_body, take_masses, wrenches};
+use moving::{column_pressure, fastest, fastest_body, wrenches};
+pub(crate) use moving::{move_bodies, take_masses};
 
 /// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]

@@ -37,7 +37,7 @@ pub(super) fn wrenches(columns: &Columns) -> Vec<(Wrench, Wrench)> {
 }
 
 /// What forces do to the bodies in this step: nothing to those that are held.
-pub(super) fn take_masses(engine: &dyn RigidEngine, bodies: &mut [Body], is_held: impl Fn(usize) -> bool) {
+pub(crate) fn take_masses(engine: &dyn RigidEngine, bodies: &mut [Body], is_held: impl Fn(usize) -> bool) {
     for (index, body) in bodies.iter_mut().enumerate() {
         let is_free = body.kind == BodyKind::Dynamic && !is_held(index);
         body.inverse_mass = if is_free { engine.inverse_mass(index) } else { 0.0 };

@@ -6,7 +6,7 @@ use sorb::{
     scene::Scene,
 };
 
-use super::{DFSPH, HONEY, busy, common, difference, world, worst};
+use super::{DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, world, worst};
 
 /// Largest difference of quantities that do not depend on single particles: place of water and sponges, absorbed water, and
 /// energies, over the energy that the scene had to lose.
@@ -167,6 +167,8 @@ cases! {
     stream_of_the_paper: "water_paper", 0.5, STREAM, 1, 1e-4;
     honey_in_a_sponge: "ball_drop", 0.5, HONEY, 1, 1e-4;
     solved_dam_break: "dam_break_paper", 0.5, DFSPH, 1, 1e-4;
+    divergence: "water", 0.5, DIVERGENCE, 1, 1e-4;
+    divergence_and_bodies: "water", 0.5, DIVERGENCE_AND_BODIES, 1, 1e-4;
     a_second_of_solved_water: "water", 0.4, &[], 60, 1e-1;
     a_second_of_honey: "water", 0.4, HONEY, 60, 1e-2;
     a_second_of_standing: "standing", 0.3, &[], 60, 1e-2;

@@ -18,6 +18,17 @@ use sorb::{Bound, Measures, Offload, Options, World, WorldError, gpu::Gpu, scene
 /// Pressure by a solve.
 const DFSPH: &[&str] = &["fluid.solver=\"dfsph\""];
 
+/// Pressure by a solve for the divergence of the velocities, in a scene without sponges.
+const DIVERGENCE: &[&str] = &["fluid.solver=\"divergence\""];
+
+/// The same with a ball that falls into the water, and a box under it.
+const DIVERGENCE_AND_BODIES: &[&str] = &[
+    "fluid.solver=\"divergence\"",
+    "bodies=[\
+        {name=\"ball\",kind=\"dynamic\",shape={kind=\"sphere\",radius=0.02},position=[-0.15,0.13,0.0],density=500.0},\
+        {name=\"box\",kind=\"dynamic\",shape={kind=\"cuboid\",half_extents=[0.02,0.015,0.02]},position=[-0.09,0.016,0.0]}]",
+];
+
 /// Viscous fluid with no-slip everywhere, solved so precisely that one iteration more or less does not show.
 const HONEY: &[&str] = &[
     "fluid.viscosity=5",
@@ -68,7 +79,7 @@ fn worst(differences: &[(f64, &'static str)]) -> (f64, &'static str) {
 
 #[test]
 fn a_world_and_its_clone_end_with_the_same_bits() {
-    let presets = ["water", "ball_drop", "water_paper", "ball_drop_paper"];
+    let presets = ["water", "ball_drop", "water_paper", "ball_drop_paper", "water_divergence"];
     let mut scenes: Vec<_> = presets.iter().map(|name| busy::scene(name, 0.3)).collect();
     scenes.extend([common::preset("stack", 0.3), one_lies_one_flies()]);
     for scene in scenes {

@@ -8,7 +8,7 @@ use sorb::{
     schedule::{Place, Verdict},
 };
 
-use super::{DFSPH, HONEY, busy, common, difference, gpu, world};
+use super::{DFSPH, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, gpu, world};
 
 #[test]
 fn every_kernel_can_be_the_first_on_the_gpu() {
@@ -51,8 +51,9 @@ fn everything(name: &str, keys: &[&str]) -> Scene {
 }
 
 /// Kernels that run at one place: those that use the cells, and those that are repeated until they have converged.
-const TOGETHER: [&[&str]; 3] = [
-    &["grid::sort_fluid", "grid::fluid_neighbors", "couple::controls"],
+const TOGETHER: [&[&str]; 4] = [
+    &["grid::sort_fluid", "grid::fluid_neighbors", "divergence::images", "couple::controls"],
+    &["divergence::update", "divergence::acceleration", "divergence::residual"],
     &["sph::pressure_update", "sph::pressure_acceleration", "couple::solid_yield", "sph::pressure_residual"],
     &["sph::viscosity_product", "sph::viscosity_update"],
 ];
@@ -95,6 +96,11 @@ fn every_kernel_can_be_alone_on_either_side() {
 #[test]
 fn every_kernel_of_a_pressure_solve_can_be_alone_on_either_side() {
     assert_each_can_be_alone(&everything("ball_drop_paper", DFSPH), 1e-4);
+}
+
+#[test]
+fn every_kernel_of_a_solve_for_the_divergence_can_be_alone_on_either_side() {
+    assert_each_can_be_alone(&common::with(&busy::scene("water", 0.5), DIVERGENCE_AND_BODIES), 1e-4);
 }
 
 #[test]
@@ -158,7 +164,7 @@ fn kernels_at_places_where_they_cannot_be_are_refused() {
 fn plans_say_where_and_why_and_what_travels() {
     let scene = busy::scene("ball_drop_paper", 0.3);
     let all = world(&scene, Offload::Gpu).plan().to_string();
-    for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 144 bytes"] {
+    for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 208 bytes"] {
         assert!(all.contains(part), "{part} is not in {all}");
     }
     let mixed = world(&scene, Offload::From("sph::forces")).plan().to_string();

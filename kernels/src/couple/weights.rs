@@ -1,19 +1,26 @@
 //! Weights of the coupling on the host, where a device has made the lists: the device stores no weights to fetch.
 
+use glam::Vec3;
+
 use crate::{
     columns::{Column, Columns, lane},
     cpu::CHUNK,
+    divergence::{image_rows::NO_BODY, reflect::mirrored_renormalisation},
     lanes::LANES,
     params::Params,
     smoothing::Wendland,
 };
 
 /// Columns of values beside lists, with the lists and the positions that they are computed from.
-const SOURCES: [(Column, Column, &[Column]); 3] = [
+const SOURCES: [(Column, Column, &[Column]); 5] = [
     (Column::FluidControlWeights, Column::FluidControls, POINTS),
     (Column::ControlFluidWeights, Column::ControlFluid, POINTS),
-    (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted]),
+    (Column::FluidPairs, Column::FluidNeighbors, &[Column::FluidPredicted, Column::FluidPosition]),
+    (Column::FluidImageRenormalisation, Column::FluidImages, RENORMALISATION),
+    (Column::FluidImageRenormalisationBetween, Column::FluidImages, RENORMALISATION),
 ];
+
+const RENORMALISATION: &[Column] = &[Column::FluidRenormalisation, Column::FluidRenormalisationBetween];
 
 const POINTS: &[Column] = &[Column::FluidPosition, Column::ControlPosition];
 
@@ -29,6 +36,9 @@ pub fn sources(column: Column) -> Option<(Column, &'static [Column])> {
 pub fn weigh(params: &Params, columns: &mut Columns, column: Column) {
     if column == Column::FluidPairs {
         return pairs(params, columns);
+    }
+    if matches!(column, Column::FluidImageRenormalisation | Column::FluidImageRenormalisationBetween) {
+        return mirror_renormalisation(columns);
     }
     let radius = f64::from(params.coupling.support_radius);
     let Columns { fluid, controls, .. } = columns;
@@ -65,17 +75,35 @@ pub fn weigh(params: &Params, columns: &mut Columns, column: Column) {
     }
 }
 
-/// The factors of pairs, as `sph::factors` computes them.
+/// The renormalisation of images, as `divergence::moments` computes it.
+fn mirror_renormalisation(columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    let images = &fluid.images;
+    let renormalisation = [&fluid.renormalisation[..], &fluid.renormalisation_between[..]];
+    let rows = (0..images.position.len()).map(|image| match images.body.get(image) {
+        Some(&NO_BODY) => mirrored_renormalisation(images, image, renormalisation),
+        _ => ([0.0; 4], [0.0; 4]),
+    });
+    (fluid.image_renormalisation.0, fluid.image_renormalisation_between.0) = rows.unzip();
+}
+
+/// The factors of pairs, as `sph::factors` computes them, and with a solve for the divergence `divergence::moments`.
 fn pairs(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let radius = f64::from(params.fluid.smoothing.support_radius);
     let volume = f64::from(params.fluid.particle_mass / params.fluid.rest_density);
-    let (lists, predicted) = (&fluid.neighbors, &fluid.predicted);
+    let lists = &fluid.neighbors;
+    let points = if params.fluid.divergence().is_some() { &fluid.position } else { &fluid.predicted };
+    let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
     let factor = |query: usize, target: u32| {
-        let (Some(query), Some(target)) = (predicted.get(query), predicted.get(target as usize)) else {
+        let (Some(query), Some(target)) = (points.get(query), points.get(target as usize)) else {
             return 0.0;
         };
-        let square: f64 = (0..3).map(|axis| f64::from(query[axis] - target[axis]).powi(2)).sum();
+        let apart = |axis: usize| {
+            let (apart, period) = (f64::from(query[axis] - target[axis]), f64::from(periods[axis]));
+            if period > 0.0 { apart - period * (apart / period).round() } else { apart }
+        };
+        let square: f64 = (0..3).map(|axis| apart(axis) * apart(axis)).sum();
         (volume * Wendland::gradient_f64(radius, square.sqrt())) as f32
     };
     for (chunk, values) in fluid.pairs.match_lists(lists).0.iter_mut().enumerate() {

@@ -39,7 +39,17 @@ declare! {
     writes: [FluidCorrection, FluidImageForce, BodyPressureWrenches, BodySolved, BodySolvedSpin],
     oracle: crate::oracle::divergence::acceleration,
     bound: 1e-5,
-    twin: [],
+    twin: [
+        pass("divergence::acceleration_images", Images),
+        pass(NAME, Fluid),
+        pass("divergence::acceleration_walls", Fluid),
+        pass("divergence::image_reaction", Fluid).from("push").on(&[
+            ("points", "fluid_predicted"),
+            ("vectors", "fluid_correction"),
+            ("wrenches", "body_pressure_wrenches"),
+        ]),
+        pass("divergence::push_bodies", Bodies).on(&[("wrenches", "body_pressure_wrenches")]),
+    ],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

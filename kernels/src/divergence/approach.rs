@@ -29,7 +29,14 @@ declare! {
     writes: [FluidApproach, FluidImageVectors],
     oracle: crate::oracle::divergence::approach,
     bound: 1e-5,
-    twin: [],
+    twin: [
+        pass("divergence::reflect", Images).from("moving").on(&[
+            ("values", "fluid_velocity"),
+            ("linear", "body_expected"),
+            ("angular", "body_expected_spin"),
+        ]),
+        pass(NAME, Fluid),
+    ],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

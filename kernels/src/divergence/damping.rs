@@ -36,7 +36,15 @@ declare! {
     writes: [FluidAcceleration, FluidImageVectors, BodyFluidWrenches],
     oracle: crate::oracle::divergence::damping,
     bound: 1e-5,
-    twin: [],
+    twin: [
+        pass("divergence::reflect", Images).from("still").on(&[
+            ("values", "fluid_approach"),
+            ("linear", "body_expected"),
+            ("angular", "body_expected_spin"),
+        ]),
+        pass(NAME, Fluid),
+        pass("divergence::damping_bodies", Fluid),
+    ],
     constants: {
         /// Largest part of a difference that is damped in a step.
         const MAXIMUM_PART: f32 = 0.3;

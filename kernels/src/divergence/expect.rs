@@ -16,7 +16,9 @@ declare! {
     writes: [BodyExpected, BodyExpectedSpin],
     oracle: crate::oracle::divergence::expect,
     bound: 1e-5,
-    twin: [],
+    twin: [
+        pass(NAME, Bodies).on(&[("wrenches", "body_fluid_wrenches")]),
+    ],
 }
 
 fn cpu(_: &Cpu, params: &Params, columns: &mut Columns) {

@@ -37,7 +37,15 @@ declare! {
     writes: [FluidAcceleration, FluidImageForce, BodyFluidWrenches],
     oracle: crate::oracle::divergence::hydrostatic,
     bound: 1e-5,
-    twin: [],
+    twin: [
+        pass("divergence::hydrostatic_images", Images),
+        pass(NAME, Fluid),
+        pass("divergence::image_reaction", Fluid).on(&[
+            ("points", "fluid_position"),
+            ("vectors", "fluid_acceleration"),
+            ("wrenches", "body_fluid_wrenches"),
+        ]),
+    ],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

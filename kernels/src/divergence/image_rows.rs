@@ -11,14 +11,16 @@ use crate::{
         neighbors::{ListValues, Neighbors},
     },
     lanes::LANES,
+    layout::constants,
     params::Params,
 };
 
-/// No body: the image is one in walls alone.
-pub(crate) const NO_BODY: u32 = u32::MAX;
-
-/// Distance from a body at which particles have images in it, over the spacing.
-const BODY_REACH: f32 = 1.6;
+constants! {
+    /// No body: the image is one in walls alone.
+    pub(crate) const NO_BODY: u32 = u32::MAX;
+    /// Distance from a body at which particles have images in it, over the spacing.
+    const BODY_REACH: f32 = 1.6;
+}
 
 /// An image of a particle.
 #[derive(Clone, Copy, Debug)]
@@ -174,7 +176,7 @@ impl Images {
 }
 
 /// Gravity without its part along axes on which space repeats: there is no bottom.
-fn along_open_axes(params: &Params) -> Vec3 {
+pub(crate) fn along_open_axes(params: &Params) -> Vec3 {
     let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
     Vec3::select(periods.cmpgt(Vec3::ZERO), Vec3::ZERO, params.gravity)
 }

@@ -29,7 +29,22 @@ declare! {
     writes: [FluidImages],
     oracle: crate::oracle::divergence::images,
     bound: 4e-6,
-    twin: [],
+    twin_writes: [FluidExtremes],
+    twin: [
+        pass("divergence::images_count", Fluid),
+        pass("grid::scan_sums", ImageLineScan).on(IMAGE_LINE),
+        pass("grid::scan_pages", ImageLinePages).on(IMAGE_LINE),
+        pass("divergence::images_total", One),
+        pass(NAME, Fluid),
+        pass("grid::count", Images).on(IMAGE_CELLS),
+        pass("grid::scan_sums", ImageScan).on(IMAGE_CELLS),
+        pass("grid::scan_pages", ImagePages).on(IMAGE_CELLS),
+        pass("grid::scatter", Images).on(IMAGE_CELLS),
+        pass("divergence::image_order", Images).on(IMAGE_CELLS),
+        pass("divergence::near_images", Fluid).on(IMAGE_CELLS),
+        pass("divergence::image_particles", Images).on(FLUID_CELLS),
+        CHECK,
+    ],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

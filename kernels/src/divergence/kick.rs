@@ -32,7 +32,10 @@ declare! {
     oracle: crate::oracle::divergence::kick,
     // A shift is a small difference of large coordinates.
     bound: 2e-4,
-    twin: [],
+    twin: [
+        pass(NAME, Fluid),
+        pass("divergence::shift", Fluid),
+    ],
     constants: {
         /// Shift over the square of the spacing and the first moment.
         const SHIFT: f32 = 0.2;

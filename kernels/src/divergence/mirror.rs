@@ -13,13 +13,17 @@
 
 use glam::{Mat3, Vec3};
 
-use crate::body::{Body, Shape};
+use crate::{
+    body::{Body, Shape},
+    layout::constants,
+};
 
-/// Depth over the radius of curvature beyond which there is no image: its volume would be next to nothing.
-const DEEPEST: f32 = 0.95;
-
-/// Relative difference of squared distances below which a face is preferred to an edge.
-const TIE: f32 = 1e-5;
+constants! {
+    /// Depth over the radius of curvature beyond which there is no image: its volume would be next to nothing.
+    const DEEPEST: f32 = 0.95;
+    /// Relative difference of squared distances below which a face is preferred to an edge.
+    const TIE: f32 = 1e-5;
+}
 
 /// What a surface is like where it is closest to a point.
 #[derive(Clone, Copy, Debug)]

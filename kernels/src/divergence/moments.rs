@@ -51,7 +51,12 @@ declare! {
     ],
     oracle: crate::oracle::divergence::moments,
     bound: 1e-5,
-    twin: [],
+    twin: [
+        pass(NAME, Fluid),
+        pass("divergence::diagonal", Fluid),
+        pass("divergence::beginning", Fluid),
+        pass("divergence::begin_solve", One),
+    ],
     constants: {
         /// Largest deviation of the second moment from that of a lattice, as a norm, that is corrected in full.
         const MAXIMUM_DEVIATION: f32 = 0.7;

@@ -7,14 +7,17 @@
 use crate::{
     columns::Fluid,
     lanes::{self, LANES, Simd, f32x8},
+    layout::constants,
     periodic::Space,
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
 use super::{image_rows::ImageRows, symmetric::Symmetric};
 
-/// Density over that at rest below which a particle has no pressure.
-pub(super) const SPARSE: f32 = 0.75;
+constants! {
+    /// Density over that at rest below which a particle has no pressure.
+    pub(super) const SPARSE: f32 = 0.75;
+}
 
 /// A field on particles and images.
 pub(super) struct Field<'a> {

@@ -62,7 +62,7 @@ pub(super) fn reflect(
 }
 
 /// Renormalisation of the particle of an image, mirrored by the walls: `Q L Q`.
-pub(super) fn mirrored_renormalisation(
+pub(crate) fn mirrored_renormalisation(
     images: &Images,
     image: usize,
     renormalisation: [&[[f32; 4]]; 2],

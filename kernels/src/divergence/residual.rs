@@ -32,7 +32,18 @@ declare! {
     writes: [FluidPressureRows, FluidPressureSolve, FluidImageVectors],
     oracle: crate::oracle::divergence::residual,
     bound: 1e-5,
-    twin: [],
+    twin_writes: [FluidExtremes],
+    twin: [
+        pass("divergence::reflect", Images).on(&[
+            ("values", "fluid_correction"),
+            ("linear", "body_solved"),
+            ("angular", "body_solved_spin"),
+        ]),
+        pass("divergence::rate", Fluid),
+        pass("divergence::rate_images", Fluid),
+        pass(NAME, Fluid),
+        pass("sph::solve_round", One),
+    ],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

@@ -24,7 +24,9 @@ declare! {
     writes: [FluidPredicted, FluidPressureRows, FluidImagePredicted],
     oracle: crate::oracle::divergence::update,
     bound: 4e-6,
-    twin: [],
+    twin: [
+        pass(NAME, Fluid),
+    ],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

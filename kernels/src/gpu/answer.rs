@@ -126,6 +126,12 @@ enumeration! {
         ControlFluid,
         /// Longest of the lists of nodes that may touch.
         Pairs,
+        /// Longest of the lists fluid to images.
+        NearImages,
+        /// Longest of the lists images to fluid.
+        ImageParticles,
+        /// Images, where there is no room for all.
+        Images,
         /// Root of the mean square of the pressure, as bits of f32.
         Pressure,
     }

@@ -64,6 +64,19 @@ impl Grid {
         Self { origin, inverse_edge, size, cells: cells(size) as u32, wrap, rows: points as u32 }
     }
 
+    /// Numbers in a line, for prefix sums over them.
+    pub(super) fn line(numbers: usize) -> Self {
+        let count = numbers as u32;
+        Self {
+            origin: [0.0; 3],
+            inverse_edge: 1.0,
+            size: [count, 1, 1],
+            cells: count,
+            wrap: [false; 3],
+            rows: count,
+        }
+    }
+
     /// Pages of cells; the last cell is followed by one more start.
     pub(super) fn pages(&self) -> u64 {
         u64::from(self.cells / PAGE_CELLS + 1)

@@ -51,7 +51,8 @@ mod tests {
     #[test]
     fn properties_are_those_of_the_intended_kernels() {
         assert_eq!(names(Kernel::sorts_fluid), ["grid::sort_fluid"]);
-        assert_eq!(names(Kernel::searches_fluid), ["grid::fluid_neighbors", "couple::controls"]);
+        let searches = ["grid::fluid_neighbors", "divergence::images", "couple::controls"];
+        assert_eq!(names(Kernel::searches_fluid), searches);
         assert_eq!(names(Kernel::returns_fluid), ["sph::advect"]);
         assert_eq!(names(|kernel| kernel.renews(Column::FluidExtremes)), ["sph::kick"]);
         assert_eq!(names(|kernel| kernel.renews(Column::NodeExtremes)), ["pbd::velocity"]);

@@ -1,11 +1,8 @@
 //! How a device holds a column: its buffer, its bytes, and its words there and back.
 
 use super::{
-    answer::Extreme as Word,
-    groups::wrench_bytes,
-    layout::Value,
-    pack::{Capacities, DeviceBody},
-    transfer::take_plain,
+    answer::Extreme as Word, bodies::DeviceBody, groups::wrench_bytes, images, layout::Value,
+    pack::Capacities, transfer::take_plain,
 };
 use crate::{
     body::Wrench,
@@ -39,6 +36,8 @@ pub(super) enum Form {
     ViscositySolve,
     /// Wrenches of every group of rows on every body.
     Wrenches,
+    /// Images of the particles and their lists, in several buffers.
+    Images,
     /// Bodies, which the device never changes.
     Bodies,
     /// A device computes it anew, or does without.
@@ -58,15 +57,18 @@ impl Form {
             Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
             Column::FluidPressureSolve => Self::PressureSolve,
             Column::FluidViscositySolve => Self::ViscositySolve,
-            Column::BodyFluidWrenches | Column::BodyNodeWrenches => Self::Wrenches,
+            Column::BodyFluidWrenches | Column::BodyPressureWrenches | Column::BodyNodeWrenches => {
+                Self::Wrenches
+            }
+            Column::FluidImages => Self::Images,
             Column::BodyStates => Self::Bodies,
             _ => Self::Nowhere,
         }
     }
 
-    /// Whether it can be read back.
+    /// Whether one buffer of it can be read back.
     pub(super) fn returns(self) -> bool {
-        !matches!(self, Self::Bodies | Self::Nowhere)
+        !matches!(self, Self::Images | Self::Bodies | Self::Nowhere)
     }
 
     /// The buffer of a column; `sorted` says that the particles are in the order of this step.
@@ -89,6 +91,7 @@ impl Form {
             Self::PressureSolve => Solve::BYTES as usize,
             Self::ViscositySolve => ViscositySolve::BYTES as usize,
             Self::Wrenches => wrench_bytes(pushing(column, rows), rows.bodies),
+            Self::Images => images::bytes(rows, capacities) as usize,
             Self::Bodies => count * DeviceBody::BYTES as usize,
             Self::Nowhere => 0,
         }
@@ -103,14 +106,14 @@ impl Form {
             Self::PressureSolve => columns.fluid.pressure_solve.state = Value::take(words),
             Self::ViscositySolve => columns.fluid.viscosity_solve.state = Value::take(words),
             Self::Wrenches => take_wrenches(columns, column, words),
-            Self::Bodies | Self::Nowhere => {}
+            Self::Images | Self::Bodies | Self::Nowhere => {}
         }
     }
 }
 
 /// Rows of the store that pushes bodies.
 fn pushing(column: Column, rows: RowCounts) -> usize {
-    if column == Column::BodyFluidWrenches { rows.fluid } else { rows.nodes }
+    if column == Column::BodyNodeWrenches { rows.nodes } else { rows.fluid }
 }
 
 /// The words of the first rows of a plain array.
@@ -164,8 +167,12 @@ fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
     let chunks = padded(pushing(column, columns.rows)).div_ceil(CHUNK);
     wrenches.resize(chunks * columns.rows.bodies, Wrench::default());
     let all = &mut columns.bodies;
-    let is_fluid = column == Column::BodyFluidWrenches;
-    *if is_fluid { &mut all.fluid_wrenches } else { &mut all.node_wrenches } = Wrenches(wrenches);
+    let to = match column {
+        Column::BodyFluidWrenches => &mut all.fluid_wrenches,
+        Column::BodyPressureWrenches => &mut all.pressure_wrenches,
+        _ => &mut all.node_wrenches,
+    };
+    *to = Wrenches(wrenches);
 }
 
 pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
@@ -201,7 +208,7 @@ mod tests {
     use super::*;
 
     const ROWS: RowCounts = RowCounts { fluid: 100, nodes: 30, tets: 90, bodies: 2 };
-    const CAPACITIES: Capacities = [8, 8, 8, 8];
+    const CAPACITIES: Capacities = [8; 8];
 
     #[test]
     fn every_column_that_a_device_holds_has_bytes() {
@@ -211,7 +218,7 @@ mod tests {
             assert_eq!(form == Form::Nowhere, column.is_on_host_only(), "{}", column.name());
         }
         // All words of the shared buffer are read back, for either side.
-        assert_eq!(Form::Extremes.bytes(Column::NodeExtremes, ROWS, CAPACITIES), 40);
+        assert_eq!(Form::Extremes.bytes(Column::NodeExtremes, ROWS, CAPACITIES), 52);
     }
 
     #[test]

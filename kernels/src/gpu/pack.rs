@@ -1,14 +1,13 @@
 //! Parameters, sponges, bodies and batches as shaders have them.
 
-use glam::{Mat3, Vec3};
-
 use super::layout::{Value, place_of, zero};
 use crate::{
-    body::{Body, Shape},
     clock::{Bound, StepLimits},
     columns::RowCounts,
-    layout::{constants, enumeration, layout},
-    params::{Cohesion, EquationOfState, ImplicitViscosity, Incompressible, Params, SpongeParams},
+    layout::{constants, layout},
+    params::{
+        Cohesion, Divergence, EquationOfState, ImplicitViscosity, Incompressible, Params, SpongeParams,
+    },
     pbd::{
         lattice::{COLORS, Topology, VERTEX_COLORS},
         meeting::pair_radius,
@@ -28,8 +27,9 @@ pub(super) const BATCHES: usize = COLORS + VERTEX_COLORS;
 /// Bytes from one batch to the next: the alignment that every device takes.
 pub(super) const BATCH_STRIDE: u64 = 256;
 
-/// Longest lists that fit: fluid to fluid, fluid to controls, controls to fluid, nodes to nodes that they may touch.
-pub(super) type Capacities = [u32; 4];
+/// Longest lists that fit: fluid to fluid, fluid to controls, controls to fluid, nodes to nodes that they may touch, fluid to images,
+/// images to fluid; images that fit; and a word that is unused.
+pub(super) type Capacities = [u32; 8];
 
 layout! {
     /// Parameters of a step; zero is what there is not. What is not said here is as in [`Params`].
@@ -68,6 +68,10 @@ layout! {
         neighbor_capacity: u32,
         control_capacity: u32,
         control_fluid_capacity: u32,
+        near_image_capacity: u32,
+        image_particle_capacity: u32,
+        /// Images that there is room for.
+        image_capacity: u32,
         smoothing: Wendland,
         coupling: Wendland,
         solid: Wendland,
@@ -84,6 +88,12 @@ layout! {
         correction_speed: f32,
         boundary_range: f32,
         boundary_share: f32,
+        /// Whether that is for the divergence of the velocities; the next four are those of such a solve.
+        divergence: bool,
+        lattice_moment: f32,
+        surface_moment: f32,
+        surface_lack: f32,
+        lightest: f32,
         implicit_viscosity: f32,
         implicit_central_viscosity: f32,
         viscosity_tolerance: f32,
@@ -113,7 +123,16 @@ impl StepParams {
         let fluid = &params.fluid;
         let [fluid_rows, node_rows, body_rows, tet_rows] =
             [rows.fluid, rows.nodes, rows.bodies, rows.tets].map(|rows| rows as u32);
-        let [neighbor_capacity, control_capacity, control_fluid_capacity, _] = capacities;
+        let [
+            neighbor_capacity,
+            control_capacity,
+            control_fluid_capacity,
+            _,
+            near_image_capacity,
+            image_particle_capacity,
+            image_capacity,
+            _,
+        ] = capacities;
         let mut all = Self {
             gravity: params.gravity.to_array(),
             fluid_rows,
@@ -140,6 +159,9 @@ impl StepParams {
             neighbor_capacity,
             control_capacity,
             control_fluid_capacity,
+            near_image_capacity,
+            image_particle_capacity,
+            image_capacity,
             smoothing: fluid.smoothing,
             coupling: params.coupling,
             solid: params.solid.unwrap_or(params.coupling),
@@ -169,6 +191,12 @@ impl StepParams {
             (self.solve_tolerance, self.solve_rounds) = (solve.tolerance, solve.rounds);
             (self.lattice_diagonal, self.correction_speed) = (lattice_diagonal, correction_speed);
             (self.boundary_range, self.boundary_share) = (boundary_range, boundary_share);
+        }
+        if let Some(own) = params.fluid.divergence() {
+            let Divergence { lattice_moment, surface_moment, surface_lack, lightest } = *own;
+            (self.divergence, self.lattice_moment) = (true, lattice_moment);
+            (self.surface_moment, self.surface_lack, self.lightest) =
+                (surface_moment, surface_lack, lightest);
         }
         if let Some(Cohesion { stiffness, smoothing, volume, boundary_range, boundary_share }) =
             &params.fluid.cohesion
@@ -204,99 +232,6 @@ pub(super) fn sponges(params: &Params, first: &[usize]) -> Vec<u32> {
     }
     words.resize(SPONGES * SpongeParams::WORDS, 0);
     words
-}
-
-enumeration! {
-    /// Shapes of bodies.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub(super) enum ShapeKind {
-        /// Solid half-space.
-        Plane,
-        /// Ball.
-        Sphere,
-        /// Box.
-        Cuboid,
-        /// Segment that is swept by a ball.
-        Capsule,
-        /// Convex hull.
-        Hull,
-    }
-}
-
-layout! {
-    /// A rigid body.
-    #[derive(Clone, Debug)]
-    pub(super) struct DeviceBody as Body {
-        position: [f32; 3],
-        /// Columns of the rotation matrix.
-        x: [f32; 3],
-        y: [f32; 3],
-        z: [f32; 3],
-        linear: [f32; 3],
-        angular: [f32; 3],
-        /// Half extents of a cuboid; x: half the length of a capsule's segment.
-        extents: [f32; 3],
-        radius: f32,
-        shape: ShapeKind,
-        first_plane: u32,
-        planes: u32,
-        /// Whether sponge nodes are kept out.
-        touches_nodes: bool,
-        /// Coulomb friction.
-        friction: f32,
-        /// Whether the fluid does not slide along it.
-        no_slip: bool,
-    }
-}
-
-impl DeviceBody {
-    /// A body; its face planes are put behind those of the others.
-    fn new(body: &Body, planes: &mut Vec<[f32; 4]>) -> Self {
-        let first_plane = planes.len() as u32;
-        let (shape, extents, radius) = match &body.shape {
-            Shape::Plane => (ShapeKind::Plane, Vec3::ZERO, 0.0),
-            Shape::Sphere { radius } => (ShapeKind::Sphere, Vec3::ZERO, *radius),
-            Shape::Cuboid { half_extents } => (ShapeKind::Cuboid, *half_extents, 0.0),
-            Shape::Capsule { half_height, radius } => (ShapeKind::Capsule, Vec3::X * *half_height, *radius),
-            Shape::Hull { planes: faces, .. } => {
-                planes.extend(faces.iter().map(|(normal, offset)| [normal.x, normal.y, normal.z, *offset]));
-                (ShapeKind::Hull, Vec3::ZERO, 0.0)
-            }
-        };
-        let (state, axes) = (&body.state, Mat3::from_quat(body.state.rotation));
-        Self {
-            position: state.position.to_array(),
-            x: axes.x_axis.to_array(),
-            y: axes.y_axis.to_array(),
-            z: axes.z_axis.to_array(),
-            linear: state.linear_velocity.to_array(),
-            angular: state.angular_velocity.to_array(),
-            extents: extents.to_array(),
-            radius,
-            shape,
-            first_plane,
-            planes: planes.len() as u32 - first_plane,
-            touches_nodes: body.touches_nodes,
-            friction: body.friction,
-            no_slip: body.no_slip,
-        }
-    }
-}
-
-/// Bodies, and the face planes of all hulls.
-pub(super) fn bodies(bodies: &[Body]) -> (Vec<u32>, Vec<[f32; 4]>) {
-    let mut planes = Vec::new();
-    let words = bodies.iter().flat_map(|body| DeviceBody::new(body, &mut planes).words()).collect();
-    (words, planes)
-}
-
-/// Number of face planes of all hulls.
-pub(super) fn plane_count(bodies: &[Body]) -> usize {
-    let planes = |body: &Body| match &body.shape {
-        Shape::Hull { planes, .. } => planes.len(),
-        _ => 0,
-    };
-    bodies.iter().map(planes).sum()
 }
 
 layout! {

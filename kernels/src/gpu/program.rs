@@ -9,6 +9,7 @@ use super::{
     error::GpuError,
     groups::{CONTROLS_PER_GROUP, GROUP_THREADS, SMALL_GROUP_ROWS, SMALL_GROUP_THREADS},
     layout::Value,
+    lists::IMAGES,
     pack::{BATCH_STRIDE, BATCHES, Batch, Repetition},
     pipeline::{Pipeline, has_any_group},
     resident::Resident,
@@ -298,6 +299,11 @@ impl Resident {
             Rows::PairPages => groups(self.grids[2].pages()),
             Rows::FluidPages => groups(self.grids[0].pages()),
             Rows::ControlPages => groups(self.grids[1].pages()),
+            Rows::ImageLineScan => groups(u64::from(self.grids[4].pages() > u64::from(ONE_GROUP_PAGES))),
+            Rows::ImageLinePages => groups(self.grids[4].pages()),
+            Rows::ImageScan => groups(u64::from(self.grids[3].pages() > u64::from(ONE_GROUP_PAGES))),
+            Rows::ImagePages => groups(self.grids[3].pages()),
+            Rows::Images => threads(self.capacities[IMAGES] as usize),
             Rows::Bodies => groups(bodies as u64),
         }
     }

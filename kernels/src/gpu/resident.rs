@@ -6,12 +6,15 @@ use wgpu::{Buffer, BufferUsages};
 
 use super::{
     answer::{BODY_SPEED_AT, CLOCK_BYTES, Extreme, WRENCH_BYTES},
+    bodies::{self, DeviceBody},
     cells::{Grid, PAGE_CELLS},
     device::Gpu,
     error::GpuError,
     groups::{maximum_groups, wrench_bytes},
+    images,
     layout::Value,
-    pack::{self, BATCH_STRIDE, BATCHES, Batch, Capacities, DeviceBody, NodeTraits, SPONGES, StepParams},
+    lists::capacities,
+    pack::{self, BATCH_STRIDE, BATCHES, Batch, Capacities, NodeTraits, SPONGES, StepParams},
     stars::{self, RANGES},
     sums::{GroupSums, sum_groups},
 };
@@ -37,7 +40,7 @@ pub struct Resident {
     pub(super) capacities: Capacities,
     pub(super) limits: StepLimits,
     pub(super) params: Params,
-    pub(super) grids: [Grid; 3],
+    pub(super) grids: [Grid; 5],
     /// First node of every sponge.
     first_nodes: Vec<usize>,
     /// First row and rows of every batch.
@@ -84,6 +87,8 @@ impl Resident {
                 rows.nodes,
                 maximum,
             ),
+            images::cells(params, rows, maximum),
+            Grid::line(rows.fluid),
         ];
         let (batches, tet_sponge) = pack::batches(&columns.nodes.topology);
         let answer = gpu.guarded(None, || {
@@ -150,7 +155,7 @@ impl Resident {
     fn layout(&self, columns: &Columns) -> Vec<(&'static str, u64, BufferUsages)> {
         let RowCounts { fluid, nodes, tets, bodies } = self.rows;
         let coupled = fluid > 0 && nodes > 0;
-        let (fluid, nodes, bodies) = (fluid as u64, nodes as u64, bodies as u64);
+        let (fluid, nodes, body_rows) = (fluid as u64, nodes as u64, bodies as u64);
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
@@ -163,7 +168,8 @@ impl Resident {
         let page_sums = |cells: u64| 4 * cells / u64::from(PAGE_CELLS);
         let sponges = self.params.sponges.len() as u64;
         let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
-        let planes = pack::plane_count(&columns.bodies.states.0) as u64;
+        let mirrors = self.params.fluid.divergence().is_some();
+        let planes = bodies::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
         let own = vec![
             ("params", StepParams::BYTES, uniform),
@@ -210,21 +216,32 @@ impl Resident {
             ("control_starts", control_cells * 4, plain),
             ("control_page_sums", page_sums(control_cells), plain),
             ("control_fluid", list(controls, self.capacities[2]), plain),
-            ("body_states", bodies * DeviceBody::BYTES, plain),
+            ("body_states", body_rows * DeviceBody::BYTES, plain),
             ("planes", planes * 16, plain),
             ("body_fluid_wrenches", wrench_bytes(self.rows.fluid, self.rows.bodies) as u64, plain),
             ("body_node_wrenches", wrench_bytes(self.rows.nodes, self.rows.bodies) as u64, plain),
-            ("body_wrenches", bodies * WRENCH_BYTES, plain),
+            (
+                "body_pressure_wrenches",
+                if mirrors { wrench_bytes(self.rows.fluid, self.rows.bodies) as u64 } else { 0 },
+                plain,
+            ),
+            ("body_wrenches", body_rows * WRENCH_BYTES, plain),
             ("node_mass", nodes * 4, plain),
             ("partial_sums", sum_groups(self.rows) * GroupSums::BYTES, plain),
             ("totals", 3 * GroupSums::BYTES, plain),
         ];
         let columns = self.plain_buffers();
-        own.into_iter().chain(columns.into_iter().map(|(name, size)| (name, size, plain))).collect()
+        let own = own.into_iter().chain(self.image_buffers());
+        own.chain(columns.into_iter().map(|(name, size)| (name, size, plain))).collect()
     }
 
     /// Makes a buffer, zeroed. One row at least: nothing can be bound to an empty buffer.
-    fn allocate(&mut self, name: &'static str, size: u64, usage: BufferUsages) -> Result<(), GpuError> {
+    pub(super) fn allocate(
+        &mut self,
+        name: &'static str,
+        size: u64,
+        usage: BufferUsages,
+    ) -> Result<(), GpuError> {
         let size = size.max(DeviceBody::BYTES).next_multiple_of(16);
         let limits = &self.gpu.limits;
         let maximum = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
@@ -248,6 +265,8 @@ impl Resident {
         self.write("fluid_grid", bytemuck::cast_slice(&self.grids[0].words()));
         self.write("control_grid", bytemuck::cast_slice(&self.grids[1].words()));
         self.write("pair_grid", bytemuck::cast_slice(&self.grids[2].words()));
+        self.write("image_grid", bytemuck::cast_slice(&self.grids[3].words()));
+        self.write("image_line", bytemuck::cast_slice(&self.grids[4].words()));
         if self.params.has_touch() {
             self.write("node_rest", bytemuck::cast_slice(&nodes.rest[..self.rows.nodes]));
         }
@@ -291,7 +310,7 @@ impl Resident {
     /// Shapes, poses and velocities of the bodies, and the largest speed of their surfaces, which bounds the next step.
     pub fn upload_bodies(&mut self, bodies: &[Body]) {
         let fastest = bodies.iter().map(Body::fastest).fold(0.0, f32::max);
-        let (words, planes) = pack::bodies(bodies);
+        let (words, planes) = bodies::pack(bodies);
         self.write("body_states", bytemuck::cast_slice(&words));
         self.write("planes", bytemuck::cast_slice(&planes));
         self.gpu.queue.write_buffer(self.buffer("clock"), BODY_SPEED_AT, &fastest.to_ne_bytes());
@@ -319,23 +338,6 @@ impl Resident {
             self.write(name, &vec![0; self.buffer(name).size() as usize]);
         }
     }
-
-    /// Makes lists longer, with a quarter to spare; `longest` is 0 for those that fit.
-    pub(super) fn lengthen(&mut self, longest: Capacities) -> Result<(), GpuError> {
-        let names = ["fluid_neighbors", "fluid_controls", "control_fluid", "node_pairs"];
-        let rows = [self.rows.fluid, self.rows.fluid, self.rows.nodes, self.rows.nodes];
-        for (which, needed) in longest.into_iter().enumerate().filter(|(_, needed)| *needed > 0) {
-            let capacity = (needed + needed / 4).next_multiple_of(8).max(self.capacities[which]);
-            self.capacities[which] = capacity;
-            // The old one first: both may not fit.
-            self.buffers.remove(names[which]);
-            let size = rows[which] as u64 * (u64::from(capacity) + 1) * 4;
-            self.allocate(names[which], size, BufferUsages::STORAGE)?;
-        }
-        self.replaced += 1;
-        self.fill_params();
-        Ok(())
-    }
 }
 
 /// The first node of every sponge; beyond all nodes for one without any.
@@ -343,27 +345,4 @@ fn first_nodes(columns: &Columns, params: &Params) -> Vec<usize> {
     let sponges = &columns.nodes.sponge[..columns.rows.nodes];
     let first = |sponge| sponges.iter().position(|own| *own as usize == sponge).unwrap_or(sponges.len());
     (0..params.sponges.len()).map(first).collect()
-}
-
-/// Nodes that a node may touch: those of a flat surface within reach, and half as many again.
-const PAIRS: u32 = 32;
-
-/// Entries that lists of a fluid and a lattice at rest need, and half as many again.
-pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
-    let ball = |radius: f32| f64::from(radius).powi(3) * 4.0 / 3.0 * std::f64::consts::PI;
-    let spacing = f64::from(params.fluid.spacing).powi(3);
-    // Two nodes per cell of the lattice.
-    let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
-    let pitch = 0.5 * f64::from(edge).powi(3);
-    let entries = |radius: f32, volume: f64, maximum: usize| {
-        let entries = (1.5 * ball(radius) / volume).ceil() as u32;
-        entries.next_multiple_of(8).max(32).min(maximum.next_multiple_of(8) as u32)
-    };
-    let radius = params.coupling.support_radius;
-    [
-        if rows.fluid > 0 { entries(params.fluid.list_radius(), spacing, rows.fluid) } else { 0 },
-        if rows.fluid > 0 { entries(radius, pitch, rows.nodes) } else { 0 },
-        if rows.fluid > 0 { entries(radius, spacing, rows.fluid) } else { 0 },
-        if params.has_touch() { PAIRS } else { 0 },
-    ]
 }

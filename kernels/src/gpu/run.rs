@@ -15,6 +15,17 @@ use crate::{columns::Column, kernel::Kernel};
 /// Steps of one submission.
 const STEPS_AT_ONCE: u32 = 16;
 
+/// What did not fit.
+const LENGTHS: [Extreme; 7] = [
+    Extreme::Neighbors,
+    Extreme::Controls,
+    Extreme::ControlFluid,
+    Extreme::Pairs,
+    Extreme::NearImages,
+    Extreme::ImageParticles,
+    Extreme::Images,
+];
+
 /// Where steps begin.
 #[derive(Clone, Copy, Debug)]
 enum From {
@@ -39,7 +50,7 @@ impl Resident {
 
     /// Forgets the extremes that kernels are about to find, and keeps those that were found before them.
     fn clear_extremes(&self, program: &Program) {
-        let mut stale = vec![Extreme::Neighbors, Extreme::Controls, Extreme::ControlFluid, Extreme::Pairs];
+        let mut stale = LENGTHS.to_vec();
         if program.runs(|kernel| kernel.renews(Column::FluidExtremes)) {
             stale.extend([Extreme::FluidSpeed, Extreme::FluidAcceleration, Extreme::FluidRow]);
         }
@@ -266,7 +277,7 @@ mod tests {
         resident.upload(&mut columns, &reads, false).unwrap_or_else(|error| fail(error));
         let mut program = resident.program(&search).unwrap_or_else(|error| fail(error));
         let before = resident.capacities;
-        for extreme in [Extreme::Neighbors, Extreme::Controls, Extreme::ControlFluid, Extreme::Pairs] {
+        for extreme in LENGTHS {
             resident.write_extreme(extreme, 1 << 12);
             resident.run_kernels(&mut program, 1e-4).unwrap_or_else(|error| fail(error));
             assert_eq!(resident.capacities, before, "{extreme:?}");

@@ -7,7 +7,8 @@ use super::{
     error::GpuError,
     form::{Form, NEXT, list_layout, lists, plain_bytes},
     layout::Value,
-    resident::{Resident, capacities},
+    lists::capacities,
+    resident::Resident,
     stars,
 };
 use crate::{
@@ -64,6 +65,7 @@ impl Resident {
                 Form::PressureSolve => self.write_words(name, &columns.fluid.pressure_solve.state.words()),
                 Form::ViscositySolve => self.write_words(name, &columns.fluid.viscosity_solve.state.words()),
                 Form::Wrenches => self.upload_wrenches(columns, *column, name),
+                Form::Images => self.upload_images(&columns.fluid)?,
                 Form::Bodies => self.upload_bodies(&columns.bodies.states.0),
                 Form::Nowhere => {}
             }
@@ -95,7 +97,7 @@ impl Resident {
         let lists: Vec<Vec<u32>> = (0..rows).map(|query| lists.of(query, targets).collect()).collect();
         let longest = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
         if longest > self.capacities[which] {
-            let mut needed = [0; 4];
+            let mut needed = [0; 8];
             needed[which] = longest;
             self.lengthen(needed)?;
         }
@@ -128,8 +130,11 @@ impl Resident {
     /// All of a wrench in the first group, none in the others.
     fn upload_wrenches(&self, columns: &Columns, column: Column, name: &'static str) {
         let (store, bodies) = (&columns.bodies, columns.rows.bodies);
-        let is_fluid = column == Column::BodyFluidWrenches;
-        let wrenches: &Wrenches = if is_fluid { &store.fluid_wrenches } else { &store.node_wrenches };
+        let wrenches: &Wrenches = match column {
+            Column::BodyFluidWrenches => &store.fluid_wrenches,
+            Column::BodyPressureWrenches => &store.pressure_wrenches,
+            _ => &store.node_wrenches,
+        };
         let mut words = vec![0.0_f32; self.buffer(name).size() as usize / 4];
         for body in 0..bodies {
             let total = wrenches.total(body, bodies);
@@ -162,6 +167,9 @@ impl Resident {
         let data = self.read(&names)?;
         for ((column, _, _), words) in wanted.iter().zip(&data) {
             Form::of(*column).take(*column, columns, words, self.capacities);
+        }
+        if which.contains(&Column::FluidImages) {
+            self.download_images(columns)?;
         }
         Ok(())
     }

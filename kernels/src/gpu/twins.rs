@@ -25,6 +25,16 @@ pub(crate) enum Rows {
     PairPages,
     /// One group if those cells have many pages.
     PairScan,
+    /// A group per page of the numbers of images of the particles.
+    ImageLinePages,
+    /// One group if those have many pages.
+    ImageLineScan,
+    /// A thread per image that there is room for.
+    Images,
+    /// A group per page of the cells over the images.
+    ImagePages,
+    /// One group if those cells have many pages.
+    ImageScan,
     /// A thread per tet.
     Tets,
     /// A group per body.
@@ -91,6 +101,26 @@ pub(crate) const PAIR_CELLS: Names = &[
     ("grouped", "pair_grouped"),
 ];
 
+/// Numbers of images of the particles.
+pub(crate) const IMAGE_LINE: Names = &[
+    ("grid", "image_line"),
+    ("counts", "image_line_counts"),
+    ("starts", "fluid_image_first"),
+    ("page_sums", "image_line_sums"),
+];
+
+/// Cells over the images.
+pub(crate) const IMAGE_CELLS: Names = &[
+    ("points", "image_position"),
+    ("grid", "image_grid"),
+    ("cells", "image_cells"),
+    ("slots", "image_slots"),
+    ("counts", "image_counts"),
+    ("starts", "image_starts"),
+    ("page_sums", "image_page_sums"),
+    ("grouped", "image_grouped"),
+];
+
 /// Whether lists fit; the last of a step is enough, since nothing before it writes what survives.
 pub(crate) const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", rows: Rows::One, names: &[] };
 
@@ -122,6 +152,11 @@ impl Pass {
     /// The same pass on other buffers.
     pub(crate) const fn on(self, names: Names) -> Self {
         Self { names, ..self }
+    }
+
+    /// The same pass from another entry point.
+    pub(crate) const fn from(self, entry: &'static str) -> Self {
+        Self { entry, ..self }
     }
 
     /// The buffer that a variable is bound to.

@@ -223,7 +223,7 @@ impl ListValues {
     }
 
     /// A value for every entry of `lists`, from its query and its target; 0 for padding.
-    #[cfg(any(test, feature = "oracles"))]
+    #[cfg(any(test, feature = "oracles", feature = "gpu"))]
     pub(crate) fn fill(&mut self, lists: &Neighbors, value: impl Fn(usize, usize) -> f32) {
         self.match_lists(lists);
         for (chunk, (values, lists)) in self.0.iter_mut().zip(&lists.chunks).enumerate() {

@@ -266,8 +266,8 @@ fn image_rows(images: &Images, data: &[[f32; 4]], order: &[usize]) -> Content {
     Content::Numbers(vec![vectors, all.iter().map(|image| row(image)[3]).collect()])
 }
 
-/// Images by the particles that they are images of, and the values of lists by both.
-fn images(images: &Images, order: &[usize], ids: &[u32], count: usize) -> Content {
+/// Images by the particles that they are images of, with a place among all images that does not depend on the order of rows.
+fn image_groups(images: &Images, order: &[usize]) -> (Vec<usize>, Vec<u32>, Vec<Vec<f64>>) {
     let all: Vec<usize> = order.iter().flat_map(|row| images.of(*row)).collect();
     let mut groups = Vec::new();
     for rows in [&images.position, &images.foot, &images.along, &images.between] {
@@ -275,9 +275,14 @@ fn images(images: &Images, order: &[usize], ids: &[u32], count: usize) -> Conten
         groups.extend(numbers);
     }
     groups.push(all.iter().map(|image| f64::from(images.body[*image].wrapping_add(1))).collect());
-    // A place among all images that does not depend on the order of rows.
     let mut place = vec![0; images.count()];
     all.iter().enumerate().for_each(|(index, image)| place[*image] = index as u32);
+    (all, place, groups)
+}
+
+/// Images by the particles that they are images of, and the values of lists by both.
+fn images(images: &Images, order: &[usize], ids: &[u32], count: usize) -> Content {
+    let (all, place, mut groups) = image_groups(images, order);
     let near = || list_values(&images.pairs, &images.near, order, &place, images.count());
     let particles = || list_values(&images.particle_pairs, &images.particles, &all, ids, count);
     // Without images there are no lists.
@@ -287,6 +292,47 @@ fn images(images: &Images, order: &[usize], ids: &[u32], count: usize) -> Conten
         groups.extend(numbers);
     }
     Content::Numbers(groups)
+}
+
+/// Difference of the images of two devices over the scale of each quantity. Pairs at the very radius are in the lists of one only: values
+/// are next to nothing there, and their sums are compared, plain and weighted by their targets.
+#[cfg(feature = "gpu")]
+pub(super) fn image_error(found: &Columns, expected: &Columns) -> f64 {
+    let groups = |columns: &Columns| {
+        let (images, ids, count) = (&columns.fluid.images, &columns.fluid.id, columns.rows.fluid);
+        let order = by_id(columns);
+        let (all, place, mut groups) = image_groups(images, &order);
+        if !all.is_empty() {
+            groups.extend(list_sums(&images.pairs, &images.near, &order, &place));
+            groups.extend(list_sums(&images.particle_pairs, &images.particles, &all, &ids[..count]));
+        }
+        groups
+    };
+    distance(None, Content::Numbers(groups(found)), Content::Numbers(groups(expected)), 0.0)
+}
+
+/// Sums of the values of every list, plain and weighted by numbers that belong to the identities of its targets.
+#[cfg(feature = "gpu")]
+fn list_sums(values: &ListValues, lists: &Neighbors, order: &[usize], identity: &[u32]) -> Vec<Vec<f64>> {
+    let weight = |target: u32| {
+        let mixed = identity.get(target as usize).map_or(0, |own| (own + 1).wrapping_mul(2_654_435_769));
+        f64::from(mixed) / f64::from(u32::MAX)
+    };
+    let own = |query: &usize| {
+        let mut sums = [0.0; 2];
+        if lists.has(*query) {
+            let (chunk, row, lane) = (lists.chunk(*query), *query % CHUNK, *query % LANES);
+            let stored = &values.chunk(*query)[chunk.range(row)];
+            for (entry, stored) in chunk.group(row).iter().zip(stored) {
+                let value = f64::from(stored[lane]);
+                sums[0] += value;
+                sums[1] += value * weight(entry[lane]);
+            }
+        }
+        sums
+    };
+    let all: Vec<[f64; 2]> = order.iter().map(own).collect();
+    (0..2).map(|k| all.iter().map(|sums| sums[k]).collect()).collect()
 }
 
 /// For every point, the points in a box around it: by the cells, or by looking at all points.

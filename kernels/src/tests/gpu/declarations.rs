@@ -33,6 +33,9 @@ fn columns_in(buffer: &str) -> Vec<Column> {
         "node_traits" => vec![Column::NodeSponge, Column::NodeSuction, Column::NodeInterior],
         "tets" | "tet_weight" | "tet_sponge" => vec![Column::NodeTopology],
         "planes" => vec![Column::BodyStates],
+        "images" | "image_position" | "image_order" | "image_particles" | "fluid_near_images"
+        | "fluid_image_first" | "image_line_counts" | "image_line_sums" => vec![Column::FluidImages],
+        _ if of_cells("image") => vec![Column::FluidImages],
         _ if of_cells("fluid") => vec![Column::FluidCells],
         _ if of_cells("control") => vec![Column::ControlCells],
         _ => Column::ALL.iter().copied().filter(|column| column.buffer() == plain).collect(),

@@ -62,9 +62,9 @@ fn words(columns: &Columns) -> Vec<u32> {
 
 #[test]
 fn the_same_device_gives_the_same_bits() {
-    for options in
-        [FULL, Options { bounded: false, walls: false, ..FULL }, Options { incompressible: true, ..FULL }]
-    {
+    let divergence = Options { incompressible: true, divergence: true, sponges: false, ..FULL };
+    let solved = Options { incompressible: true, ..FULL };
+    for options in [FULL, Options { bounded: false, walls: false, ..FULL }, solved, divergence] {
         let scene = Scene::new(options);
         let (first, outcome, steps) = stepped(gpu(), &scene, 20);
         assert_eq!((outcome, steps), (Outcome::Done, 20));

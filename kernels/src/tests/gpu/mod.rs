@@ -46,7 +46,7 @@ fn after_on(gpu: &Arc<Gpu>, kernel: &'static Kernel, before: &Scene) -> Columns 
 fn after_on_all(gpu: &Arc<Gpu>, kernels: &[&'static Kernel], before: &Scene) -> Columns {
     let mut kernels = kernels.to_vec();
     // The search of the device goes through its own cells.
-    if ["grid::fluid_neighbors", "couple::controls"].contains(&kernels[0].name) {
+    if kernels[0].searches_fluid() {
         kernels.insert(0, kernel_named("grid::sort_fluid").expect("a name of the table"));
     }
     let sorted = kernels[0].name != "grid::sort_fluid";

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::{
     super::{
-        compare::errors_of,
+        compare::{errors_of, image_error},
         oracles,
         periodic::ACROSS,
         scene::{CHANNEL, FULL, Options, Scene, TORUS, best},
@@ -84,6 +84,9 @@ pub(super) fn gpu_errors(
     let held: Vec<_> = kernel.writes.iter().copied().filter(|column| !column.is_on_host_only()).collect();
     let mut all = errors_of(kernel, &held, ULPS, &before.params, &before.columns, found, expected);
     for (column, error) in &mut all {
+        if *column == Column::FluidImages {
+            *error = image_error(found, expected);
+        }
         if let Some(list) = list_error(*column, before, found, expected) {
             *error = list;
         }
@@ -135,7 +138,9 @@ fn a_small_fault_in_what_a_twin_reads_is_noticed() {
         let before = Scene::new(FULL.suiting(kernel)).before(kernel.name, &best());
         let expected = on_cpu(kernel, &before);
         let mut planted = 0;
-        let is_held = |column: &Column| column.element().bytes() > 0 && !column.is_on_host_only();
+        let is_held = |column: &Column| {
+            column.element().bytes() > 0 && !column.is_on_host_only() || *column == Column::BodyStates
+        };
         for column in kernel.reads.iter().copied().filter(is_held) {
             let mut altered = before.clone();
             let factor = oracles::fault_in(kernel, column);
@@ -201,5 +206,30 @@ fn the_search_sums_up_the_density() {
         for (column, error) in gpu_errors(density, &before, &found, &expected) {
             assert!(error <= density.twin_bound, "{}: {error:.1e} in {options:?}", column.name());
         }
+    }
+}
+
+/// The control of the comparison of images: one entry of a list that is forgotten.
+#[test]
+fn a_list_of_images_that_lacks_an_entry_is_noticed() {
+    let images = kernel_named("divergence::images").expect("there is one");
+    let before = Scene::new(FULL.suiting(images)).before(images.name, &best());
+    let expected = on_cpu(images, &before);
+    assert!(image_error(&expected, &expected) == 0.0);
+    let lists = |columns: &mut Columns| {
+        let images = &mut columns.fluid.images;
+        [std::mem::take(&mut images.pairs.0), std::mem::take(&mut images.particle_pairs.0)]
+    };
+    for which in 0..2 {
+        let mut found = expected.clone();
+        let mut values = lists(&mut found);
+        let all = values[which].iter_mut().flatten().flatten();
+        let typical = all.map(|value| *value).fold(0.0, f32::max) * 0.05;
+        let one = values[which].iter_mut().flatten().flatten().find(|value| **value > typical);
+        *one.expect("there is an entry") = 0.0;
+        let [pairs, particle_pairs] = values;
+        (found.fluid.images.pairs.0, found.fluid.images.particle_pairs.0) = (pairs, particle_pairs);
+        let error = image_error(&found, &expected);
+        assert!(error > 10.0 * images.twin_bound, "{which}: {error:.1e}");
     }
 }

@@ -1,0 +1,320 @@
+//! Images of particles on a device: `Images` as buffers of their own. Their number changes from step to step, so that they are dispatched
+//! as many as there is room for.
+
+use glam::Vec3;
+use wgpu::BufferUsages;
+
+use super::{
+    cells::{Grid, PAGE_CELLS},
+    error::GpuError,
+    layout::{Value, place_of},
+    lists::{IMAGE_PARTICLES, IMAGES, NEAR_IMAGES},
+    pack::Capacities,
+    resident::Resident,
+};
+use crate::{
+    column::{FAR_ROW, padded},
+    columns::{Columns, Fluid, RowCounts},
+    divergence::image_rows::{Images, NO_BODY, along_open_axes},
+    grid::{
+        cells::Domain,
+        neighbors::{ListValues, Neighbors},
+    },
+    layout::layout,
+    params::Params,
+};
+
+layout! {
+    /// An image but for its position.
+    #[derive(Clone, Copy, Debug)]
+    pub(super) struct DeviceImage as Image {
+        /// Its position in the body, before the walls.
+        foot: [f32; 3],
+        /// Row of its particle.
+        source: u32,
+        /// Map of velocities by the body: xx, yy, zz.
+        along: [f32; 3],
+        body: u32,
+        /// yz, zx, xy.
+        between: [f32; 3],
+        /// Axes whose walls mirror it, a bit each.
+        walls: u32,
+    }
+}
+
+/// Buffers of a row for every image that there is room for, and the bytes of a row.
+const ROWS: [(&str, u64); 8] = [
+    ("image_position", 16),
+    ("images", DeviceImage::BYTES),
+    ("fluid_image_vectors", 16),
+    ("image_forces", 16),
+    ("image_cells", 4),
+    ("image_slots", 4),
+    ("image_grouped", 4),
+    ("image_order", 4),
+];
+
+/// Cells over the images of as many particles.
+pub(super) fn cells(params: &Params, rows: RowCounts, maximum: u64) -> Grid {
+    let radius = params.fluid.smoothing.support_radius;
+    let domain = match params.domain {
+        Domain::Bounded { minimum, maximum } => {
+            Domain::Bounded { minimum: minimum - radius, maximum: maximum + radius }
+        }
+        Domain::Unbounded => Domain::Unbounded,
+    };
+    let has_images = params.fluid.divergence().is_some();
+    Grid::new(domain, radius, if has_images { rows.fluid } else { 0 }, maximum)
+}
+
+/// Bytes of images and their lists.
+pub(super) fn bytes(rows: RowCounts, capacities: Capacities) -> u64 {
+    let capacities = capacities.map(u64::from);
+    let row: u64 = ROWS.iter().map(|(_, bytes)| bytes).sum();
+    let list =
+        |rows: u64, which: usize| if capacities[which] > 0 { rows * (capacities[which] + 1) * 4 } else { 0 };
+    let images = capacities[IMAGES];
+    images * row + list(rows.fluid as u64, NEAR_IMAGES) + list(images, IMAGE_PARTICLES)
+}
+
+impl Resident {
+    /// Name, bytes and use of the buffers of images.
+    pub(super) fn image_buffers(&self) -> Vec<(&'static str, u64, BufferUsages)> {
+        let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
+        let images = u64::from(self.capacities[IMAGES]);
+        let has_images = images > 0;
+        let cells = |grid: &Grid| if has_images { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
+        let [of_images, of_line] = [cells(&self.grids[3]), cells(&self.grids[4])];
+        let sums = |cells: u64| 4 * cells / u64::from(PAGE_CELLS);
+        let list = |rows: u64, which: usize| rows * (u64::from(self.capacities[which]) + 1) * 4;
+        let fluid = if has_images { self.rows.fluid as u64 } else { 0 };
+        let mut all = vec![
+            ("image_grid", Grid::BYTES, uniform | plain),
+            ("image_line", Grid::BYTES, uniform),
+            ("image_line_counts", of_line * 4, plain),
+            ("image_line_sums", sums(of_line), plain),
+            ("fluid_image_first", of_line * 4, plain),
+            ("image_counts", of_images * 4, plain),
+            ("image_starts", of_images * 4, plain),
+            ("image_page_sums", sums(of_images), plain),
+            ("fluid_near_images", list(fluid, NEAR_IMAGES), plain),
+            ("image_particles", list(images, IMAGE_PARTICLES), plain),
+            ("fluid_rate", fluid * 4, plain),
+        ];
+        all.extend(ROWS.map(|(name, bytes)| (name, images * bytes, plain)));
+        all
+    }
+
+    /// Makes room for more images.
+    pub(super) fn renew_image_rows(&mut self) -> Result<(), GpuError> {
+        let images = u64::from(self.capacities[IMAGES]);
+        let list = u64::from(self.capacities[IMAGE_PARTICLES]) + 1;
+        for (name, bytes) in ROWS.into_iter().chain([("image_particles", 4 * list)]) {
+            // The old one first: both may not fit.
+            self.buffers.remove(name);
+            self.allocate(name, images * bytes, BufferUsages::STORAGE)?;
+        }
+        Ok(())
+    }
+
+    /// Sends the images of the host.
+    pub(super) fn upload_images(&mut self, fluid: &Fluid) -> Result<(), GpuError> {
+        let (images, rows) = (&fluid.images, self.rows.fluid);
+        let count = images.count();
+        let of_particles = |row: usize| images.near.of(row, count).collect::<Vec<u32>>();
+        // Without images there are no lists.
+        let near: Vec<Vec<u32>> =
+            (0..rows).map(|row| if count > 0 { of_particles(row) } else { Vec::new() }).collect();
+        let is_in_body = |image: usize| images.has_bodies && images.body[image] != NO_BODY;
+        let of_image = |image: usize| images.particles.of(image, rows).collect::<Vec<u32>>();
+        let particles: Vec<Vec<u32>> =
+            (0..count).map(|image| if is_in_body(image) { of_image(image) } else { Vec::new() }).collect();
+        let longest = |lists: &[Vec<u32>]| lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
+        let mut needed = [0; 8];
+        for (which, own) in
+            [(NEAR_IMAGES, longest(&near)), (IMAGE_PARTICLES, longest(&particles)), (IMAGES, count as u32)]
+        {
+            needed[which] = if own > self.capacities[which] { own } else { 0 };
+        }
+        if needed != [0; 8] {
+            self.lengthen(needed)?;
+        }
+        self.write(
+            "image_position",
+            bytemuck::cast_slice(&images.position[..count.min(images.position.len())]),
+        );
+        let words: Vec<u32> = (0..count).flat_map(|image| device_image(images, image).words()).collect();
+        self.write("images", bytemuck::cast_slice(&words));
+        let first = &images.first[..images.first.len().min(rows + 1)];
+        self.write("fluid_image_first", bytemuck::cast_slice(first));
+        let mut grid = self.grids[3].words();
+        grid[place_of::<Grid>("rows")] = count as u32;
+        self.write("image_grid", bytemuck::cast_slice(&grid));
+        let capacity = self.capacities[IMAGES] as usize;
+        for (name, lists, lines, which) in [
+            ("fluid_near_images", &near, rows, NEAR_IMAGES),
+            ("image_particles", &particles, capacity, IMAGE_PARTICLES),
+        ] {
+            let mut words = vec![0_u32; lines * (self.capacities[which] as usize + 1)];
+            for (row, list) in lists.iter().enumerate() {
+                words[row] = list.len() as u32;
+                list.iter().enumerate().for_each(|(k, target)| words[(k + 1) * lines + row] = *target);
+            }
+            self.write(name, bytemuck::cast_slice(&words));
+        }
+        Ok(())
+    }
+
+    /// Reads the images back.
+    pub(super) fn download_images(&self, columns: &mut Columns) -> Result<(), GpuError> {
+        let (rows, lines) = (self.rows.fluid, self.capacities[IMAGES] as usize);
+        if lines == 0 {
+            return Ok(());
+        }
+        let list = |lines: usize, which: usize| (lines * (self.capacities[which] as usize + 1) * 4) as u64;
+        let data = self.read(&[
+            ("image_grid", Grid::BYTES),
+            ("image_position", 16 * lines as u64),
+            ("images", DeviceImage::BYTES * lines as u64),
+            ("fluid_image_first", 4 * (rows as u64 + 1)),
+            ("fluid_near_images", list(rows, NEAR_IMAGES)),
+            ("image_particles", list(lines, IMAGE_PARTICLES)),
+            ("fluid_position", 16 * rows as u64),
+        ])?;
+        let [grid, position, images, first, near, particles, points] = &data[..] else { return Ok(()) };
+        let count = grid[place_of::<Grid>("rows")] as usize;
+        let position: &[[f32; 4]] = bytemuck::cast_slice(position);
+        let points: &[[f32; 4]] = bytemuck::cast_slice(points);
+        let found = &mut columns.fluid.images;
+        *found = Images { position: position[..count].to_vec(), ..Images::default() };
+        let gravity = along_open_axes(&self.params);
+        for (words, at) in images.chunks_exact(DeviceImage::WORDS).zip(&position[..count]) {
+            let DeviceImage { foot, source, along, body, between, walls } = DeviceImage::take(words);
+            let sign = |axis: u32| if walls >> axis & 1 == 1 { -1.0 } else { 1.0 };
+            let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+            found.foot.push(row(foot, sign(2)));
+            found.along.push(row(along, sign(0)));
+            found.between.push(row(between, sign(1)));
+            let vector = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
+            let (signs, of) = (Vec3::new(sign(0), sign(1), sign(2)), vector(&points[source as usize]));
+            found.lift.push(0.5 * gravity.dot(vector(at) - of));
+            let turned = 0.5 * (signs - 1.0) * gravity;
+            let walls = vector(at) - signs * Vec3::from_array(foot);
+            found.lift_at.push(row(turned.to_array(), 0.5 * gravity.dot(walls)));
+            found.source.push(source);
+            found.body.push(body);
+        }
+        found.has_bodies = found.body.iter().any(|body| *body != NO_BODY);
+        found.first = first.clone();
+        found.first.resize(padded(rows) + 1, count as u32);
+        let to = padded(count);
+        found.position.resize(to, FAR_ROW);
+        found.lift.resize(to, 0.0);
+        for column in [&mut found.foot, &mut found.along, &mut found.between, &mut found.lift_at] {
+            column.resize(to, [0.0; 4]);
+        }
+        let lists = |words: &[u32], lines: usize, used: usize, of: usize| {
+            let list = |row: usize| (1..=words[row] as usize).map(|k| words[k * lines + row]).collect();
+            let mut all: Vec<Vec<u32>> = (0..used).map(list).collect();
+            all.resize_with(of, Vec::new);
+            all
+        };
+        found.near = Neighbors::from_lists(&lists(near, rows, rows, padded(rows)), count as u32);
+        found.pairs = values(&self.params, &found.near, (points, &found.position), |_, image| image[3]);
+        let of = if found.has_bodies { to } else { 0 };
+        found.particles = Neighbors::from_lists(&lists(particles, lines, count.min(of), of), rows as u32);
+        found.particle_pairs =
+            values(&self.params, &found.particles, (&found.position, points), |image, _| image[3]);
+        Ok(())
+    }
+}
+
+fn device_image(images: &Images, image: usize) -> DeviceImage {
+    let vector = |row: &[f32; 4]| [row[0], row[1], row[2]];
+    let signs = images.signs(image).to_array();
+    DeviceImage {
+        foot: vector(&images.foot[image]),
+        source: images.source[image],
+        along: vector(&images.along[image]),
+        body: images.body[image],
+        between: vector(&images.between[image]),
+        walls: (0..3).map(|axis| u32::from(signs[axis] < 0.0) << axis).sum(),
+    }
+}
+
+/// The values of lists, which devices compute where they need them.
+fn values(
+    params: &Params,
+    lists: &Neighbors,
+    (queries, targets): (&[[f32; 4]], &[[f32; 4]]),
+    ratio: impl Fn(&[f32; 4], &[f32; 4]) -> f32,
+) -> ListValues {
+    let (smoothing, volume) = (&params.fluid.smoothing, params.fluid.rest_volume());
+    let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
+    let mut values = ListValues::default();
+    values.fill(lists, |query, target| {
+        let (Some(a), Some(b)) = (queries.get(query), targets.get(target)) else { return 0.0 };
+        let mut apart = Vec3::new(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        for axis in (0..3).filter(|axis| periods[*axis] > 0.0) {
+            apart[axis] -= periods[axis] * (apart[axis] / periods[axis]).round();
+        }
+        volume * smoothing.gradient_at(apart.length()) * ratio(a, b)
+    });
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        columns::Column,
+        divergence,
+        gpu::Gpu,
+        grid,
+        tests::{
+            gpu::LIMITS,
+            scene::{FULL, Options, Scene},
+        },
+    };
+
+    /// The images of a scene with room for `room` of everything; as much as is usual without.
+    fn found(room: Option<u32>) -> (Images, Capacities) {
+        let options = Options { incompressible: true, divergence: true, sponges: false, ..FULL };
+        let scene = Scene::new(options);
+        let fail = |error: GpuError| -> ! { panic!("{error}") };
+        let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| fail(error)));
+        let mut columns = scene.columns.clone();
+        let mut resident =
+            Resident::new(&gpu, &columns, &scene.params, LIMITS).unwrap_or_else(|error| fail(error));
+        for which in [NEAR_IMAGES, IMAGE_PARTICLES, IMAGES] {
+            resident.capacities[which] = room.unwrap_or(resident.capacities[which]);
+        }
+        resident.fill_params();
+        let kernels =
+            [&grid::sort_fluid::KERNEL, &grid::fluid_neighbors::KERNEL, &divergence::images::KERNEL];
+        let reads: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+        resident.upload(&mut columns, &reads, false).unwrap_or_else(|error| fail(error));
+        let before = resident.capacities;
+        let mut program = resident.program(&kernels).unwrap_or_else(|error| fail(error));
+        resident.run_kernels(&mut program, 1e-4).unwrap_or_else(|error| fail(error));
+        resident.download(&mut columns, &[Column::FluidImages]).unwrap_or_else(|error| fail(error));
+        assert!(room.is_none() || resident.capacities != before, "nothing grew");
+        (columns.fluid.images, resident.capacities)
+    }
+
+    #[test]
+    fn there_is_room_for_more_images_when_they_do_not_fit() {
+        let words = |images: &Images| {
+            let mut words = Vec::new();
+            crate::column::ColumnData::visit_words(images, 0, &mut |word| words.push(word));
+            words
+        };
+        let (usual, capacities) = found(None);
+        let (grown, others) = found(Some(8));
+        assert!(usual.count() > 100 && usual.has_bodies);
+        assert_ne!(capacities, others);
+        assert!(words(&usual) == words(&grown), "{} and {} images", usual.count(), grown.count());
+    }
+}

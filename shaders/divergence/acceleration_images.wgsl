@@ -1,0 +1,38 @@
+// #include smoothing, images, image
+// First pass of `divergence::acceleration`: what images in bodies receive by the pressure.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> image_grid: Grid;
+@group(0) @binding(3) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> image_position: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> image_particles: array<u32>;
+@group(0) @binding(6) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> fluid_renormalisation_between: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> image_forces: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= image_grid.rows) {
+        return;
+    }
+    let point = image_position[row];
+    var sum = vec3<f32>(0.0);
+    let end = image_particles[row];
+    var slot = row;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += params.image_capacity;
+        let other = image_particles[slot];
+        let there = fluid_predicted[other];
+        let apart = apart_from(point.xyz, there.xyz);
+        let along = fluid_renormalisation[other].xyz;
+        let between = fluid_renormalisation_between[other].xyz;
+        sum += (pair_factor(apart) * there.w) * symmetric_times(along, between, apart);
+    }
+    image_forces[row] = vec4<f32>(sum * point.w, 0.0);
+}

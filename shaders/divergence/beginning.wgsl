@@ -1,0 +1,35 @@
+// #include sums
+// Third pass of `divergence::moments`: the pressure to begin with.
+// Sums of the squared speeds, of the squared pressures and of the targets, for `begin_solve.wgsl`.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_factors: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> solve_sums: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    var sums = vec4<f32>(0.0);
+    if (row < rows) {
+        let own = fluid_velocity[row];
+        sums = vec4<f32>(dot(own.xyz, own.xyz), own.w * own.w, fluid_factors[row].w, 0.0);
+        fluid_pressure_rows[row].x = select(0.0, own.w, fluid_renormalisation[row].w >= SPARSE);
+    }
+    let all = group_row(lane, sums, false);
+    let place = group_of(group, groups);
+    if (lane == 0u && place * GROUP < rows) {
+        solve_sums[place * 2u] = all;
+    }
+}

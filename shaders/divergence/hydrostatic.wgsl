@@ -1,0 +1,54 @@
+// #include smoothing, images, image
+// Second pass of `divergence::hydrostatic`: by the images in the list of the particle, and by the counterparts of those in walls.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> image_position: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> images: array<Image>;
+@group(0) @binding(5) var<storage, read> fluid_near_images: array<u32>;
+@group(0) @binding(6) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> fluid_renormalisation_between: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
+
+// Difference of the hydrostatic pressure over a distance; along axes on which space repeats there is no bottom.
+fn difference(way: vec3<f32>) -> f32 {
+    return 0.5 * dot(select(params.gravity, vec3<f32>(0.0), params.periods > vec3<f32>(0.0)), way);
+}
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    let rows = params.fluid_rows;
+    let point = fluid_position[row].xyz;
+    var own = vec3<f32>(0.0);
+    var mirrored = vec3<f32>(0.0);
+    let end = fluid_near_images[row];
+    var slot = row;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = fluid_near_images[slot];
+        let image = images[other];
+        let there = image_position[other];
+        let apart = apart_from(point, there.xyz);
+        let push = (there.w * pair_factor(apart)) * apart;
+        own += push * difference(there.xyz - fluid_position[image.source].xyz);
+        if (image.body == NO_BODY) {
+            let signs = signs_of(image);
+            let walls = there.xyz - signs * image.foot;
+            let along = fluid_renormalisation[image.source].xyz;
+            let between = mirrored_between(image, fluid_renormalisation_between[image.source].xyz);
+            mirrored += symmetric_times(along, between, push) * difference(walls + (signs - 1.0) * point);
+        }
+    }
+    let before = fluid_acceleration[row];
+    let sum = symmetric_times(fluid_renormalisation[row].xyz, fluid_renormalisation_between[row].xyz, own) + mirrored;
+    fluid_acceleration[row] = vec4<f32>(before.xyz + sum, before.w);
+}

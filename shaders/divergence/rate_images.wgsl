@@ -1,0 +1,45 @@
+// #include smoothing, images, image
+// The part of the images in the rate of `rate.wgsl`.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_correction: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_near_images: array<u32>;
+@group(0) @binding(5) var<storage, read> image_position: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> fluid_image_vectors: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> fluid_renormalisation_between: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_rate: array<f32>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    let rows = params.fluid_rows;
+    let point = fluid_position[row].xyz;
+    let own = fluid_correction[row].xyz;
+    var on = vec3<f32>(0.0);
+    var off = vec3<f32>(0.0);
+    let end = fluid_near_images[row];
+    var slot = row;
+    for (var k = 0u; k < end; k += 1u) {
+        slot += rows;
+        let other = fluid_near_images[slot];
+        let there = image_position[other];
+        let offset = apart_from(point, there.xyz);
+        let apart = (there.w * pair_factor(offset)) * offset;
+        let v = fluid_image_vectors[other].xyz - own;
+        on += v * apart;
+        off += v.yzx * apart.zxy + v.zxy * apart.yzx;
+    }
+    let along = fluid_renormalisation[row].xyz;
+    let between = fluid_renormalisation_between[row].xyz;
+    fluid_rate[row] += dot(on, along) + dot(off, between);
+}

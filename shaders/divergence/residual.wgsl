@@ -1,0 +1,53 @@
+// #include sums
+// After the rate of the velocities: the remaining compression, and the sums for `solve_round.wgsl`.
+//
+//     r_i = h t_i - h div w_i
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_factors: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_rate: array<f32>;
+@group(0) @binding(5) var<storage, read> fluid_pressure_solve: Solve;
+@group(0) @binding(6) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> solve_sums: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = row_of(group, groups, lane);
+    let rows = params.fluid_rows;
+    var sums = vec4<f32>(0.0);
+    var others = vec4<f32>(0.0);
+    if (row < rows) {
+        let rest = fluid_factors[row].w * fluid_pressure_solve.target_scale + fluid_rate[row] * clock.step;
+        let left = select(rest, 0.0, fluid_renormalisation[row].w < SPARSE);
+        let before = fluid_pressure_rows[row];
+        let response = before.w - left;
+        var error = left;
+        if (left <= 0.0) {
+            error = min(-left, before.x * before.z);
+        }
+        sums = vec4<f32>(
+            error,
+            before.y * before.y * before.z,
+            before.y * response,
+            response * response / before.z,
+        );
+        others = vec4<f32>(before.x * before.x, error * error * (error * error), 0.0, 0.0);
+        fluid_pressure_rows[row].w = left;
+    }
+    let all = group_row(lane, sums, false);
+    let rest = group_row(lane, others, false);
+    let place = group_of(group, groups);
+    if (lane == 0u && place * GROUP < rows) {
+        solve_sums[place * 2u] = all;
+        solve_sums[place * 2u + 1u] = rest;
+    }
+}

@@ -1,0 +1,50 @@
+// #include body, surface
+// Second pass of `divergence::kick`: shift towards where particles are missing, near bodies along their surfaces.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_moment: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_image_first: array<u32>;
+@group(0) @binding(5) var<storage, read> images: array<Image>;
+@group(0) @binding(6) var<storage, read> body_states: array<Body>;
+@group(0) @binding(7) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_position: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    if (fluid_renormalisation[row].w < SPARSE) {
+        return;
+    }
+    let own = fluid_position[row];
+    let moment = fluid_moment[row].xyz;
+    let share = max(1.0 - sqrt(dot(moment, moment)) / (SHIFT_END * params.surface_moment), 0.0);
+    var shift = (-SHIFT * params.spacing * params.spacing * share) * moment;
+    var last = NO_BODY;
+    let end = fluid_image_first[row + 1u];
+    for (var k = fluid_image_first[row]; k < end; k += 1u) {
+        let body = images[k].body;
+        if (body == NO_BODY || body == last) {
+            continue;
+        }
+        last = body;
+        let surface = body_surface(body_states[body], own.xyz);
+        if (surface.distance < SHIFT_ALONG * params.spacing) {
+            shift -= dot(shift, surface.normal) * surface.normal;
+        }
+    }
+    let most = MAXIMUM_SHIFT * params.spacing;
+    let length = sqrt(dot(shift, shift));
+    if (length > most) {
+        shift *= most / length;
+    }
+    fluid_position[row] = vec4<f32>(own.xyz + shift, own.w);
+}

@@ -1,0 +1,27 @@
+// One round of a pressure solve: a step along the projected gradient.
+//
+//     P_i <- min(max(0, P_i + alpha r_i / A_i), (10 u)^2)
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_pressure_solve: Solve;
+@group(0) @binding(4) var<storage, read_write> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    let own = fluid_pressure_rows[row];
+    let speed = SOUND_SPEED_RATIO * params.correction_speed;
+    let next = min(max(own.x + fluid_pressure_solve.length * own.w / own.z, 0.0), speed * speed);
+    fluid_pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
+    fluid_predicted[row] = vec4<f32>(fluid_position[row].xyz, next);
+}
