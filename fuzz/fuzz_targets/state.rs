@@ -1,5 +1,5 @@
-//! Reads any bytes as a save and as a recording, with the checksum that they need. The result is an error, or a state that is the same after writing and reading
-//! it again.
+//! Reads any bytes as a save and as a recording, with the checksum that they need. The result is an error, or a state that is the
+//! same after writing and reading it again.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,6 +1,6 @@
 //! Rigid bodies as the kernels see them: shapes with signed distances, poses and velocities.
 
-use glam::{DVec3, Mat3, Quat, Vec3};
+use glam::{Mat3, Quat, Vec3};
 
 use crate::{
     lanes::{self, LANES, Simd, f32x8, select},
@@ -8,6 +8,9 @@ use crate::{
     rounding::Rounding,
     vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
 };
+
+pub use crate::wrench::Wrench;
+pub(crate) use crate::wrench::by_chunk;
 
 /// Geometry of a rigid body, in its own frame, centre of mass at the origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,31 +96,6 @@ pub struct BodyState {
     pub linear_velocity: Vec3,
     /// Angular velocity, world \[rad/s\].
     pub angular_velocity: Vec3,
-}
-
-/// Impulses of fluid and sponges on a body in one step, summed in f64 in a fixed order.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wrench {
-    /// Impulse \[N s\].
-    pub impulse: DVec3,
-    /// Angular impulse about the centre of mass \[N m s\].
-    pub angular_impulse: DVec3,
-}
-
-impl Wrench {
-    /// Adds an impulse at a point given relative to the centre of mass.
-    pub fn add(&mut self, impulse: DVec3, arm: DVec3) {
-        self.impulse += impulse;
-        self.angular_impulse += arm.cross(impulse);
-    }
-}
-
-/// The impulses of every chunk of rows on every body; chunks beyond the given number are left out.
-pub(crate) fn by_chunk(wrenches: &mut [Wrench], chunks: usize, bodies: usize) -> Vec<&mut [Wrench]> {
-    match bodies {
-        0 => (0..chunks).map(|_| &mut [][..]).collect(),
-        count => wrenches.chunks_exact_mut(count).take(chunks).collect(),
-    }
 }
 
 /// One body.

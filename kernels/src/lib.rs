@@ -12,6 +12,7 @@ pub mod column;
 pub mod columns;
 pub mod contents;
 pub mod cpu;
+mod declaration;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod kernel;
@@ -34,6 +35,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod vector;
+mod wrench;
 
 /// Declares the modules of all families, and the table of all kernels. Modules that several kernels share come after them.
 macro_rules! kernels {

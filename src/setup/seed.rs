@@ -17,8 +17,8 @@ use crate::scene::{self, Scene};
 const JITTER: f32 = 0.01;
 /// Distance from a body, over the spacing, within which there are no initial particles.
 const CLEARANCE: f32 = 0.4;
-/// The same with a solve for the divergence, which counts the volume that bodies displace: particles are as many as fit beside them, and those
-/// nearer than this are moved away.
+/// The same with a solve for the divergence, which counts the volume that bodies displace: particles are as many as fit beside
+/// them, and those nearer than this are moved away.
 const MARGIN: f32 = 0.1;
 
 pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {

@@ -5,8 +5,7 @@
 //! ```
 //!
 //! with the images of the velocities, and with the second moment `m_0` of a lattice, so that velocities that differ by chance yield
-//! about as
-//! much as they differ. `divergence::damping` takes the same of it.
+//! about as much as they differ. `divergence::damping` takes the same of it.
 
 use crate::{
     columns::Columns,

@@ -150,48 +150,49 @@ impl Neighbors {
         cells: &Cells,
         (radius, periodic): (f32, Option<&Periodic>),
     ) {
-        let Self { chunks, planes } = self;
-        chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
-        fill_planes(cpu, targets, planes);
-        let [x, y, z] = planes;
-        let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius, periodic };
-        cpu.for_chunks_with(PerChunk(chunks), |memory, first, lists| {
-            let end = queries.len().min(first + CHUNK);
-            let used = count.saturating_sub(first).min(end - first);
-            let ChunkLists { start, entries } = &mut lists.0[0];
-            with_lanes!(cpu, simd => search.chunk(simd, &queries[first..end], used, memory, start, entries));
-        });
+        fill_planes(cpu, targets, &mut self.planes);
+        self.search(cpu, (queries, count), (target_count, cells), (radius, periodic), None);
     }
-}
 
-impl Neighbors {
     /// [`Self::build`] over targets that are in an order of their own, not in that of the cells.
     pub(crate) fn build_in_order(
         &mut self,
         cpu: &Cpu,
-        (queries, count): (&[[f32; 4]], usize),
+        queries: (&[[f32; 4]], usize),
         (targets, target_count): (&[[f32; 4]], usize),
         cells: &Cells,
+        reach: (f32, Option<&Periodic>),
+    ) {
+        for (axis, plane) in self.planes.iter_mut().enumerate() {
+            plane.clear();
+            plane.extend(cells.order.iter().map(|row| targets[*row as usize][axis]));
+            plane.resize(targets.len() + LANES, FAR);
+        }
+        self.search(cpu, queries, (target_count, cells), reach, Some(&cells.order));
+    }
+
+    /// The lists over the planes, which are in the order of the cells; `order` is that of the targets, if it is another.
+    fn search(
+        &mut self,
+        cpu: &Cpu,
+        (queries, count): (&[[f32; 4]], usize),
+        (target_count, cells): (usize, &Cells),
         (radius, periodic): (f32, Option<&Periodic>),
+        order: Option<&[u32]>,
     ) {
         let Self { chunks, planes } = self;
         chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
-        planes.iter_mut().for_each(|plane| plane.resize(targets.len() + LANES, FAR));
-        for (place, row) in cells.order.iter().enumerate() {
-            let target = targets[*row as usize];
-            (0..3).for_each(|axis| planes[axis][place] = target[axis]);
-        }
-        planes.iter_mut().for_each(|plane| plane[target_count..].fill(FAR));
         let [x, y, z] = planes;
         let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius, periodic };
-        let order = &cells.order[..];
         cpu.for_chunks_with(PerChunk(chunks), |memory, first, lists| {
             let end = queries.len().min(first + CHUNK);
             let used = count.saturating_sub(first).min(end - first);
             let ChunkLists { start, entries } = &mut lists.0[0];
             with_lanes!(cpu, simd => search.chunk(simd, &queries[first..end], used, memory, start, entries));
-            for place in entries.iter_mut().flatten() {
-                *place = order.get(*place as usize).copied().unwrap_or(*place);
+            if let Some(order) = order {
+                for place in entries.iter_mut().flatten() {
+                    *place = order.get(*place as usize).copied().unwrap_or(*place);
+                }
             }
         });
     }

@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{apart, incompressible::factor, shapes, vector, vectors};
+use super::{apart, incompressible::factor, row, shapes, vector, vectors};
 use crate::{
     body::{Body, Shape},
-    columns::Columns,
+    columns::{Columns, Fluid},
     divergence::image_rows::{Image, Images, NO_BODY},
     grid::neighbors::Neighbors,
     params::Params,
@@ -216,4 +216,35 @@ pub(super) fn seen(images: &Images) -> Vec<Seen> {
         }
     };
     (0..images.count()).map(one).collect()
+}
+
+/// Velocity and angular velocity of a body, or their rates.
+pub(super) type Twist = (DVec3, DVec3);
+
+fn at(bodies: &[Body], twists: &[Twist], body: usize, point: DVec3) -> DVec3 {
+    let (linear, angular) = twists[body];
+    linear + angular.cross(point - bodies[body].state.position.as_dvec3())
+}
+
+/// Images of vectors.
+pub(super) fn reflected(
+    fluid: &Fluid,
+    images: &[Seen],
+    v: &[DVec3],
+    bodies: &[Body],
+    twists: &[Twist],
+) -> Vec<DVec3> {
+    let one = |image: &Seen| match image.body {
+        None => image.map * v[image.source],
+        Some(body) => {
+            let own = v[image.source] - at(bodies, twists, body, vector(fluid.position[image.source]));
+            image.map * own + image.signs * at(bodies, twists, body, image.foot)
+        }
+    };
+    images.iter().map(one).collect()
+}
+
+pub(super) fn store_images(rows: &mut Vec<[f32; 4]>, padded: usize, values: &[DVec3]) {
+    *rows = values.iter().map(|value| row(*value, 0.0)).collect();
+    rows.resize(padded, [0.0; 4]);
 }

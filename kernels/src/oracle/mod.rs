@@ -15,6 +15,7 @@ pub(crate) mod divergence;
 pub(crate) mod grid;
 mod images;
 pub(crate) mod incompressible;
+mod noise;
 pub(crate) mod obstacles;
 pub(crate) mod pbd;
 pub(crate) mod porous;

@@ -53,8 +53,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// The bodies, and 0; with a solve for the divergence their cores, and the radius of the ball that sweeps each \[m\]: what has images must not
-/// pass the surface that they belong to.
+/// The bodies, and 0; with a solve for the divergence their cores, and the radius of the ball that sweeps each \[m\]: particles that
+/// have images must not pass the surface that these belong to.
 pub(crate) fn obstacles(params: &Params, bodies: &[Body]) -> (Vec<Body>, Vec<f32>) {
     if params.fluid.divergence().is_some() {
         bodies.iter().map(Body::core).unzip()
