@@ -65,7 +65,8 @@ pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
     let edge = params.sponges.iter().map(|sponge| sponge.edge).fold(f32::INFINITY, f32::min);
     let pitch = 0.5 * f64::from(edge).powi(3);
     let entries = |radius: f32, volume: f64, maximum: usize| {
-        let entries = (1.5 * ball(radius) / volume).ceil() as u32;
+        // Far more than there are where particles are fine beside the radius: the maximum is below that.
+        let entries = (1.5 * ball(radius) / volume).ceil().min(f64::from(u32::MAX / 2)) as u32;
         entries.next_multiple_of(8).max(32).min(maximum.next_multiple_of(8).min(u32::MAX as usize) as u32)
     };
     let radius = params.coupling.support_radius;
@@ -83,4 +84,20 @@ pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
         if mirrors { images_of(rows.fluid) } else { 0 },
         0,
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::scene::{FULL, Scene};
+
+    #[test]
+    fn lists_of_fine_particles_have_as_many_entries_as_there_are() {
+        let mut params = Scene::new(FULL).params;
+        let rows = RowCounts { fluid: 1_000_001, nodes: 0, tets: 0, bodies: 0 };
+        let entries = |params: &Params| capacities(params, rows)[2];
+        assert!(entries(&params) < 2000);
+        params.fluid.spacing = 1e-7;
+        assert_eq!(entries(&params), 1_000_008);
+    }
 }
