@@ -138,7 +138,6 @@ macro_rules! declare {
             },
             #[cfg(feature = "gpu")]
             twin: {
-                #[allow(unused_imports, reason = "a kernel without a twin names no pass")]
                 use $crate::gpu::twins::{Rows::*, *};
                 &[$($pass),*]
             },

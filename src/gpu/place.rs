@@ -68,7 +68,6 @@ impl Request<'_> {
             let why = match offload {
                 Offload::From(name) => format!("{name} does not run in this scene"),
                 Offload::Each(_) => "none of the kernels for a GPU runs in this scene".to_owned(),
-                Offload::Auto => "no kernel runs, or one has no body for a GPU".to_owned(),
                 _ => "nothing runs".to_owned(),
             };
             return Ok(self.on_cpu(why));

@@ -127,13 +127,6 @@ impl Plan {
             Work::Host(_) => None,
         };
         let kernels: Vec<&'static Kernel> = self.lines().iter().filter_map(kernel).collect();
-        // A step with such a kernel stays on the CPU as a whole.
-        if let Some(kernel) = kernels.iter().find(|kernel| !kernel.has_twin()) {
-            return match offload {
-                Offload::Cpu | Offload::Auto => Ok(Vec::new()),
-                _ => Err(PlaceError::NoTwin(kernel.name)),
-            };
-        }
         match offload {
             Offload::Cpu => Ok(Vec::new()),
             Offload::Gpu | Offload::Auto => Ok(kernels.iter().map(|kernel| kernel.name).collect()),

@@ -200,11 +200,6 @@ pub enum PlaceError {
         /// The kernel that it must be with.
         with: &'static str,
     },
-    /// A kernel of the step has no body for a GPU.
-    #[error(
-        "backend: {0} runs on the CPU only; with `fluid.solver` = \"dfsph\" the whole step runs on a GPU"
-    )]
-    NoTwin(&'static str),
     /// No kernel has this name.
     #[error("backend: there is no kernel `{0}`")]
     Unknown(&'static str),

@@ -15,12 +15,6 @@ impl Kernel {
         self.reads.contains(&Column::FluidCells)
     }
 
-    /// Whether there is a body for a GPU.
-    #[must_use]
-    pub fn has_twin(&self) -> bool {
-        !self.twin.is_empty()
-    }
-
     /// Whether the twin writes the particles back to the buffers that the next step sorts, with their identities.
     #[must_use]
     pub fn returns_fluid(&self) -> bool {
