@@ -59,7 +59,7 @@ kernels! {
     grid {
         sort_fluid, fluid_neighbors,
     } shared {
-        pub cells, pub neighbors, pub(crate) scan, search, pub(crate) sort,
+        pub cells, pub neighbors, pub(crate) scan, search, pub(crate) sort, pub(crate) weighted,
     }
     /// The fluid: smoothed particle hydrodynamics, with an equation of state (the paper, section 3.1) or with a pressure
     /// solve \[BK17\].
@@ -76,7 +76,7 @@ kernels! {
     divergence {
         images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick,
     } shared {
-        closing, pub image_rows, pub(crate) mirror, pub(crate) rate, pub(crate) reflect, symmetric,
+        closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect, symmetric, walls,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
     /// descent or by Neo-Hookean constraints, and contact of its nodes.

@@ -14,7 +14,7 @@ use crate::{
     columns::{Columns, Fluid},
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
-    lanes::{self, LANES, Simd},
+    lanes::{self, LANES, Simd, prelude::*},
     params::Params,
     periodic::{Space, with_space},
     sph::obstacles::per_chunk,
@@ -88,8 +88,9 @@ fn on_images(cpu: &Cpu, params: &Params, fluid: &Fluid, force: &mut ImageRows) {
         with_space!(cpu, params, simd, space => {
             for row in (0..force.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, &images.position, first + row);
+                let [_, _, _, lift] = lanes::load_rows(simd, &images.lift, first + row);
                 let sum = particles.sum::<_, false>((simd, space), [x, y, z], images.seen_by(first, row));
-                let [x, y, z] = times(sum, lanes::load(simd, &images.lift, first + row));
+                let [x, y, z] = times(sum, -lift);
                 lanes::store_rows(force, row, [x, y, z, lanes::splat(simd, 0.0)]);
             }
         });
@@ -125,16 +126,22 @@ impl Task<'_> {
         let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
         let point = [x, y, z];
         let (mut own, mut others) = ([lanes::splat(simd, 0.0); 3], [lanes::splat(simd, 0.0); 3]);
+        let zero = lanes::splat(simd, 0.0);
         for (entry, c) in images.seen(first, row) {
+            let [hx, hy, hz, base] = lanes::gather_rows(simd, &images.lift, entry);
+            let slope = [hx, hy, hz];
+            // Walls along gravity lift nothing.
+            if (dot(slope, slope) + base * base).simd_gt(zero).to_bitmask() == 0 {
+                continue;
+            }
             let [xj, yj, zj, _] = lanes::gather_rows(simd, &images.position, entry);
             let push = times(space.apart(point, [xj, yj, zj]), lanes::load_array(simd, c));
-            own = plus(own, times(push, lanes::gather(simd, &images.lift, entry)));
+            own = plus(own, times(push, -(dot(slope, [xj, yj, zj]) + base)));
             // Zero for images in bodies.
             let [xx, yy, zz, _] = lanes::gather_rows(simd, mirrored[0], entry);
             let [yz, zx, xy, _] = lanes::gather_rows(simd, mirrored[1], entry);
             let other = Symmetric { along: [xx, yy, zz], between: [yz, zx, xy] };
-            let [hx, hy, hz, base] = lanes::gather_rows(simd, &images.lift_at, entry);
-            others = plus(others, times(other.times(push), dot([hx, hy, hz], point) + base));
+            others = plus(others, times(other.times(push), dot(slope, point) + base));
         }
         let [xx, yy, zz, _] = lanes::load_rows(simd, renormalisation, first + row);
         let [yz, zx, xy, _] = lanes::load_rows(simd, renormalisation_between, first + row);

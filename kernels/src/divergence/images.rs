@@ -4,28 +4,24 @@
 //! nearer than the support radius: edges and corners are products. Images give density, pressure and velocities beside a wall what water
 //! on both sides of it would.
 
-use glam::Vec3;
-
-use super::image_rows::{Image, Images, Mirrors};
+use super::{
+    image_rows::Images,
+    near::Seekers,
+};
 use crate::{
-    column::FAR_ROW,
     columns::{Columns, Fluid},
-    cpu::{Cpu, PerChunk},
-    grid::{
-        cells::Domain,
-        neighbors::{ListValues, Neighbors},
-    },
+    cpu::{CHUNK, Cpu},
+    grid::neighbors::{ListValues, Neighbors},
     kernel::declare,
     lanes::{self, LANES},
     params::Params,
     periodic::{Space, with_space},
-    sph::obstacles::near,
     vector::dot,
 };
 
 declare! {
     needs: [Fluid, Divergence],
-    reads: [FluidPosition, FluidCells, BodyStates],
+    reads: [FluidPosition, FluidNeighbors, FluidCells, BodyStates],
     writes: [FluidImages],
     oracle: crate::oracle::divergence::images,
     bound: 4e-6,
@@ -50,59 +46,31 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let bodies = &columns.bodies.states.0;
-    let Fluid { position, cells, images, .. } = &mut columns.fluid;
-    let radius = params.fluid.smoothing.support_radius;
-    images.by_chunk.resize_with(position.len().div_ceil(crate::cpu::CHUNK), Vec::new);
-    images.seekers.resize(position.len(), FAR_ROW);
-    let rows = (&mut images.seekers[..], PerChunk(&mut images.by_chunk));
-    cpu.for_chunks(rows, |first, (seekers, found)| {
-        let found: &mut Vec<(u32, Image)> = &mut found.0[0];
-        found.clear();
-        seekers.fill(FAR_ROW);
-        let rows = first..count.min(first + crate::cpu::CHUNK);
-        let near = near(bodies, &position[rows.clone()], radius);
-        let mirrors = Mirrors::new(params, bodies, &near);
-        for row in rows {
-            let [x, y, z, _] = position[row];
-            let before = found.len();
-            mirrors.visit(Vec3::new(x, y, z), |image| found.push((row as u32, image)));
-            // Who has no image in a wall is too far away to see one.
-            if found.len() > before || !near.is_empty() {
-                seekers[row - first] = position[row];
-            }
-        }
-    });
-    images.collect(position, params);
-    if images.count() == 0 {
-        images.near.clear(position.len());
-        images.particles.clear(0);
-        return;
+    let Fluid { position, neighbors, cells, images, .. } = &mut columns.fluid;
+    
+    images.find(cpu, params, (position, count), bodies);
+    
+    let mut of_bodies = std::mem::take(&mut images.of_bodies);
+    if images.has_bodies {
+        of_bodies.search(cpu, params, (position, count), images);
     }
+    let seekers = Seekers { params, position, count, neighbors };
+    seekers.find(cpu, images, images.has_bodies.then_some(&of_bodies));
+    images.of_bodies = of_bodies;
+    
     let used = images.count();
-    let Images {
-        position: at, near, pairs, particles, particle_pairs, in_bodies, has_bodies, seekers, ..
-    } = images;
-    let domain = match params.domain {
-        Domain::Bounded { minimum, maximum } => {
-            Domain::Bounded { minimum: minimum - radius, maximum: maximum + radius }
-        }
-        Domain::Unbounded => Domain::Unbounded,
-    };
-    images.cells.build(cpu, &at[..used], radius, domain);
-    let reach = (radius, params.periodic.as_ref());
-    near.build_in_order(cpu, (seekers, count), (at, used), &images.cells, reach);
-    weigh(cpu, params, (position, near), (at, true), pairs);
-    let rows = if *has_bodies { in_bodies.len() } else { 0 };
-    particles.build(cpu, (&in_bodies[..rows], used.min(rows)), (position, count), cells, reach);
-    weigh(cpu, params, (&at[..rows], particles), (position, false), particle_pairs);
+    let Images { position: at, particles, particle_pairs, in_bodies, .. } = images;
+    let reach = (params.fluid.smoothing.support_radius, params.periodic.as_ref());
+    particles.build(cpu, (in_bodies, used.min(in_bodies.len())), (position, count), cells, reach);
+    weigh(cpu, params, (at, particles), position, particle_pairs);
 }
 
 /// The value of every pair: that of the image's volume, times the gradient of W over the distance vector.
 fn weigh(
     cpu: &Cpu,
     params: &Params,
-    (queries, lists): (&[[f32; 4]], &Neighbors),
-    (targets, are_images): (&[[f32; 4]], bool),
+    (images, lists): (&[[f32; 4]], &Neighbors),
+    particles: &[[f32; 4]],
     pairs: &mut ListValues,
 ) {
     let pairs = pairs.match_lists(lists);
@@ -111,15 +79,14 @@ fn weigh(
         with_space!(cpu, params, simd, space => {
             let kernel = params.fluid.smoothing.lanes(simd);
             let gradient = kernel.gradient_scale() * params.fluid.rest_volume();
-            let end = queries.len().min(first + crate::cpu::CHUNK);
+            let end = images.len().min(first + CHUNK);
             for row in (first..end).step_by(LANES) {
-                let [x, y, z, own] = lanes::load_rows(simd, queries, row);
+                let [x, y, z, volume] = lanes::load_rows(simd, images, row);
                 let range = lists.range(row - first);
                 for (entry, stored) in lists.group(row - first).iter().zip(&mut pairs[range]) {
-                    let [xj, yj, zj, other] = lanes::gather_rows(simd, targets, entry);
+                    let [xj, yj, zj, _] = lanes::gather_rows(simd, particles, entry);
                     let apart = space.apart([x, y, z], [xj, yj, zj]);
                     let u = kernel.closeness(dot(apart, apart));
-                    let volume = if are_images { other } else { own };
                     lanes::store(stored, 0, gradient * (u * u * u) * volume);
                 }
             }

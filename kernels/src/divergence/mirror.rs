@@ -38,14 +38,21 @@ enum Curvature {
 
 /// The image of a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mirrored {
-    pub(super) position: Vec3,
+pub(crate) struct Mirrored {
+    pub(crate) position: Vec3,
     /// The map of velocities R, symmetric: xx, yy, zz.
-    pub(super) along: Vec3,
+    pub(crate) along: Vec3,
     /// yz, zx, xy.
-    pub(super) between: Vec3,
+    pub(crate) between: Vec3,
     /// J.
-    pub(super) volume_ratio: f32,
+    pub(crate) volume_ratio: f32,
+}
+
+impl Mirrored {
+    /// The point itself.
+    pub(super) fn none(position: Vec3) -> Self {
+        Self { position, along: Vec3::ONE, between: Vec3::ZERO, volume_ratio: 1.0 }
+    }
 }
 
 /// A body as a mirror.

@@ -225,28 +225,39 @@ impl Task<'_> {
         (push, inverse): (Vec3x8<S>, Symmetric<S>),
         squares: Symmetric<S>,
     ) -> f32x8<S> {
-        let squares = inverse.squared().contracted(squares);
-        let (mut back, mut own) = ([[0.0; LANES]; 3], [0.0; LANES]);
-        for lane in 0..LANES {
-            for image in self.images.of(row + lane) {
-                let [x, y, z, ratio] = self.images.position[image];
-                let [px, py, pz, _] = self.position[row + lane];
-                let splat = |[x, y, z]: [f32; 3]| [x, y, z].map(|value| lanes::splat(simd, value));
-                let apart = space.apart(splat([px, py, pz]), splat([x, y, z]));
-                let offset = -Vec3::new(apart[0][0], apart[1][0], apart[2][0]);
-                let fluid = &self.params.fluid;
-                let c = ratio * fluid.rest_volume() * fluid.smoothing.gradient_at(offset.length());
-                let received = inverse.lane(lane) * (c * offset);
-                let handed_on = self.images.back(image, received);
-                (0..3).for_each(|axis| back[axis][lane] += handed_on[axis]);
-                own[lane] += received.length_squared();
-            }
+        let fluid = &self.params.fluid;
+        let kernel = fluid.smoothing.lanes(simd);
+        let gradient = kernel.gradient_scale() * fluid.rest_volume();
+        let mut others = inverse.squared().contracted(squares);
+        let mut push = push;
+        let [x, y, z, _] = lanes::load_rows(simd, self.position, row);
+        let own: [_; LANES] = std::array::from_fn(|lane| self.images.of(row + lane));
+        let most = own.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        for place in 0..most {
+            // Lanes with fewer images take the padding row, which is far away.
+            let entry = own.each_ref().map(|own| own.clone().nth(place).unwrap_or(self.images.count()) as u32);
+            let [xg, yg, zg, ratio] = lanes::gather_rows(simd, &self.images.position, &entry);
+            let offset = negative(space.apart([x, y, z], [xg, yg, zg]));
+            let u = kernel.closeness(dot(offset, offset));
+            let received = times(inverse.times(offset), gradient * (u * u * u) * ratio);
+            push = plus(push, self.back((simd, &entry), received));
+            others -= dot(received, received);
         }
-        let [x, y, z] = back.each_ref().map(|lanes| lanes::load_array(simd, lanes));
-        let push = plus(push, [x, y, z]);
+        let others = lanes::positive(simd, others);
         let minimum = MINIMUM_DIAGONAL / (self.params.fluid.spacing * self.params.fluid.spacing);
-        let others = lanes::positive(simd, squares - lanes::load_array(simd, &own));
         (others + dot(push, push)).max(lanes::splat(simd, minimum))
+    }
+
+    /// The transposed maps of eight images back to their particles.
+    #[inline(always)]
+    fn back<S: Simd>(&self, (simd, entry): (S, &[u32; LANES]), received: Vec3x8<S>) -> Vec3x8<S> {
+        let mut back = [[0.0; LANES]; 3];
+        for (lane, image) in entry.iter().enumerate().filter(|(_, image)| (**image as usize) < self.images.count()) {
+            let received = Vec3::new(received[0][lane], received[1][lane], received[2][lane]);
+            let own = self.images.back(*image as usize, received);
+            (0..3).for_each(|axis| back[axis][lane] = own[axis]);
+        }
+        back.each_ref().map(|lanes| lanes::load_array(simd, lanes))
     }
 
     /// The divergence that the error of the density asks for, times the step.

@@ -1,7 +1,5 @@
 //! Symmetric matrices of eight particles.
 
-use glam::{Mat3, Vec3};
-
 use crate::{
     lanes::{self, Simd, f32x8},
     vector::{Vec3x8, dot},
@@ -33,14 +31,6 @@ impl<S: Simd> Symmetric<S> {
         self.between[0] += a[1] * b[2];
         self.between[1] += a[2] * b[0];
         self.between[2] += a[0] * b[1];
-    }
-
-    /// The matrix of one of the eight.
-    #[inline(always)]
-    pub(super) fn lane(self, lane: usize) -> Mat3 {
-        let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
-        let [xx, yy, zz, yz, zx, xy] = [xx[lane], yy[lane], zz[lane], yz[lane], zx[lane], xy[lane]];
-        Mat3::from_cols(Vec3::new(xx, xy, zx), Vec3::new(xy, yy, yz), Vec3::new(zx, yz, zz))
     }
 
     /// Adds `a b^T`, with both elements between two axes in one.

@@ -15,7 +15,7 @@ use super::{
 use crate::{
     column::{FAR_ROW, padded},
     columns::{Columns, Fluid, RowCounts},
-    divergence::image_rows::{Images, NO_BODY, along_open_axes},
+    divergence::image_rows::{Images, NO_BODY, along_open_axes, signs},
     grid::{
         cells::Domain,
         neighbors::{ListValues, Neighbors},
@@ -143,7 +143,7 @@ impl Resident {
             "image_position",
             bytemuck::cast_slice(&images.position[..count.min(images.position.len())]),
         );
-        let words: Vec<u32> = (0..count).flat_map(|image| device_image(images, image).words()).collect();
+        let words: Vec<u32> = (0..count).flat_map(|image| device_image(fluid, image).words()).collect();
         self.write("images", bytemuck::cast_slice(&words));
         let first = &images.first[..images.first.len().min(rows + 1)];
         self.write("fluid_image_first", bytemuck::cast_slice(first));
@@ -190,17 +190,19 @@ impl Resident {
         let gravity = along_open_axes(&self.params);
         for (words, at) in images.chunks_exact(DeviceImage::WORDS).zip(&position[..count]) {
             let DeviceImage { foot, source, along, body, between, walls } = DeviceImage::take(words);
-            let sign = |axis: u32| if walls >> axis & 1 == 1 { -1.0 } else { 1.0 };
             let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
-            found.foot.push(row(foot, sign(2)));
-            found.along.push(row(along, sign(0)));
-            found.between.push(row(between, sign(1)));
+            found.foot.push(row(foot, 0.0));
+            found.along.push(row(along, 0.0));
+            found.between.push(row(between, 0.0));
             let vector = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
-            let (signs, of) = (Vec3::new(sign(0), sign(1), sign(2)), vector(&points[source as usize]));
-            found.lift.push(0.5 * gravity.dot(vector(at) - of));
-            let turned = 0.5 * (signs - 1.0) * gravity;
-            let walls = vector(at) - signs * Vec3::from_array(foot);
-            found.lift_at.push(row(turned.to_array(), 0.5 * gravity.dot(walls)));
+            let (signs, of) = (signs(walls), vector(&points[source as usize]));
+            found.lift.push(if body == NO_BODY {
+                let walls = vector(at) - signs * of;
+                row((0.5 * (signs - 1.0) * gravity).to_array(), 0.5 * gravity.dot(walls))
+            } else {
+                [0.0, 0.0, 0.0, -0.5 * gravity.dot(vector(at) - of)]
+            });
+            found.axes.push(walls);
             found.source.push(source);
             found.body.push(body);
         }
@@ -209,9 +211,10 @@ impl Resident {
         found.first.resize(padded(rows) + 1, count as u32);
         let to = padded(count);
         found.position.resize(to, FAR_ROW);
-        found.lift.resize(to, 0.0);
-        for column in [&mut found.foot, &mut found.along, &mut found.between, &mut found.lift_at] {
-            column.resize(to, [0.0; 4]);
+        found.axes.resize(to, 0);
+        found.lift.resize(to, [0.0; 4]);
+        for column in [&mut found.foot, &mut found.along, &mut found.between] {
+            column.resize(if found.has_bodies { to } else { 0 }, [0.0; 4]);
         }
         let lists = |words: &[u32], lines: usize, used: usize, of: usize| {
             let list = |row: usize| (1..=words[row] as usize).map(|k| words[k * lines + row]).collect();
@@ -229,16 +232,18 @@ impl Resident {
     }
 }
 
-fn device_image(images: &Images, image: usize) -> DeviceImage {
+fn device_image(fluid: &Fluid, image: usize) -> DeviceImage {
+    let images = &fluid.images;
     let vector = |row: &[f32; 4]| [row[0], row[1], row[2]];
-    let signs = images.signs(image).to_array();
+    // Without bodies there are no maps.
+    let of_body = |rows: &[[f32; 4]], without: [f32; 4]| vector(rows.get(image).unwrap_or(&without));
     DeviceImage {
-        foot: vector(&images.foot[image]),
+        foot: of_body(&images.foot, fluid.position[images.source[image] as usize]),
         source: images.source[image],
-        along: vector(&images.along[image]),
+        along: of_body(&images.along, [1.0; 4]),
         body: images.body[image],
-        between: vector(&images.between[image]),
-        walls: (0..3).map(|axis| u32::from(signs[axis] < 0.0) << axis).sum(),
+        between: of_body(&images.between, [0.0; 4]),
+        walls: images.axes[image],
     }
 }
 
@@ -294,7 +299,9 @@ mod tests {
         resident.fill_params();
         let kernels =
             [&grid::sort_fluid::KERNEL, &grid::fluid_neighbors::KERNEL, &divergence::images::KERNEL];
-        let reads: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+        // The lists of neighbours are made on the device.
+        let mut reads: Vec<Column> = kernels.iter().flat_map(|kernel| kernel.reads).copied().collect();
+        reads.retain(|column| *column != Column::FluidNeighbors);
         resident.upload(&mut columns, &reads, false).unwrap_or_else(|error| fail(error));
         let before = resident.capacities;
         let mut program = resident.program(&kernels).unwrap_or_else(|error| fail(error));

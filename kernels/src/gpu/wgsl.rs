@@ -31,6 +31,7 @@ const CONSTANTS: &[&[Constant]] = &[
     clock::CONSTANTS,
     couple::compliance::CONSTANTS,
     couple::impulses::CONSTANTS,
+    divergence::collect::CONSTANTS,
     divergence::image_rows::CONSTANTS,
     divergence::mirror::CONSTANTS,
     divergence::rate::CONSTANTS,

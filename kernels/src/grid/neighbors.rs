@@ -20,7 +20,7 @@ pub(super) const GROUPS: usize = CHUNK / LANES;
 /// Neighbour lists of all queries, in chunks of [`CHUNK`] queries.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbors {
-    chunks: Vec<ChunkLists>,
+    pub(super) chunks: Vec<ChunkLists>,
     /// Coordinates of the targets, one array per axis: candidates are read in order, many times.
     planes: [Vec<f32>; 3],
 }
@@ -29,9 +29,9 @@ pub struct Neighbors {
 #[derive(Clone, Debug)]
 pub(crate) struct ChunkLists {
     /// First entry of each group.
-    start: [u32; GROUPS + 1],
+    pub(super) start: [u32; GROUPS + 1],
     /// The k-th neighbours of eight queries.
-    entries: Vec<[u32; LANES]>,
+    pub(super) entries: Vec<[u32; LANES]>,
 }
 
 impl Default for ChunkLists {
@@ -78,15 +78,6 @@ impl Neighbors {
     #[must_use]
     pub fn entries(&self) -> usize {
         self.chunks.iter().map(|chunk| chunk.entries.len() * LANES).sum()
-    }
-
-    /// Empty lists of all queries.
-    pub(crate) fn clear(&mut self, queries: usize) {
-        self.chunks.resize_with(queries.div_ceil(CHUNK), ChunkLists::default);
-        self.chunks.iter_mut().for_each(|chunk| {
-            chunk.entries.clear();
-            chunk.start.fill(0);
-        });
     }
 
     /// Lists from single lists with entries in order; `padding` fills up a group.
@@ -150,37 +141,8 @@ impl Neighbors {
         cells: &Cells,
         (radius, periodic): (f32, Option<&Periodic>),
     ) {
-        fill_planes(cpu, targets, &mut self.planes);
-        self.search(cpu, (queries, count), (target_count, cells), (radius, periodic), None);
-    }
-
-    /// [`Self::build`] over targets that are in an order of their own, not in that of the cells.
-    pub(crate) fn build_in_order(
-        &mut self,
-        cpu: &Cpu,
-        queries: (&[[f32; 4]], usize),
-        (targets, target_count): (&[[f32; 4]], usize),
-        cells: &Cells,
-        reach: (f32, Option<&Periodic>),
-    ) {
-        for (axis, plane) in self.planes.iter_mut().enumerate() {
-            plane.clear();
-            plane.extend(cells.order.iter().map(|row| targets[*row as usize][axis]));
-            plane.resize(targets.len() + LANES, FAR);
-        }
-        self.search(cpu, queries, (target_count, cells), reach, Some(&cells.order));
-    }
-
-    /// The lists over the planes, which are in the order of the cells; `order` is that of the targets, if it is another.
-    fn search(
-        &mut self,
-        cpu: &Cpu,
-        (queries, count): (&[[f32; 4]], usize),
-        (target_count, cells): (usize, &Cells),
-        (radius, periodic): (f32, Option<&Periodic>),
-        order: Option<&[u32]>,
-    ) {
         let Self { chunks, planes } = self;
+        fill_planes(cpu, targets, planes);
         chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
         let [x, y, z] = planes;
         let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius, periodic };
@@ -189,11 +151,6 @@ impl Neighbors {
             let used = count.saturating_sub(first).min(end - first);
             let ChunkLists { start, entries } = &mut lists.0[0];
             with_lanes!(cpu, simd => search.chunk(simd, &queries[first..end], used, memory, start, entries));
-            if let Some(order) = order {
-                for place in entries.iter_mut().flatten() {
-                    *place = order.get(*place as usize).copied().unwrap_or(*place);
-                }
-            }
         });
     }
 }

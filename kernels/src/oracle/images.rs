@@ -6,7 +6,10 @@ use super::{apart, incompressible::factor, row, shapes, vector, vectors};
 use crate::{
     body::{Body, Shape},
     columns::{Columns, Fluid},
-    divergence::image_rows::{Image, Images, NO_BODY},
+    divergence::{
+        image_rows::{Image, Images, NO_BODY},
+        mirror::Mirrored,
+    },
     grid::neighbors::Neighbors,
     params::Params,
 };
@@ -134,14 +137,17 @@ fn images_of(params: &Params, bodies: &[Body], x: DVec3) -> Vec<Image> {
                     if body == NO_BODY && qx * qy * qz > 0.0 && qx + qy + qz > 2.0 {
                         continue;
                     }
+                    let axes = [qx, qy, qz].into_iter().enumerate();
                     found.push(Image {
                         position: DVec3::new(x, y, z).as_vec3(),
-                        foot: foot.as_vec3(),
-                        signs: DVec3::new(qx, qy, qz).as_vec3(),
-                        along: DVec3::new(map.x_axis.x, map.y_axis.y, map.z_axis.z).as_vec3(),
-                        between: DVec3::new(map.y_axis.z, map.z_axis.x, map.x_axis.y).as_vec3(),
-                        volume_ratio: volume as f32,
+                        axes: axes.map(|(axis, sign)| u32::from(sign < 0.0) << axis).sum(),
                         body,
+                        mirrored: Mirrored {
+                            position: foot.as_vec3(),
+                            along: DVec3::new(map.x_axis.x, map.y_axis.y, map.z_axis.z).as_vec3(),
+                            between: DVec3::new(map.y_axis.z, map.z_axis.x, map.x_axis.y).as_vec3(),
+                            volume_ratio: volume as f32,
+                        },
                     });
                 }
             }
@@ -159,8 +165,7 @@ pub(crate) fn images(params: &Params, columns: &mut Columns) {
         .iter()
         .enumerate()
         .flat_map(|(row, x)| images_of(params, bodies, *x).into_iter().map(move |image| (row as u32, image)));
-    images.by_chunk = vec![found.collect()];
-    images.collect(&columns.fluid.position, params);
+    images.take(&found.collect::<Vec<_>>(), &columns.fluid.position, params);
     let used = images.count();
     let at: Vec<DVec3> = images.position[..used].iter().map(|row| vector(*row)).collect();
     let radius = params.fluid.smoothing.support_radius;
@@ -201,13 +206,22 @@ pub(super) struct Seen {
 /// The images that are there.
 pub(super) fn seen(images: &Images) -> Vec<Seen> {
     let one = |image: usize| {
-        let ([xx, yy, zz, qx], [yz, zx, xy, qy]) =
-            (images.along[image].map(f64::from), images.between[image].map(f64::from));
-        let signs = DVec3::new(qx, qy, f64::from(images.foot[image][3]));
-        let along = DMat3::from_cols(DVec3::new(xx, xy, zx), DVec3::new(xy, yy, yz), DVec3::new(zx, yz, zz));
+        let signs = images.signs(image).as_dvec3();
+        // Without bodies there are no maps.
+        let is_in_body = images.body[image] != NO_BODY;
+        let source = vector(images.position[image]);
+        let (foot, along) = if is_in_body {
+            let ([xx, yy, zz, _], [yz, zx, xy, _]) =
+                (images.along[image].map(f64::from), images.between[image].map(f64::from));
+            let x = DVec3::new(xx, xy, zx);
+            let (y, z) = (DVec3::new(xy, yy, yz), DVec3::new(zx, yz, zz));
+            (vector(images.foot[image]), DMat3::from_cols(x, y, z))
+        } else {
+            (source, DMat3::IDENTITY)
+        };
         Seen {
             position: vector(images.position[image]),
-            foot: vector(images.foot[image]),
+            foot,
             source: images.source[image] as usize,
             body: (images.body[image] != NO_BODY).then_some(images.body[image] as usize),
             volume: f64::from(images.position[image][3]),

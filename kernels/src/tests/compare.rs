@@ -275,6 +275,7 @@ fn image_groups(images: &Images, order: &[usize]) -> (Vec<usize>, Vec<u32>, Vec<
         groups.extend(numbers);
     }
     groups.push(all.iter().map(|image| f64::from(images.body[*image].wrapping_add(1))).collect());
+    groups.push(all.iter().map(|image| f64::from(images.axes[*image])).collect());
     let mut place = vec![0; images.count()];
     all.iter().enumerate().for_each(|(index, image)| place[*image] = index as u32);
     (all, place, groups)
