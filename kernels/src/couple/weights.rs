@@ -81,7 +81,10 @@ fn mirror_renormalisation(columns: &mut Columns) {
     let images = &fluid.images;
     let renormalisation = [&fluid.renormalisation[..], &fluid.renormalisation_between[..]];
     let rows = (0..images.position.len()).map(|image| match images.body.get(image) {
-        Some(&NO_BODY) => mirrored_renormalisation(images, image, renormalisation),
+        Some(&NO_BODY) => {
+            let source = images.source[image] as usize;
+            mirrored_renormalisation(images.signs(image), renormalisation.map(|rows| rows[source]))
+        }
         _ => ([0.0; 4], [0.0; 4]),
     });
     (fluid.image_renormalisation.0, fluid.image_renormalisation_between.0) = rows.unzip();

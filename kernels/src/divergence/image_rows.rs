@@ -2,13 +2,10 @@
 
 use glam::Vec3;
 
-use super::{
-    mirror::Mirrored,
-    near::OfBodies,
-    walls::NearWalls,
-};
+use super::{mirror::Mirrored, near::OfBodies, walls::NearWalls};
 use crate::{
     column::ColumnData,
+    cpu::Rows,
     grid::neighbors::{ListValues, Neighbors},
     lanes::LANES,
     layout::constants,
@@ -77,8 +74,8 @@ pub struct Images {
     pub(crate) of_bodies: OfBodies,
     /// The walls near every particle.
     pub(crate) near_walls: Vec<NearWalls>,
-    /// Images in bodies, and the number of images, of each chunk of particles; kept so that a step allocates nothing.
-    pub(crate) by_chunk: Vec<(Vec<InBody>, usize)>,
+    /// Images in bodies of each chunk of particles; kept so that a step allocates nothing.
+    pub(crate) in_bodies_by_chunk: Vec<Vec<InBody>>,
 }
 
 impl Images {
@@ -177,6 +174,42 @@ impl ColumnData for Images {
         self.pairs.poison();
         self.particles.poison();
         self.particle_pairs.poison();
+    }
+}
+
+/// Rows of images, divided among threads with the particles that they are of: a thread finds what it has just written.
+pub(super) struct OfParticles<'a, T> {
+    rows: &'a mut [T],
+    /// First image of every particle, and of the one after the last.
+    first: &'a [u32],
+}
+
+impl<'a, T> OfParticles<'a, T> {
+    /// A row for every image of the particles.
+    pub(super) fn new(rows: &'a mut [T], first: &'a [u32]) -> Self {
+        Self { rows, first }
+    }
+
+    /// The rows of the images of the `index`-th particle.
+    #[inline(always)]
+    pub(super) fn of(&mut self, index: usize) -> &mut [T] {
+        let start = self.first[0];
+        &mut self.rows[(self.first[index] - start) as usize..(self.first[index + 1] - start) as usize]
+    }
+
+    /// All of them with the number of the first.
+    pub(super) fn all(self) -> (usize, &'a mut [T]) {
+        (self.first[0] as usize, self.rows)
+    }
+}
+
+impl<T: Send> Rows for OfParticles<'_, T> {
+    fn rows(&self) -> usize {
+        self.first.len() - 1
+    }
+    fn split(self, at: usize) -> (Self, Self) {
+        let (left, right) = self.rows.split_at_mut((self.first[at] - self.first[0]) as usize);
+        (Self { rows: left, first: &self.first[..=at] }, Self { rows: right, first: &self.first[at..] })
     }
 }
 

@@ -4,10 +4,7 @@
 //! nearer than the support radius: edges and corners are products. Images give density, pressure and velocities beside a wall what water
 //! on both sides of it would.
 
-use super::{
-    image_rows::Images,
-    near::Seekers,
-};
+use super::{image_rows::Images, near::Seekers};
 use crate::{
     columns::{Columns, Fluid},
     cpu::{CHUNK, Cpu},
@@ -47,9 +44,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let bodies = &columns.bodies.states.0;
     let Fluid { position, neighbors, cells, images, .. } = &mut columns.fluid;
-    
+
     images.find(cpu, params, (position, count), bodies);
-    
+
     let mut of_bodies = std::mem::take(&mut images.of_bodies);
     if images.has_bodies {
         of_bodies.search(cpu, params, (position, count), images);
@@ -57,7 +54,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let seekers = Seekers { params, position, count, neighbors };
     seekers.find(cpu, images, images.has_bodies.then_some(&of_bodies));
     images.of_bodies = of_bodies;
-    
+
     let used = images.count();
     let Images { position: at, particles, particle_pairs, in_bodies, .. } = images;
     let reach = (params.fluid.smoothing.support_radius, params.periodic.as_ref());

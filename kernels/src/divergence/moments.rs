@@ -36,7 +36,7 @@ use crate::{
 };
 
 use super::{
-    image_rows::{ImageRows, Images, NO_BODY},
+    image_rows::{ImageRows, Images, NO_BODY, OfParticles},
     rate::SPARSE,
     reflect::mirrored_renormalisation,
     symmetric::Symmetric,
@@ -95,14 +95,16 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     for column in [&mut *renormalisation, renormalisation_between, moment, factors, pressure_rows] {
         column.resize(position.len(), [0.0; 4]);
     }
+    let mirrored = mirrored_rows(images, [image_renormalisation, image_renormalisation_between]);
     let task = Task { params, divergence, position, velocity, images };
     let rows = (
         ((&mut renormalisation[..], &mut renormalisation_between[..]), &mut moment[..]),
         (&mut factors[..], &mut pressure_rows[..]),
         pairs.match_lists(neighbors),
-        pressure_solve.beginnings(position.len()),
+        (pressure_solve.beginnings(position.len()), mirrored),
     );
-    cpu.for_chunks(rows, |first, (((along, between), moment), (factors, pressure), pairs, beginning)| {
+    cpu.for_chunks(rows, |first, rows| {
+        let (((along, between), moment), (factors, pressure), pairs, (beginning, mirrored)) = rows;
         let lists = neighbors.chunk(first);
         with_space!(cpu, params, simd, space => task.chunk(
             (simd, space), first, lists, &mut pairs.0[0], [along, between, moment, factors, pressure]));
@@ -111,31 +113,36 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         [&mut *along, between, moment, factors].into_iter().for_each(|rows| rows[used..].fill([0.0; 4]));
         pressure[used..].fill([0.0, 0.0, 1.0, 0.0]);
         beginning.0[0] = Beginning::of(&velocity[first..first + used], factors);
+        mirror(images, first, [along, between], mirrored);
     });
     pressure_solve.begin_divergence(count, params);
-    let renormalisation = [&renormalisation[..], &renormalisation_between[..]];
-    mirror(cpu, images, renormalisation, [image_renormalisation, image_renormalisation_between]);
 }
 
-/// The renormalisation of images in walls alone.
-fn mirror(
-    cpu: &Cpu,
-    images: &Images,
-    renormalisation: [&[[f32; 4]]; 2],
-    [along, between]: [&mut ImageRows; 2],
-) {
+/// A row for every image.
+fn mirrored_rows<'a>(images: &'a Images, [along, between]: [&'a mut ImageRows; 2]) -> Mirrored<'a> {
     let count = images.count();
     for rows in [&mut along.0, &mut between.0] {
         rows.resize(images.position.len(), [0.0; 4]);
         rows[count..].fill([0.0; 4]);
     }
-    cpu.for_chunks((&mut along.0[..count], &mut between.0[..count]), |first, (along, between)| {
-        for (row, (along, between)) in along.iter_mut().zip(between).enumerate() {
-            let is_in_body = images.body[first + row] != NO_BODY;
-            let mirrored = mirrored_renormalisation(images, first + row, renormalisation);
-            (*along, *between) = if is_in_body { ([0.0; 4], [0.0; 4]) } else { mirrored };
-        }
-    });
+    let [along, between] = [&mut along.0[..count], &mut between.0[..count]];
+    (OfParticles::new(along, &images.first), OfParticles::new(between, &images.first))
+}
+
+/// Rows along and between the axes.
+type Mirrored<'a> = (OfParticles<'a, [f32; 4]>, OfParticles<'a, [f32; 4]>);
+
+/// The renormalisation of images in walls alone, from that of particles, the first of which has the row `first`.
+fn mirror(images: &Images, first: usize, renormalisation: [&[[f32; 4]]; 2], (along, between): Mirrored<'_>) {
+    let ((start, along), (_, between)) = (along.all(), between.all());
+    for (index, (along, between)) in along.iter_mut().zip(between).enumerate() {
+        let image = start + index;
+        let source = images.source[image] as usize - first;
+        let rows = renormalisation.map(|rows| rows[source]);
+        let is_in_body = images.body[image] != NO_BODY;
+        let mirrored = mirrored_renormalisation(images.signs(image), rows);
+        (*along, *between) = if is_in_body { ([0.0; 4], [0.0; 4]) } else { mirrored };
+    }
 }
 
 /// Sums over neighbours and images.
@@ -235,7 +242,8 @@ impl Task<'_> {
         let most = own.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         for place in 0..most {
             // Lanes with fewer images take the padding row, which is far away.
-            let entry = own.each_ref().map(|own| own.clone().nth(place).unwrap_or(self.images.count()) as u32);
+            let entry =
+                own.each_ref().map(|own| own.clone().nth(place).unwrap_or(self.images.count()) as u32);
             let [xg, yg, zg, ratio] = lanes::gather_rows(simd, &self.images.position, &entry);
             let offset = negative(space.apart([x, y, z], [xg, yg, zg]));
             let u = kernel.closeness(dot(offset, offset));
@@ -252,7 +260,9 @@ impl Task<'_> {
     #[inline(always)]
     fn back<S: Simd>(&self, (simd, entry): (S, &[u32; LANES]), received: Vec3x8<S>) -> Vec3x8<S> {
         let mut back = [[0.0; LANES]; 3];
-        for (lane, image) in entry.iter().enumerate().filter(|(_, image)| (**image as usize) < self.images.count()) {
+        for (lane, image) in
+            entry.iter().enumerate().filter(|(_, image)| (**image as usize) < self.images.count())
+        {
             let received = Vec3::new(received[0][lane], received[1][lane], received[2][lane]);
             let own = self.images.back(*image as usize, received);
             (0..3).for_each(|axis| back[axis][lane] = own[axis]);

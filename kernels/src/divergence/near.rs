@@ -6,7 +6,7 @@
 
 use super::{
     image_rows::{Images, NO_BODY},
-    walls::{MIRRORS, NearWalls, rank},
+    walls::{MIRRORS, NearWalls, mirrors_of, rank},
 };
 use crate::{
     column::{FAR_ROW, padded},
@@ -171,12 +171,7 @@ struct Squares<S: Simd>([[f32x8<S>; 3]; 3]);
 
 impl<S: Simd> Squares<S> {
     #[inline(always)]
-    fn new(
-        point: Vec3x8<S>,
-        mirrored: &[[f32x8<S>; 3]; 2],
-        other: Vec3x8<S>,
-        space: impl Space<S>,
-    ) -> Self {
+    fn new(point: Vec3x8<S>, mirrored: &[[f32x8<S>; 3]; 2], other: Vec3x8<S>, space: impl Space<S>) -> Self {
         let apart = space.apart(point, other);
         let square = |axis: usize, by: usize| {
             let along = if by == 0 { apart[axis] } else { mirrored[by - 1][axis] + other[axis] };
@@ -188,6 +183,7 @@ impl<S: Simd> Squares<S> {
     /// Square of the distance from the image by the mirrors.
     #[inline(always)]
     fn of(&self, mirrors: usize) -> f32x8<S> {
-        self.0[0][mirrors / 9] + self.0[1][mirrors / 3 % 3] + self.0[2][mirrors % 3]
+        let along = |axis: usize| self.0[axis][mirrors_of(mirrors, axis)];
+        along(0) + along(1) + along(2)
     }
 }

@@ -9,7 +9,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::image_rows::{ImageRows, Images, NO_BODY};
+use super::image_rows::{ImageRows, Images, NO_BODY, OfParticles};
 use crate::{
     body::{Body, Wrench},
     cpu::Cpu,
@@ -43,7 +43,9 @@ pub(super) fn reflect(
     found.0.resize(images.position.len(), [0.0; 4]);
     // Padding rows fill up lists, where they must add zeros.
     found.0[images.count()..].fill([0.0; 4]);
-    cpu.for_chunks(&mut found.0[..images.count()], |first, found| {
+    let rows = OfParticles::new(&mut found.0[..images.count()], &images.first);
+    cpu.for_chunks(rows, |_, found| {
+        let (first, found) = found.all();
         for (row, found) in found.iter_mut().enumerate() {
             let image = first + row;
             let (source, body) = (images.source[image] as usize, images.body[image]);
@@ -55,20 +57,15 @@ pub(super) fn reflect(
                 let relative = value - field(&position[source]);
                 value = images.mapped(image, relative) + field(&images.foot[image]);
             }
-            let [x, y, z] = (images.signs(image) * value).to_array();
-            *found = [x, y, z, 0.0];
+            *found = (images.signs(image) * value).extend(0.0).to_array();
         }
     });
 }
 
-/// Renormalisation of the particle of an image, mirrored by the walls: `Q L Q`.
-pub(crate) fn mirrored_renormalisation(
-    images: &Images,
-    image: usize,
-    renormalisation: [&[[f32; 4]]; 2],
-) -> ([f32; 4], [f32; 4]) {
-    let (source, q) = (images.source[image] as usize, images.signs(image));
-    let ([xx, yy, zz, _], [yz, zx, xy, _]) = (renormalisation[0][source], renormalisation[1][source]);
+/// Renormalisation along and between the axes, mirrored by the walls with the signs: `Q L Q`.
+#[inline(always)]
+pub(crate) fn mirrored_renormalisation(q: Vec3, [along, between]: [[f32; 4]; 2]) -> ([f32; 4], [f32; 4]) {
+    let ([xx, yy, zz, _], [yz, zx, xy, _]) = (along, between);
     ([xx, yy, zz, 0.0], [yz * q.y * q.z, zx * q.z * q.x, xy * q.x * q.y, 0.0])
 }
 

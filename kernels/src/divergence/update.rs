@@ -9,6 +9,7 @@
 //! expected speed: the pressure that keeps its volume would be infinite. The pressure is written beside the position, where
 //! neighbours read both at once.
 
+use super::image_rows::OfParticles;
 use crate::{
     column::FAR_ROW,
     columns::{Columns, Fluid, lane},
@@ -37,8 +38,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         &mut columns.fluid;
     predicted.resize(position.len(), FAR_ROW);
     predicted[count..].fill(FAR_ROW);
+    image_predicted.0.resize(images.position.len(), FAR_ROW);
+    let used = images.count();
+    image_predicted.0[used..].fill(FAR_ROW);
     let length = pressure_solve.length();
-    cpu.for_chunks((&mut predicted[..count], &mut pressure_rows[..count]), |first, (predicted, rows)| {
+    let of_images = OfParticles::new(&mut image_predicted.0[..used], &images.first[..=count]);
+    let rows = (&mut predicted[..count], &mut pressure_rows[..count], of_images);
+    cpu.for_chunks(rows, |first, (predicted, rows, of_images)| {
         for ((predicted, row), position) in predicted.iter_mut().zip(rows).zip(&position[first..]) {
             let [pressure, _, diagonal, compression] = *row;
             let next = pressure + length * compression / diagonal;
@@ -49,15 +55,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             *predicted = *position;
             predicted[lane::fluid::predicted::PRESSURE] = next;
         }
-    });
-    image_predicted.0.resize(images.position.len(), FAR_ROW);
-    image_predicted.0[images.count()..].fill(FAR_ROW);
-    cpu.for_chunks(&mut image_predicted.0[..images.count()], |first, rows| {
-        for ((row, position), source) in
-            rows.iter_mut().zip(&images.position[first..]).zip(&images.source[first..])
-        {
-            let pressure = predicted[*source as usize][lane::fluid::predicted::PRESSURE];
-            *row = [position[0], position[1], position[2], pressure];
+        let (start, of_images) = of_images.all();
+        for (image, row) in (start..).zip(of_images) {
+            let [x, y, z, _] = images.position[image];
+            let source = images.source[image] as usize - first;
+            *row = [x, y, z, predicted[source][lane::fluid::predicted::PRESSURE]];
         }
     });
 }

@@ -21,10 +21,10 @@ const fn ranks() -> [[u8; MIRRORS]; 64] {
     while near < 64 {
         let (mut rank, mut mirrors) = (0, 0);
         while mirrors < MIRRORS {
-            let by = [mirrors / 9, mirrors / 3 % 3, mirrors % 3];
             let (mut axis, mut is_there) = (0, true);
             while axis < 3 {
-                is_there = is_there && (by[axis] == 0 || (near >> (2 * axis + by[axis] - 1)) & 1 == 1);
+                let by = mirrors_of(mirrors, axis);
+                is_there = is_there && (by == 0 || (near >> (2 * axis + by - 1)) & 1 == 1);
                 axis += 1;
             }
             if is_there {
@@ -38,6 +38,12 @@ const fn ranks() -> [[u8; MIRRORS]; 64] {
     ranks
 }
 
+/// Along an axis: 0 for none, 1 for the lower wall, 2 for the upper one.
+#[inline(always)]
+pub(super) const fn mirrors_of(mirrors: usize, axis: usize) -> usize {
+    [mirrors / 9, mirrors / 3 % 3, mirrors % 3][axis]
+}
+
 /// Rank of the image by the mirrors; 0 is the point itself.
 #[inline(always)]
 pub(super) fn rank(near: NearWalls, mirrors: usize) -> Option<u32> {
@@ -46,8 +52,8 @@ pub(super) fn rank(near: NearWalls, mirrors: usize) -> Option<u32> {
 }
 
 /// Number of images of a point, with the point itself.
-pub(super) fn count(near: NearWalls) -> usize {
-    (0..3).map(|axis| 1 + (near >> (2 * axis) & 3).count_ones() as usize).product()
+pub(super) fn count(near: NearWalls) -> u32 {
+    (0..3).map(|axis| 1 + (near >> (2 * axis) & 3).count_ones()).product()
 }
 
 /// The walls that are near a point. Images reach so far that a particle that sees one has one of its own: only then is the force by
@@ -71,11 +77,14 @@ pub(super) fn visit(params: &Params, point: Vec3, near: NearWalls, mut visit: im
     let (low, high) = params.walls.unwrap_or_default();
     for mirrors in (0..MIRRORS).filter(|mirrors| rank(near, *mirrors).is_some()) {
         let (mut place, mut axes) = (point, 0);
-        for (axis, by) in [mirrors / 9, mirrors / 3 % 3, mirrors % 3].into_iter().enumerate() {
-            if by > 0 {
-                place[axis] = 2.0 * if by == 1 { low[axis] } else { high[axis] } - point[axis];
-                axes |= 1 << axis;
-            }
+        for axis in 0..3 {
+            let wall = match mirrors_of(mirrors, axis) {
+                0 => continue,
+                1 => low[axis],
+                _ => high[axis],
+            };
+            place[axis] = 2.0 * wall - point[axis];
+            axes |= 1 << axis;
         }
         visit(place, axes);
     }

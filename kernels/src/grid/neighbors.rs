@@ -142,8 +142,11 @@ impl Neighbors {
         (radius, periodic): (f32, Option<&Periodic>),
     ) {
         let Self { chunks, planes } = self;
-        fill_planes(cpu, targets, planes);
         chunks.resize_with(queries.len().div_ceil(CHUNK), ChunkLists::default);
+        if queries.is_empty() {
+            return;
+        }
+        fill_planes(cpu, targets, planes);
         let [x, y, z] = planes;
         let search = Search { planes: [x, y, z], padding: target_count as u32, cells, radius, periodic };
         cpu.for_chunks_with(PerChunk(chunks), |memory, first, lists| {

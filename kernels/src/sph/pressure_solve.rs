@@ -40,7 +40,7 @@ constants! {
     const MINIMUM_DIVERGENCE: f32 = 1.0e-5;
     /// Fourth root of the mean fourth power of the error of that solve at most, over the tolerance: an impact on few particles is not
     /// seen in the mean, and must not decide about all of a scene.
-    const UNEVENNESS: f32 = 5.0;
+    const UNEVENNESS: f32 = 20.0;
     /// Speed that the mean target of the divergence may give all of a pool at rest, over that of a shallow wave on it.
     const MAXIMUM_RISE: f32 = 0.05;
     /// Least length of a step.
