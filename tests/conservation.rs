@@ -26,7 +26,7 @@ fn free(solver: FluidSolver) -> Scene {
         velocity: Vec3::new(-0.8, -0.1, 0.2),
         ..FluidBlock::new(Vec3::new(0.045, 0.01, -0.03), Vec3::new(0.085, 0.05, 0.01))
     };
-    let fluid = Fluid { spacing: 0.008, solver, blocks: vec![block], ..Fluid::default() };
+    let fluid = Fluid { spacing: 0.008, solver: Some(solver), blocks: vec![block], ..Fluid::default() };
     scene.with_fluid(fluid).with_sponge(Sponge {
         edge: 0.016,
         cells: UVec3::splat(5),

@@ -98,7 +98,7 @@ fn a_full_box_that_repeats_is_at_rest_density_everywhere() {
     let errors = |periodic| {
         let mut scene = full(periodic);
         // With the pressure solve there is no density.
-        fluid(&mut scene).solver = FluidSolver::Wcsph;
+        fluid(&mut scene).solver = Some(FluidSolver::Wcsph);
         let world = common::world(&scene);
         let density = &sorb::internal::columns(&world).fluid.density[..world.particle_ids().len()];
         density.iter().map(|density| f64::from((density / 1000.0 - 1.0).abs())).fold(0.0, f64::max)
@@ -115,7 +115,7 @@ fn momentum_is_kept_without_gravity() {
         let error = |periodic| {
             let mut scene = full(periodic);
             let fluid = fluid(&mut scene);
-            (fluid.solver, fluid.viscosity, fluid.sound_speed) = (solver, 0.5, Some(10.0));
+            (fluid.solver, fluid.viscosity, fluid.sound_speed) = (Some(solver), 0.5, Some(10.0));
             let (mut world, whirl) = (common::world(&scene), whirl(&scene, 0.3));
             let field = |at| whirl(at) + Vec3::new(0.2, 0.1, -0.1);
             world.set_particle_velocities(field).unwrap_or_else(|error| panic!("{error}"));
@@ -163,7 +163,7 @@ fn where_the_box_begins_does_not_matter() {
     for solver in [FluidSolver::Dfsph, FluidSolver::Wcsph] {
         let mut scene = full([true; 3]);
         let fluid = fluid(&mut scene);
-        (fluid.solver, fluid.sound_speed) = (solver, Some(10.0));
+        (fluid.solver, fluid.sound_speed) = (Some(solver), Some(10.0));
         // The same number of iterations in any case: within a tolerance, rounding may cost one more.
         (fluid.density_tolerance, fluid.rounds) = (1e-6, 4);
         // Measured: 2.9e-6 and 3.8e-6.

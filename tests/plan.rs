@@ -44,7 +44,7 @@ macro_rules! plans {
         })+
     };
 }
-plans! { standing ball_drop squish dam_break wring life stack water dry empty }
+plans! { standing ball_drop squish dam_break wring life stack bobbing water dry empty }
 
 #[test]
 fn a_scene_without_sponge_runs_no_phase_of_it() {
@@ -76,11 +76,16 @@ fn nothing_runs_where_nothing_is() {
 
 #[test]
 fn every_phase_of_the_step_has_a_line_with_a_reason_if_it_is_skipped() {
-    let (porous, other) = (plan("ball_drop").lines().len(), plan("empty").lines().len());
+    let lines = |name: &str| plan(name).lines().len();
+    let (porous, divergence, other) = (lines("ball_drop"), lines("water"), lines("empty"));
     for name in common::busy::SCENES {
         let plan = plan(name);
-        let is_porous = !["water", "dry", "empty"].contains(&name);
-        assert_eq!(plan.lines().len(), if is_porous { porous } else { other }, "{name}");
+        let expected = match name {
+            "bobbing" | "water" => divergence,
+            "dry" | "empty" => other,
+            _ => porous,
+        };
+        assert_eq!(plan.lines().len(), expected, "{name}");
         for line in plan.lines() {
             if let Verdict::Skipped(reason) = line.verdict {
                 assert!(!reason.is_empty(), "{name}: {}", line.name);
@@ -270,8 +275,8 @@ fn position_based_fluids_take_the_rounds_that_the_scene_says() {
         })
     };
     assert_eq!(calls(&["fluid.solver=pbf", "fluid.projections=3"]), [15, 15, 0, 0]);
-    let [factors, moved, residual, kick] = calls(&["fluid.projections=3"]);
-    assert!((factors, moved, kick) == (5, 0, 5) && residual >= 5, "the default solves: {residual} rounds");
+    let [factors, moved, residual, kick] = calls(&["fluid.solver=dfsph", "fluid.projections=3"]);
+    assert!((factors, moved, kick) == (5, 0, 5) && residual >= 5, "dfsph solves: {residual} rounds");
 }
 
 #[test]
@@ -306,22 +311,25 @@ fn implicit_viscosity_is_a_solve_that_ends_when_it_has_converged() {
 
 #[test]
 fn a_pressure_solve_ends_when_it_has_converged() {
-    let calls = |keys: &[&str]| {
-        let mut world = common::world(&common::with(&common::preset("water", 0.5), keys));
-        common::steps(&mut world, 5);
-        let time =
-            |name: &str| world.phase_times().iter().find(|time| time.name == name).map(|time| time.calls);
-        [time("sph::pressure_update"), time("sph::pressure_residual"), time("sph::pressure_kick")]
-    };
-    let (loose, tight) = (calls(&["fluid.density_tolerance=0.1"]), calls(&["fluid.density_tolerance=1e-6"]));
-    for [update, residual, kick] in [loose, tight] {
-        assert_eq!((update, kick), (residual, Some(5)));
+    const DFSPH: [&str; 3] = ["sph::pressure_update", "sph::pressure_residual", "sph::pressure_kick"];
+    const DIVERGENCE: [&str; 3] = ["divergence::update", "divergence::residual", "divergence::kick"];
+    for (solver, names) in [("dfsph", DFSPH), ("divergence", DIVERGENCE)] {
+        let calls = |solver: &str, keys: &[&str]| {
+            let chosen = format!("fluid.solver={solver}");
+            let scene = common::with(&common::preset("water", 0.5), &[&[&*chosen], keys].concat());
+            let mut world = common::world(&scene);
+            common::steps(&mut world, 5);
+            let times = world.phase_times();
+            names.map(|name| times.iter().find(|time| time.name == name).map(|time| time.calls))
+        };
+        let loose = calls(solver, &["fluid.density_tolerance=0.1"]);
+        let tight = calls(solver, &["fluid.density_tolerance=1e-6"]);
+        for [update, residual, kick] in [loose, tight] {
+            assert_eq!((update, kick), (residual, Some(5)), "{solver}");
+        }
+        assert!(loose[0] >= Some(5) && tight[0] > loose[0], "{solver}: {loose:?} {tight:?}");
+        let bounded = calls(solver, &["fluid.density_tolerance=1e-6", "fluid.rounds=3"]);
+        assert_eq!(bounded[0], Some(15), "{solver}: no more than asked for");
+        assert_eq!(calls("wcsph", &[])[0], None);
     }
-    assert!(loose[0] >= Some(5) && tight[0] > loose[0].map(|calls| 2 * calls), "{loose:?} {tight:?}");
-    assert_eq!(
-        calls(&["fluid.density_tolerance=1e-6", "fluid.rounds=3"])[0],
-        Some(15),
-        "no more than asked for"
-    );
-    assert_eq!(calls(&["fluid.solver=wcsph"])[0], None);
 }

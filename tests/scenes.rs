@@ -30,6 +30,8 @@ struct Run {
     /// One line per second, the digest last.
     text: String,
     broken: Option<String>,
+    /// Heights of the bodies in the end [m].
+    bodies: Vec<f32>,
 }
 
 impl Run {
@@ -49,6 +51,7 @@ impl Run {
                 world.lattice().tets.len()
             ),
             broken: common::unhealthy(&world, particles),
+            bodies: Vec::new(),
         };
         let rate = f64::from(scene.time.frame_rate);
         for frame in 1..=(seconds * rate).round() as u64 {
@@ -63,6 +66,7 @@ impl Run {
             }
         }
         run.text.push_str(&format!("digest {:016x}", world.state_digest()));
+        run.bodies = world.bodies().iter().map(|body| body.state.position.y).collect();
         run
     }
 
@@ -356,6 +360,25 @@ fn life() {
     let tight = Run::of(&common::with(&scene, &["sponges[0].entry_pressure=0"]), 3.0);
     let without = absorbed(tight.at(3.0));
     claims.claim(without < 0.9 * late, format!("absorbed: {without:.4} kg at 3 s without suction"));
+    run.finish(claims);
+}
+
+#[test]
+fn bobbing() {
+    /// Bodies that float, in the order of the scene; those after them sink.
+    const FLOATING: usize = 4;
+    // At half the resolution a body is three particles across.
+    let scene = common::preset("bobbing", 1.0);
+    let run = Run::of(&scene, 3.0);
+    let mut claims = run.claims();
+    let fluid = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.blocks[0].maximum.y);
+    for (index, (body, height)) in scene.bodies.iter().zip(&run.bodies).enumerate() {
+        let is_afloat = *height > 0.7 * fluid;
+        claims.claim(is_afloat == (index < FLOATING), format!("{} at {height:.4} m after 3 s", body.name));
+    }
+    // An apple of stone sinks.
+    let heavy = Run::of(&common::with(&scene, &["bodies.apple.density=2500"]), 1.0);
+    claims.claim(heavy.bodies[1] < 0.5 * fluid, format!("an apple of stone at {:.4} m", heavy.bodies[1]));
     run.finish(claims);
 }
 

@@ -34,7 +34,7 @@ impl LightBodies {
         let fluid = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
         let sponge = scene.sponges.iter().map(|sponge| sponge.density).fold(0.0, f32::max);
         // A solve that knows the masses of bodies needs no more.
-        let is_solved = scene.fluid.as_ref().is_some_and(|fluid| fluid.solver == FluidSolver::Divergence);
+        let is_solved = scene.fluid_solver() == Some(FluidSolver::Divergence);
         let shares = scene.bodies.iter().map(|body| match body.kind {
             BodyKind::Dynamic if !is_solved => {
                 [fluid.max(sponge), sponge].map(|displaced| share(body.density, displaced))

@@ -28,13 +28,14 @@ pub struct Fluid {
     ///
     /// Below 1.8 a particle has too few neighbours. Cost grows with the cube.
     pub support: f32,
-    /// How pressure is computed; default `dfsph`.
-    pub solver: FluidSolver,
-    /// Mean density error, of either sign, at which the `dfsph` solve stops. Range 1e-6 to 0.1; default 0.001.
+    /// How pressure is computed; default `divergence` in scenes without sponges, else `dfsph`.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub solver: Option<FluidSolver>,
+    /// Mean density error, of either sign, at which the pressure solve stops at the latest. Range 1e-6 to 0.1; default 0.001.
     ///
     /// The resulting compression is about half of it.
     pub density_tolerance: f32,
-    /// Largest number of iterations of the `dfsph` solve in a step. Range 1 to 1000; default 200.
+    /// Largest number of iterations of the pressure solve in a step. Range 1 to 1000; default 200.
     ///
     /// Deep water needs more: with 50, a column 30 particles deep does not come to rest.
     pub rounds: u32,
@@ -89,7 +90,7 @@ impl Default for Fluid {
             spacing: 0.005,
             rest_density: 1000.0,
             support: 2.0,
-            solver: FluidSolver::Dfsph,
+            solver: None,
             density_tolerance: 1e-3,
             rounds: 200,
             projections: 4,
@@ -117,16 +118,16 @@ impl Fluid {
         self.support * self.spacing
     }
 
-    /// Monaghan's alpha: `artificial_viscosity`, or the default of the solver.
+    /// Monaghan's alpha: `artificial_viscosity`, or the default of a solver.
     #[must_use]
-    pub fn numerical_viscosity(&self) -> f32 {
-        self.artificial_viscosity.unwrap_or(if self.solver == FluidSolver::Divergence { 0.0 } else { 0.05 })
+    pub fn numerical_viscosity(&self, solver: FluidSolver) -> f32 {
+        self.artificial_viscosity.unwrap_or(if solver == FluidSolver::Divergence { 0.0 } else { 0.05 })
     }
 
     /// Radius of the neighbour search \[m\]: the support radius or, with a surface energy, that of the energy.
     #[must_use]
     pub fn neighbor_radius(&self) -> f32 {
-        let is_solved = matches!(self.solver, FluidSolver::Dfsph | FluidSolver::Divergence);
+        let is_solved = !matches!(self.solver, Some(FluidSolver::Wcsph | FluidSolver::Pbf));
         let is_tense = self.surface_tension > 0.0 && is_solved;
         if is_tense { COHESION_SUPPORT * self.support_radius() } else { self.support_radius() }
     }
@@ -290,7 +291,22 @@ fn whole_rows(length: f32, spacing: f32) -> u32 {
     (length / spacing).round().max(1.0) as u32
 }
 
+impl FluidSolver {
+    /// The solver of scenes without [`Fluid::solver`].
+    #[must_use]
+    pub fn default_with(has_sponges: bool) -> Self {
+        if has_sponges { Self::Dfsph } else { Self::Divergence }
+    }
+}
+
 impl Scene {
+    /// How pressure is computed: [`Fluid::solver`], or its default; none without a fluid.
+    #[must_use]
+    pub fn fluid_solver(&self) -> Option<FluidSolver> {
+        let fluid = self.fluid.as_ref()?;
+        Some(fluid.solver.unwrap_or_else(|| FluidSolver::default_with(!self.sponges.is_empty())))
+    }
+
     /// How water and sponges are coupled: [`Fluid::coupling`], or what the solvers allow.
     #[must_use]
     pub fn coupling(&self) -> Coupling {
@@ -301,7 +317,7 @@ impl Scene {
 
     /// Whether the solvers allow [`Coupling::Porous`].
     pub(super) fn allows_porous(&self) -> bool {
-        self.fluid.as_ref().is_some_and(|fluid| fluid.solver != FluidSolver::Wcsph)
+        self.fluid_solver().is_some_and(|solver| solver != FluidSolver::Wcsph)
             && self.sponges.iter().all(|sponge| sponge.solver == super::Solver::Vbd)
     }
 

@@ -32,6 +32,7 @@ const PRESETS: &[Preset] = presets! {
     "wring": "Two grips wring a saturated sponge bar";
     "life": "Dropped dry into water, squeezed by a ball, let go";
     "stack": "A plate presses a dry sponge onto a wet one";
+    "bobbing": "Bodies of 0.3 to 2.5 times the density of water fall into a pool";
     "water": "Control: the breaking dam without the sponge";
     "dry": "Control: the ball and the sponge without water";
     "empty": "Control: nothing at all";

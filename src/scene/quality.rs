@@ -64,13 +64,14 @@ impl Quality {
 
     /// The changes for a scene, as [`Scene::with_overrides`] takes them.
     ///
-    /// Solvers other than `dfsph` and `vbd` keep the keys of the scene: their iterations change the material.
+    /// Solvers other than `divergence`, `dfsph` and `vbd` keep the keys of the scene: their iterations change the material.
     #[must_use]
     pub fn changes(self, scene: &Scene) -> Vec<String> {
         let Changes { time, fluid, sponge } = self.keys();
         let mut changes: Vec<String> =
             time.iter().map(|(key, value)| format!("time.{key}={value}")).collect();
-        if scene.fluid.as_ref().is_some_and(|fluid| fluid.solver == FluidSolver::Dfsph) {
+        let is_solved = |solver| matches!(solver, FluidSolver::Dfsph | FluidSolver::Divergence);
+        if scene.fluid_solver().is_some_and(is_solved) {
             changes.extend(fluid.iter().map(|(key, value)| format!("fluid.{key}={value}")));
         }
         let solved = |index: &usize| scene.sponges[*index].solver == Solver::Vbd;

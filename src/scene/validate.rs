@@ -188,7 +188,7 @@ pub(super) fn inside(
 }
 
 fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
-    if fluid.solver == FluidSolver::Divergence && !scene.sponges.is_empty() {
+    if fluid.solver == Some(FluidSolver::Divergence) && !scene.sponges.is_empty() {
         let rule = "is for scenes without `sponges`; `dfsph` has both";
         problems.push(Problem::rule("fluid.solver", "\"divergence\"", rule));
     }

@@ -85,7 +85,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         };
     };
     let support = fluid.support_radius();
-    let divides = fluid.solver == scene::FluidSolver::Divergence;
+    let solver = scene.fluid_solver().unwrap_or(scene::FluidSolver::Divergence);
+    let divides = solver == scene::FluidSolver::Divergence;
     let lattice_sum = Wendland::lattice_sum(f64::from(support), f64::from(fluid.spacing));
     let cube = f64::from(fluid.rest_density) * f64::from(fluid.spacing).powi(3);
     // Either the mass is such that a lattice has rest density, or the smoothing function is.
@@ -97,8 +98,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     let sound_speed = fluid.sound_speed.unwrap_or_else(|| scene.default_sound_speed());
     // Monaghan's alpha as a kinematic viscosity in three dimensions, alpha c h / 10 with the smoothing length
     // h = H / 2 [M05, eq. 8.8].
-    let numerical = fluid.rest_density * fluid.numerical_viscosity() * sound_speed * support / 20.0;
-    let is_incompressible = fluid.solver != scene::FluidSolver::Wcsph;
+    let numerical = fluid.rest_density * fluid.numerical_viscosity(solver) * sound_speed * support / 20.0;
+    let is_incompressible = solver != scene::FluidSolver::Wcsph;
     let (viscosity, central_viscosity) = match (is_incompressible, fluid.viscosity_form) {
         (true, scene::ViscosityForm::Monaghan) => {
             (0.0, fluid.viscosity / lattice_central_viscosity(fluid) + numerical)
@@ -137,7 +138,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         central_viscosity,
         implicit_viscosity,
         // Without a stored pressure there is no stabilisation.
-        roughness: if fluid.solver == scene::FluidSolver::Dfsph {
+        roughness: if solver == scene::FluidSolver::Dfsph {
             ROUGHNESS * (fluid.spacing / sound_speed).powi(2)
         } else {
             0.0
@@ -187,20 +188,21 @@ fn incompressible(
     smoothing: &Wendland,
     sound_speed: f32,
 ) -> Option<Incompressible> {
-    if fluid.solver == scene::FluidSolver::Wcsph {
+    let solver = scene.fluid_solver()?;
+    if solver == scene::FluidSolver::Wcsph {
         return None;
     }
     let (boundary_range, boundary_share) = boundary_profile(smoothing, fluid.spacing);
     Some(Incompressible {
         tolerance: fluid.density_tolerance,
         rounds: fluid.rounds,
-        projections: (fluid.solver == scene::FluidSolver::Pbf).then_some(fluid.projections),
+        projections: (solver == scene::FluidSolver::Pbf).then_some(fluid.projections),
         lattice_diagonal: lattice::diagonal(smoothing, fluid.spacing),
         // The speed of sound is ten times the fastest expected speed of the water.
         correction_speed: 0.1 * sound_speed,
         boundary_range,
         boundary_share,
-        divergence: (fluid.solver == scene::FluidSolver::Divergence).then(|| {
+        divergence: (solver == scene::FluidSolver::Divergence).then(|| {
             let (surface_moment, surface_lack) = lattice::surface(smoothing, fluid.spacing);
             let lattice_moment = lattice::moment(smoothing, fluid.spacing);
             Divergence { lattice_moment, surface_moment, surface_lack, lightest: lightest(scene, fluid) }

@@ -44,9 +44,9 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
         let fraction = f64::from(sponge.porosity * sponge.saturation);
         let pitch = (volume / fraction).cbrt() as f32;
         let wanted = size.to_array().map(|size| size / pitch);
-        let counts = match fluid.solver {
+        let counts = match scene.fluid_solver() {
             // An equation of state tolerates a few too many.
-            scene::FluidSolver::Wcsph => wanted.map(|count| count.round().max(1.0) as u32),
+            Some(scene::FluidSolver::Wcsph) => wanted.map(|count| count.round().max(1.0) as u32),
             _ => filling(wanted),
         };
         let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);

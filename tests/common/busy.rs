@@ -10,13 +10,24 @@ use sorb::{
 };
 
 /// All presets, in the order of the documentation.
-pub(crate) const SCENES: [&str; 10] =
-    ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "stack", "water", "dry", "empty"];
+pub(crate) const SCENES: [&str; 11] = [
+    "standing",
+    "ball_drop",
+    "squish",
+    "dam_break",
+    "wring",
+    "life",
+    "stack",
+    "bobbing",
+    "water",
+    "dry",
+    "empty",
+];
 
 /// The models of the paper, with moduli that are about as stiff.
 pub(crate) fn as_in_the_paper(scene: &mut Scene) {
     if let Some(fluid) = &mut scene.fluid {
-        fluid.solver = FluidSolver::Wcsph;
+        fluid.solver = Some(FluidSolver::Wcsph);
     }
     let balls = scene.bodies.iter_mut().filter(|body| body.kind == BodyKind::Dynamic);
     balls.for_each(|ball| ball.density = 2500.0);
@@ -34,7 +45,7 @@ pub(crate) fn as_in_the_paper(scene: &mut Scene) {
 fn without_sponges(scene: &mut Scene) {
     scene.sponges.clear();
     if let Some(fluid) = &mut scene.fluid {
-        fluid.solver = FluidSolver::Divergence;
+        fluid.solver = Some(FluidSolver::Divergence);
     }
     for body in &mut scene.bodies {
         (body.kind, body.density) = (BodyKind::Dynamic, 1200.0);
@@ -56,7 +67,7 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
         as_in_the_paper(&mut scene);
     }
     if let Some(fluid) = scene.fluid.as_mut().filter(|_| projected) {
-        fluid.solver = FluidSolver::Pbf;
+        fluid.solver = Some(FluidSolver::Pbf);
     }
     match name {
         "ball_drop" | "dry" => {
@@ -94,6 +105,12 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
             scene.sponges[0].position.x = -0.118;
             scene.sponges[0].saturation = 0.3;
             start_flow(&mut scene);
+        }
+        "bobbing" => {
+            for body in &mut scene.bodies {
+                body.position.y -= 0.045;
+                body.linear_velocity = Vec3::new(0.2, -0.5, 0.1);
+            }
         }
         "water" => start_flow(&mut scene),
         "standing" => {

@@ -146,7 +146,8 @@ fn kernels_at_places_where_they_cannot_be_are_refused() {
     let sort = ("grid::sort_fluid", Place::Gpu);
     let refused = error(vec![sort]);
     assert!(refused.as_ref().is_err_and(|text| text.contains("grid::fluid_neighbors=cpu")), "{refused:?}");
-    assert_eq!(error(vec![sort, ("grid::fluid_neighbors", Place::Gpu)]), Ok(()));
+    let search = [sort, ("grid::fluid_neighbors", Place::Gpu), ("divergence::images", Place::Gpu)];
+    assert_eq!(error(search.to_vec()), Ok(()));
     let solved = common::with(&scene, DFSPH);
     let options = |list| Options { offload: Offload::Each(list), gpu: Some(gpu()), ..Options::default() };
     let apart =

@@ -17,7 +17,7 @@ use sorb::{Options, SimdLevel, World, scene::Scene};
 const RESOLUTION: f32 = 0.6;
 
 /// All scenes of the library, busy, and others with other solvers.
-const SCENES: [&str; 14] = [
+const SCENES: [&str; 15] = [
     "standing",
     "ball_drop",
     "squish",
@@ -25,6 +25,7 @@ const SCENES: [&str; 14] = [
     "wring",
     "life",
     "stack",
+    "bobbing",
     "water",
     "dry",
     "empty",

@@ -111,4 +111,4 @@ macro_rules! scenes {
         }
     };
 }
-scenes! { standing ball_drop squish dam_break wring life stack water dry empty ball_drop_paper dry_paper life_pbf life_divergence }
+scenes! { standing ball_drop squish dam_break wring life stack bobbing water dry empty ball_drop_paper dry_paper life_pbf life_divergence }

@@ -174,9 +174,9 @@ type Faults = &'static [(Check, &'static str)];
 
 /// Faults of the cup: speed \[m/s\], longest step \[ms\], and the checks that fail.
 const CUPS: &[(f32, f32, Faults)] = &[
-    (0.5, 4.0, &[(Check::Speed, TURNS), (Check::Energy, TURNS)]),
+    (0.5, 4.0, &[(Check::Speed, TURNS)]),
     (0.5, 0.1, &[(Check::Speed, TURNS)]),
-    (2.0, 4.0, &[(Check::Speed, TURNS), (Check::Energy, TURNS)]),
+    (2.0, 4.0, &[(Check::Speed, TURNS)]),
     (2.0, 0.1, &[(Check::Speed, TURNS)]),
     (5.0, 4.0, &[(Check::Speed, TURNS)]),
     (5.0, 0.1, &[(Check::Speed, TURNS)]),
@@ -200,6 +200,12 @@ fn a_cup_is_shaken() {
 /// Largest allowed speed after an impact at 100 m/s \[m/s\]: neighbours push a node in a corner on.
 const HIT: f64 = 500.0;
 
+/// Why a fast wall throws water faster than a hit does.
+const PRESSED: &[(Check, &str)] = &[(
+    Check::Speed,
+    "a wall a third of a spacing thin has images on both sides: what it presses against the container leaves at 2.8 km/s",
+)];
+
 #[test]
 fn bodies_that_are_somewhere_else_at_once() {
     let mut cases = Vec::new();
@@ -220,7 +226,8 @@ fn bodies_that_are_somewhere_else_at_once() {
         let mut passed = swept(scene.clone(), THIN, 82.0);
         passed.time.minimum_step = 1e-8;
         let name = format!("{}: a wall of 2 mm passes at 82 m/s", scene.name);
-        cases.push(Case { fastest: HIT, excess: None, ..Case::new(name, passed, pick(0.15, 1.0)) });
+        let known = if scene.name == "pool" { PRESSED } else { &[] };
+        cases.push(Case { fastest: HIT, excess: None, known, ..Case::new(name, passed, pick(0.15, 1.0)) });
     }
     table(cases);
 }

@@ -3,7 +3,7 @@
 use sorb::{glam::Vec3, scene::Scene};
 
 use crate::{
-    case::{Case, Check, table},
+    case::{Case, table},
     common, pick,
     scenes::{WAVE, dry, pool, wet, with_ball},
 };
@@ -17,12 +17,6 @@ fn with(scene: &Scene, keys: &[String]) -> Scene {
     let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
     common::with(scene, &keys)
 }
-
-/// Steps of 7 ms and more, which the bound of the pressure allows before there is any.
-const HEAVES: &[(Check, &str)] = &[(
-    Check::Energy,
-    "a pool without pressure heaves by 6 % of its energy when its first step is ten times too long",
-)];
 
 #[test]
 fn steps_that_are_ten_and_a_hundred_times_too_long() {
@@ -39,9 +33,7 @@ fn steps_that_are_ten_and_a_hundred_times_too_long() {
                 format!("time.courant={courant:?}"),
                 format!("time.frame_rate={rate}"),
             ];
-            let known = if scene.name == "pool" && step > 0.03 { HEAVES } else { &[] };
-            let case = Case::new(format!("{}: {name}", scene.name), with(&scene, &keys), pick(0.3, 3.0));
-            cases.push(Case { known, ..case });
+            cases.push(Case::new(format!("{}: {name}", scene.name), with(&scene, &keys), pick(0.3, 3.0)));
         }
     }
     table(cases);

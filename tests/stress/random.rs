@@ -75,9 +75,10 @@ fn fluid(draw: &mut Draw<'_>, spacing: f32) -> Fluid {
         surface_tension: draw.value("fluid.surface_tension"),
         repulsion_damping: draw.unit(),
         solver: match draw.choice(8) {
-            0 | 1 => scene::FluidSolver::Wcsph,
-            2 => scene::FluidSolver::Pbf,
-            _ => scene::FluidSolver::Dfsph,
+            0 | 1 => Some(scene::FluidSolver::Wcsph),
+            2 => Some(scene::FluidSolver::Pbf),
+            3 => Some(scene::FluidSolver::Dfsph),
+            _ => None,
         },
         projections: 1 + draw.choice(8),
         blocks: vec![block],

@@ -51,4 +51,4 @@ macro_rules! scenes {
         }
     };
 }
-scenes! { standing ball_drop squish dam_break wring life stack water dry empty }
+scenes! { standing ball_drop squish dam_break wring life stack bobbing water dry empty }

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use serde_json::Value;
-use sorb::scene::{Scene, SceneError, schema};
+use sorb::scene::{FluidSolver, Scene, SceneError, schema};
 
 use crate::case::Subject;
 
@@ -31,11 +31,10 @@ static CHOICES: LazyLock<[Vec<String>; 2]> = LazyLock::new(|| {
     ["Fluid", "Sponge"].map(|table| choices(&schema, &schema["$defs"][table]["properties"]["solver"]))
 });
 
-/// Their defaults.
-static DEFAULTS: LazyLock<[Option<String>; 2]> = LazyLock::new(|| {
+/// The default of a sponge.
+static DEFAULT_OF_SPONGES: LazyLock<Option<String>> = LazyLock::new(|| {
     let schema: Value = serde_json::from_str(&schema()).unwrap_or_default();
-    ["Fluid", "Sponge"]
-        .map(|table| schema["$defs"][table]["properties"]["solver"]["default"].as_str().map(str::to_owned))
+    schema["$defs"]["Sponge"]["properties"]["solver"]["default"].as_str().map(str::to_owned)
 });
 
 /// All texts that a node of a schema allows, through references.
@@ -75,14 +74,17 @@ impl SolverKind {
         if CHOICES[index].is_empty() { vec![only.to_owned()] } else { CHOICES[index].clone() }
     }
 
-    /// The solver of scenes without the key.
+    /// The solver of scenes without the key; that of water depends on whether there are sponges.
     #[must_use]
-    pub fn default_name(self) -> String {
-        let (index, only) = match self {
-            Self::Water => (0, "wcsph"),
-            Self::Sponge => (1, "sbd"),
-        };
-        DEFAULTS[index].clone().unwrap_or_else(|| only.to_owned())
+    pub fn default_name(self, subject: Subject) -> String {
+        match self {
+            Self::Water => {
+                let solver = FluidSolver::default_with(subject != Subject::Water);
+                let name = serde_json::to_value(solver).unwrap_or_default();
+                name.as_str().unwrap_or("wcsph").to_owned()
+            }
+            Self::Sponge => DEFAULT_OF_SPONGES.clone().unwrap_or_else(|| "sbd".to_owned()),
+        }
     }
 
     fn has_key(self) -> bool {
@@ -118,7 +120,7 @@ impl Solvers {
     /// Name of the solver of the sponge.
     #[must_use]
     pub fn sponge_name(&self) -> String {
-        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name())
+        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name(Subject::Sponge))
     }
 
     /// Whether the sponge is solved by the strain constraints of the paper.
@@ -130,8 +132,9 @@ impl Solvers {
     /// Names of the solvers that matter to a case, for tables.
     #[must_use]
     pub fn label(&self, subject: Subject) -> String {
-        let name =
-            |chosen: &Option<String>, kind: SolverKind| chosen.clone().unwrap_or_else(|| kind.default_name());
+        let name = |chosen: &Option<String>, kind: SolverKind| {
+            chosen.clone().unwrap_or_else(|| kind.default_name(subject))
+        };
         let water = || name(&self.water, SolverKind::Water);
         let sponge = || name(&self.sponge, SolverKind::Sponge);
         match subject {

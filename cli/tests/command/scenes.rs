@@ -4,18 +4,29 @@ use serde_json::Value;
 
 use crate::support::{Scratch, sorb};
 
-const NAMES: [&str; 10] =
-    ["standing", "ball_drop", "squish", "dam_break", "wring", "life", "stack", "water", "dry", "empty"];
+const NAMES: [&str; 11] = [
+    "standing",
+    "ball_drop",
+    "squish",
+    "dam_break",
+    "wring",
+    "life",
+    "stack",
+    "bobbing",
+    "water",
+    "dry",
+    "empty",
+];
 
 #[test]
-fn scenes_lists_all_ten() {
+fn scenes_lists_all() {
     let answer = sorb(&["scenes"]);
     let listed: Vec<_> =
         answer.out.lines().skip(1).filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!((answer.code, listed), (Some(0), NAMES.to_vec()));
     let json = sorb(&["scenes", "--json"]).json();
     let scenes = json.as_array().expect("an array");
-    assert_eq!(scenes.len(), 10);
+    assert_eq!(scenes.len(), NAMES.len());
     let nodes =
         |name: &str| scenes.iter().find(|scene| scene["name"] == name).map(|scene| scene["nodes"] != 0);
     assert_eq!((nodes("ball_drop"), nodes("water")), (Some(true), Some(false)));

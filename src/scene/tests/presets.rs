@@ -1,7 +1,7 @@
 use super::super::*;
 
 /// Fluid particles and sponge nodes that the default sizes aim at.
-const SIZES: [(&str, u64, u64); 10] = [
+const SIZES: [(&str, u64, u64); 11] = [
     ("standing", 8192, 1024),
     ("ball_drop", 8192, 1024),
     ("squish", 8192, 1024),
@@ -9,6 +9,7 @@ const SIZES: [(&str, u64, u64); 10] = [
     ("wring", 8192, 1024),
     ("life", 14_336, 1024),
     ("stack", 7168, 1118),
+    ("bobbing", 12_288, 0),
     ("water", 8192, 0),
     ("dry", 0, 1024),
     ("empty", 0, 0),

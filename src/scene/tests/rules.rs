@@ -260,7 +260,7 @@ fn what_repeats_is_longer_than_pairs_reach() {
     // Where there are walls, and with the equation of state, the radius is another one.
     assert_eq!(scene.clone().repeating([true, true, false]).problems().len(), 1);
     assert_eq!(scene.clone().repeating([true, false, false]).problems(), []);
-    fluid(&mut scene).solver = FluidSolver::Wcsph;
+    fluid(&mut scene).solver = Some(FluidSolver::Wcsph);
     assert_eq!(scene.problems(), []);
 }
 

@@ -44,7 +44,7 @@ fn a_written_scene_reads_back_equal() {
             scene
         );
     }
-    assert_eq!(scenes().len(), 14);
+    assert_eq!(scenes().len(), 15);
 }
 
 #[test]

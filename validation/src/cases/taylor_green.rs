@@ -3,7 +3,7 @@
 use sorb::{
     World,
     glam::Vec3,
-    scene::{Fluid, FluidBlock, Scene, Time, ViscosityForm},
+    scene::{Fluid, FluidBlock, FluidSolver, Scene, Time, ViscosityForm},
 };
 
 use crate::{
@@ -49,7 +49,7 @@ struct Sample {
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let mut figures = Vec::new();
     for (form, name) in [(ViscosityForm::Morris, "morris"), (ViscosityForm::Monaghan, "monaghan")] {
-        for numerical in [0.0, Fluid::default().numerical_viscosity()] {
+        for numerical in [0.0, Fluid::default().numerical_viscosity(FluidSolver::Dfsph)] {
             figures.extend(decays(setting, form, numerical, name)?);
         }
     }

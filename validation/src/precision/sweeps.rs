@@ -57,6 +57,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
         error: "pressure of the particles, L2 over that at the floor",
         figures: &[("pressure of particles", 1.0)],
         variants: &[
+            ("divergence", &[0.5, 1.0], QUALITIES),
             ("dfsph", &[0.5, 1.0], QUALITIES),
             ("dfsph", &[1.5], &[""]),
             (
@@ -79,6 +80,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
                 height",
         figures: &[("front Z", 3.11), ("height at the wall", 1.0)],
         variants: &[
+            ("divergence", &[0.5, 1.0, 1.5, 2.0], QUALITIES),
             ("dfsph", &[0.5, 1.0, 1.5, 2.0], QUALITIES),
             (
                 "dfsph",

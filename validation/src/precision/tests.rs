@@ -34,7 +34,7 @@ fn the_fastest_within_the_budget_is_recommended() {
     let of = |budget| recommended(&points, budget).map(|point| point.seconds);
     assert_eq!([0.3, 0.15, 0.05, 0.04].map(of), [Some(0.5), Some(1.0), Some(9.0), None]);
     assert_eq!(points[0].arguments(), "--set fluid.solver=wcsph --set time.courant=0.4 --resolution 0.5");
-    let quality = Point { solver: "dfsph", changes: "quality=fast", resolution: 1.0, ..at(0.1, 1.0) };
+    let quality = Point { solver: "divergence", changes: "quality=fast", resolution: 1.0, ..at(0.1, 1.0) };
     assert_eq!(quality.arguments(), "--quality fast");
     assert_eq!(Point { changes: "", ..quality }.arguments(), "(defaults)");
 }
