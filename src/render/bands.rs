@@ -24,3 +24,14 @@ pub(super) fn each_band<T: Send>(
     let jobs = buffer.chunks_mut(width * rows).enumerate().collect();
     each(jobs, |(index, band): (usize, &mut [T])| work(index * rows, band));
 }
+
+/// Results of `work` for 0 to `count` less one, in this order.
+pub(super) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        (0..count).into_par_iter().map(work).collect()
+    }
+    #[cfg(not(feature = "threads"))]
+    (0..count).map(work).collect()
+}

@@ -57,7 +57,7 @@ impl Camera {
 
 /// A camera with its raster: `x` to the right and `y` down in samples, depth along `forward` in m.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct Raster {
     pub(super) eye: Vec3,
     pub(super) right: Vec3,
     pub(super) up: Vec3,
@@ -70,7 +70,7 @@ pub(super) struct View {
     pub(super) height: usize,
 }
 
-impl View {
+impl Raster {
     pub(super) fn new(camera: &Camera, width: usize, height: usize) -> Self {
         let eye = if camera.eye.is_finite() { camera.eye } else { Vec3::new(1.0, 1.0, 2.0) };
         let sight = camera.target - eye;

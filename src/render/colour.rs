@@ -1,6 +1,7 @@
 //! Colours are linear light in `Vec3` (red, green, blue) until they are encoded as bytes.
 
 use glam::Vec3;
+use std::sync::LazyLock;
 
 /// Steps of the table from linear light to sRGB; fine enough for the darkest bytes.
 const STEPS: usize = 8192;
@@ -79,4 +80,31 @@ pub(super) fn unit(key: u32) -> f32 {
     x = (x ^ (x >> 15)).wrapping_mul(0x846C_A68B);
     x ^= x >> 16;
     (x >> 8) as f32 / 16_777_216.0
+}
+
+/// Steps of the table of [`displayed`].
+const TONES: usize = 4096;
+/// Brightest light of the table.
+const BRIGHTEST: f32 = 4.0;
+
+/// The curve of [`displayed`], over the root of the light. Highlights are compressed as by a film (the fit of ACES by Narkowicz),
+/// then encoded as sRGB.
+static CURVE: LazyLock<Vec<f32>> = LazyLock::new(|| {
+    let value = |step: usize| {
+        let root = step as f32 / (TONES - 1) as f32;
+        let x = 0.70 * root * root * BRIGHTEST;
+        let y = ((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0);
+        if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 }
+    };
+    (0..TONES).map(value).collect()
+});
+
+/// Linear light as a display shows it, each channel 0 to 1.
+pub(super) fn displayed(light: Vec3) -> Vec3 {
+    let curve = &*CURVE;
+    let channel = |light: f32| {
+        let root = (light * (1.0 / BRIGHTEST)).clamp(0.0, 1.0).sqrt();
+        curve[index(root * (TONES - 1) as f32 + 0.5).min(TONES - 1)]
+    };
+    Vec3::from(light.to_array().map(channel))
 }

@@ -19,7 +19,7 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
     let shadows = Shadows::new(&stage);
     let balls = match picture.style {
         Style::Spheres => balls(&stage, 1.0),
-        Style::Surface => Vec::new(),
+        Style::Surface | Style::Realistic => Vec::new(),
     };
     let layer = Layer::opaque(&stage, &balls);
     let visibility = Visibility::new(&stage, &layer, &shadows);
@@ -37,14 +37,15 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
 
 /// The visible particles, with scaled radius.
 pub(super) fn balls(stage: &Stage<'_>, scale: f32) -> Vec<Ball> {
-    let ball =
-        |(i, &(_, centre)): (usize, &(usize, Vec3))| Ball::new(&stage.view, i, centre, stage.radius * scale);
+    let ball = |(i, &(_, centre)): (usize, &(usize, Vec3))| {
+        Ball::new(&stage.raster, i, centre, stage.radius * scale)
+    };
     stage.particles.iter().enumerate().filter_map(ball).collect()
 }
 
 /// Colours of whole rows of pixels: one per pixel if all its samples see one thing, else one per sample.
 fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, first: usize, band: &mut [Vec3]) {
-    let columns = stage.view.width;
+    let columns = stage.raster.width;
     for row in (0..band.len() / columns).step_by(SAMPLES) {
         for x in (0..columns).step_by(SAMPLES) {
             let y = first + row;
@@ -54,13 +55,13 @@ fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, firs
             // Bodies have sharp edges and painted marks inside one item.
             let one = codes.iter().all(|&code| code == codes[0]) && !matches!(item, Item::Body(_));
             let colour = |(x, y): (usize, usize)| {
-                let (at, ray) = (y * columns + x, stage.view.ray(x, y));
+                let (at, ray) = (y * columns + x, stage.raster.ray(x, y));
                 let depth = layer.depth[at];
                 let light = visibility.at(x, y, depth);
                 shade::colour(
                     stage,
                     Item::from_code(layer.code[at]),
-                    stage.view.eye + ray * depth,
+                    stage.raster.eye + ray * depth,
                     ray,
                     light,
                 )
@@ -75,32 +76,32 @@ fn solid_colours(stage: &Stage<'_>, layer: &Layer, visibility: &Visibility, firs
 
 /// Translucent bodies from far to near, then the container's edges.
 fn overlays(stage: &Stage<'_>, depth: &[f32], samples: &mut [Vec3]) {
-    let view = &stage.view;
-    let mut order: Vec<usize> = (0..stage.solids.len()).filter(|&i| stage.solids[i].translucent).collect();
-    let distance = |i: &usize| stage.solids[*i].position.distance(view.eye);
+    let raster = &stage.raster;
+    let mut order: Vec<usize> = (0..stage.solids.len()).filter(|&i| stage.solids[i].is_clear()).collect();
+    let distance = |i: &usize| stage.solids[*i].position.distance(raster.eye);
     order.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
-    let frames: Vec<_> = order.iter().map(|&i| (i, layer::frame(view, &stage.solids[i]))).collect();
+    let frames: Vec<_> = order.iter().map(|&i| (i, layer::frame(raster, &stage.solids[i]))).collect();
     let wires = wires(stage);
-    bands::each_band(samples, view.width, BAND, |first, band| {
-        let rows = band.len() / view.width;
+    bands::each_band(samples, raster.width, BAND, |first, band| {
+        let rows = band.len() / raster.width;
         for (solid, (columns, lines)) in &frames {
             for y in overlap(lines, first, rows) {
                 for x in columns.clone() {
                     let Some((colour, opacity)) =
-                        shade::glass(stage, *solid, view.ray(x, y), depth[y * view.width + x])
+                        shade::glass(stage, *solid, raster.ray(x, y), depth[y * raster.width + x])
                     else {
                         continue;
                     };
-                    let sample = &mut band[(y - first) * view.width + x];
+                    let sample = &mut band[(y - first) * raster.width + x];
                     *sample = sample.lerp(colour, opacity);
                 }
             }
         }
         for y in first..first + rows {
-            let row = y * view.width..(y + 1) * view.width;
-            let start = (y - first) * view.width;
+            let row = y * raster.width..(y + 1) * raster.width;
+            let start = (y - first) * raster.width;
             for wire in &wires {
-                wire.row(y, &depth[row.clone()], &mut band[start..start + view.width]);
+                wire.row(y, &depth[row.clone()], &mut band[start..start + raster.width]);
             }
         }
     });
@@ -115,13 +116,13 @@ struct Wire {
 }
 
 fn wires(stage: &Stage<'_>) -> Vec<Wire> {
-    let (Some(floor), view) = (&stage.floor, &stage.view) else {
+    let (Some(floor), raster) = (&stage.floor, &stage.raster) else {
         return Vec::new();
     };
     let corner = |bits: usize| {
         let pick = |bit: usize, low: f32, high: f32| if bits & bit == 0 { low } else { high };
         let (a, b) = (floor.low, floor.high);
-        view.local(Vec3::new(pick(1, a.x, b.x), pick(2, a.y, b.y), pick(4, a.z, b.z)))
+        raster.local(Vec3::new(pick(1, a.x, b.x), pick(2, a.y, b.y), pick(4, a.z, b.z)))
     };
     let mut wires = Vec::new();
     for bits in 0..8 {
@@ -130,13 +131,17 @@ fn wires(stage: &Stage<'_>) -> Vec<Wire> {
             if a.z > b.z {
                 (a, b) = (b, a);
             }
-            if b.z <= view.near {
+            if b.z <= raster.near {
                 continue;
             }
-            if a.z < view.near {
-                a = a.lerp(b, (view.near - a.z) / (b.z - a.z)).with_z(view.near);
+            if a.z < raster.near {
+                a = a.lerp(b, (raster.near - a.z) / (b.z - a.z)).with_z(raster.near);
             }
-            wires.push(Wire { from: view.project(a), to: view.project(b), inverse: (1.0 / a.z, 1.0 / b.z) });
+            wires.push(Wire {
+                from: raster.project(a),
+                to: raster.project(b),
+                inverse: (1.0 / a.z, 1.0 / b.z),
+            });
         }
     }
     wires

@@ -1,7 +1,7 @@
 //! Depth and item that every sample sees.
 
 use super::bands::{self, BAND};
-use super::camera::View;
+use super::camera::Raster;
 use super::colour::floor;
 use super::shapes::Solid;
 use super::stage::Stage;
@@ -77,9 +77,9 @@ pub(super) struct Ball {
 
 impl Ball {
     /// The ball, unless it is out of sight.
-    pub(super) fn new(view: &View, particle: usize, centre: Vec3, radius: f32) -> Option<Self> {
-        let local = view.local(centre);
-        let (columns, rows) = bounds(view, local, radius)?;
+    pub(super) fn new(raster: &Raster, particle: usize, centre: Vec3, radius: f32) -> Option<Self> {
+        let local = raster.local(centre);
+        let (columns, rows) = bounds(raster, local, radius)?;
         (!columns.is_empty() && !rows.is_empty()).then_some(Self {
             centre: local,
             radius,
@@ -90,12 +90,12 @@ impl Ball {
     }
 
     /// Calls `put(column, depth, chord)` for the samples of a row that see the ball; the chord is in depth, m.
-    pub(super) fn row(&self, view: &View, y: usize, mut put: impl FnMut(usize, f32, f32)) {
+    pub(super) fn row(&self, raster: &Raster, y: usize, mut put: impl FnMut(usize, f32, f32)) {
         let c = self.centre;
-        let (_, dy) = view.slopes(0.0, y as f32);
+        let (_, dy) = raster.slopes(0.0, y as f32);
         let across = dy * c.z - c.y;
         for x in self.columns.clone() {
-            let (dx, _) = view.slopes(x as f32, 0.0);
+            let (dx, _) = raster.slopes(x as f32, 0.0);
             let (p, q) = (dx * c.z - c.x, dx * c.y - dy * c.x);
             let a = 1.0 + dx * dx + dy * dy;
             let discriminant = a * self.radius * self.radius - (p * p + across * across + q * q);
@@ -109,19 +109,19 @@ impl Ball {
 }
 
 /// Columns and rows that a ball at `local` covers: exact in each direction; nothing where it is not wholly in front.
-fn bounds(view: &View, local: Vec3, radius: f32) -> Option<(Range<usize>, Range<usize>)> {
-    if local.z <= radius + view.near {
+fn bounds(raster: &Raster, local: Vec3, radius: f32) -> Option<(Range<usize>, Range<usize>)> {
+    if local.z <= radius + raster.near {
         return None;
     }
     let extent = |side: f32| {
         let root = (side * side + (local.z - radius) * (local.z + radius)).sqrt();
-        let scale = view.focal / ((local.z - radius) * (local.z + radius));
+        let scale = raster.focal / ((local.z - radius) * (local.z + radius));
         ((side * local.z - radius * root) * scale, (side * local.z + radius * root) * scale)
     };
     let (left, right) = extent(local.x);
     let (bottom, top) = extent(local.y);
-    let (cx, cy) = (0.5 * view.width as f32, 0.5 * view.height as f32);
-    Some((range(cx + left, cx + right, view.width), range(cy - top, cy - bottom, view.height)))
+    let (cx, cy) = (0.5 * raster.width as f32, 0.5 * raster.height as f32);
+    Some((range(cx + left, cx + right, raster.width), range(cy - top, cy - bottom, raster.height)))
 }
 
 /// Samples from `low` to `high`, cut to 0..`limit`.
@@ -199,23 +199,23 @@ pub(super) fn overlap(rows: &Range<usize>, first: usize, count: usize) -> Range<
 }
 
 /// Columns and rows of the raster that a solid may cover.
-pub(super) fn frame(view: &View, solid: &Solid<'_>) -> (Range<usize>, Range<usize>) {
-    let local = view.local(solid.position);
+pub(super) fn frame(raster: &Raster, solid: &Solid<'_>) -> (Range<usize>, Range<usize>) {
+    let local = raster.local(solid.position);
     if solid.radius.is_finite() {
         if local.z < -solid.radius {
             return (0..0, 0..0);
         }
-        if let Some(found) = bounds(view, local, solid.radius) {
+        if let Some(found) = bounds(raster, local, solid.radius) {
             return found;
         }
     }
-    (0..view.width, 0..view.height)
+    (0..raster.width, 0..raster.height)
 }
 
 impl Layer {
     /// Nothing anywhere.
-    fn empty(view: &View) -> Self {
-        let samples = view.width * view.height;
+    fn empty(raster: &Raster) -> Self {
+        let samples = raster.width * raster.height;
         Self { depth: vec![f32::INFINITY; samples], code: vec![0; samples] }
     }
 
@@ -230,23 +230,23 @@ impl Layer {
 
     /// Everything opaque; `balls` are the particles to draw as balls.
     pub(super) fn opaque(stage: &Stage<'_>, balls: &[Ball]) -> Self {
-        let view = &stage.view;
+        let raster = &stage.raster;
         let flats: Vec<(usize, Flat)> = flats(stage);
-        let frames: Vec<_> = stage.solids.iter().map(|solid| frame(view, solid)).collect();
-        let ball_bins = bin(balls.iter().map(|b| b.rows.clone()), view.height);
-        let flat_bins = bin(flats.iter().map(|(_, f)| f.rows(view.height)), view.height);
-        let mut layer = Self::empty(view);
-        bands::each(layer.bands(view.width), |mut band| {
+        let frames: Vec<_> = stage.solids.iter().map(|solid| frame(raster, solid)).collect();
+        let ball_bins = bin(balls.iter().map(|b| b.rows.clone()), raster.height);
+        let flat_bins = bin(flats.iter().map(|(_, f)| f.rows(raster.height)), raster.height);
+        let mut layer = Self::empty(raster);
+        bands::each(layer.bands(raster.width), |mut band| {
             let index = band.first / BAND;
             for &i in &flat_bins[index] {
                 let (triangle, flat) = &flats[i];
-                band.flat(flat, Item::Triangle(*triangle), view);
+                band.flat(flat, Item::Triangle(*triangle), raster);
             }
             for &i in &ball_bins[index] {
-                band.ball(&balls[i], view);
+                band.ball(&balls[i], raster);
             }
             for (i, (solid, frame)) in stage.solids.iter().zip(&frames).enumerate() {
-                if !solid.translucent {
+                if !solid.is_clear() {
                     band.solid(solid, frame, Item::Body(i), stage);
                 }
             }
@@ -256,12 +256,12 @@ impl Layer {
     }
 
     /// The balls alone.
-    pub(super) fn balls(view: &View, balls: &[Ball]) -> Self {
-        let bins = bin(balls.iter().map(|b| b.rows.clone()), view.height);
-        let mut layer = Self::empty(view);
-        bands::each(layer.bands(view.width), |mut band| {
+    pub(super) fn balls(raster: &Raster, balls: &[Ball]) -> Self {
+        let bins = bin(balls.iter().map(|b| b.rows.clone()), raster.height);
+        let mut layer = Self::empty(raster);
+        bands::each(layer.bands(raster.width), |mut band| {
             for &i in &bins[band.first / BAND] {
-                band.ball(&balls[i], view);
+                band.ball(&balls[i], raster);
             }
         });
         layer
@@ -269,10 +269,10 @@ impl Layer {
 }
 
 fn flats(stage: &Stage<'_>) -> Vec<(usize, Flat)> {
-    let view = &stage.view;
+    let raster = &stage.raster;
     let project = |i: usize| {
-        let local = view.local(stage.sponge.positions[i]);
-        (local.z > view.near).then(|| (view.project(local), 1.0 / local.z))
+        let local = raster.local(stage.sponge.positions[i]);
+        (local.z > raster.near).then(|| (raster.project(local), 1.0 / local.z))
     };
     let flat = |corners: [usize; 3]| {
         let [a, b, c] = corners.map(project);
@@ -295,17 +295,17 @@ impl Band<'_> {
         }
     }
 
-    fn ball(&mut self, ball: &Ball, view: &View) {
+    fn ball(&mut self, ball: &Ball, raster: &Raster) {
         let code = Item::Particle(ball.particle).code();
         for y in overlap(&ball.rows, self.first, self.rows()) {
             let start = (y - self.first) * self.width;
-            ball.row(view, y, |x, depth, _| self.put(start + x, depth, code));
+            ball.row(raster, y, |x, depth, _| self.put(start + x, depth, code));
         }
     }
 
-    fn flat(&mut self, flat: &Flat, item: Item, view: &View) {
+    fn flat(&mut self, flat: &Flat, item: Item, raster: &Raster) {
         let code = item.code();
-        for y in overlap(&flat.rows(view.height), self.first, self.rows()) {
+        for y in overlap(&flat.rows(raster.height), self.first, self.rows()) {
             let start = (y - self.first) * self.width;
             flat.row(y, self.width, |x, inverse| self.put(start + x, 1.0 / inverse, code));
         }
@@ -318,15 +318,15 @@ impl Band<'_> {
         item: Item,
         stage: &Stage<'_>,
     ) {
-        let view = &stage.view;
+        let raster = &stage.raster;
         let reach = if solid.is_plane() { stage.fade_end() } else { f32::INFINITY };
         for y in overlap(&frame.1, self.first, self.rows()) {
             for x in frame.0.clone() {
-                let ray = view.ray(x, y);
-                if let Some(span) = solid.span(view.eye, ray) {
+                let ray = raster.ray(x, y);
+                if let Some(span) = solid.span(raster.eye, ray) {
                     let near = reach == f32::INFINITY
-                        || (view.eye + ray * span.enter).distance(stage.centre) < reach;
-                    if span.enter > view.near && near {
+                        || (raster.eye + ray * span.enter).distance(stage.centre) < reach;
+                    if span.enter > raster.near && near {
                         self.put((y - self.first) * self.width + x, span.enter, item.code());
                     }
                 }
@@ -335,16 +335,16 @@ impl Band<'_> {
     }
 
     fn floor(&mut self, stage: &Stage<'_>) {
-        let (Some(floor), view) = (&stage.floor, &stage.view) else {
+        let (Some(floor), raster) = (&stage.floor, &stage.raster) else {
             return;
         };
-        let height = view.eye.y - floor.height;
+        let height = raster.eye.y - floor.height;
         if height <= 0.0 {
             return;
         }
         for y in self.first..self.first + self.rows() {
             for x in 0..self.width {
-                let ray = view.ray(x, y);
+                let ray = raster.ray(x, y);
                 if ray.y >= 0.0 {
                     continue;
                 }
@@ -352,7 +352,7 @@ impl Band<'_> {
                 let depth = -height / ray.y * 0.9999;
                 let at = (y - self.first) * self.width + x;
                 if depth < self.depth[at]
-                    && (view.eye + ray * depth).distance(stage.centre) < stage.fade_end()
+                    && (raster.eye + ray * depth).distance(stage.centre) < stage.fade_end()
                 {
                     self.put(at, depth, Item::Floor.code());
                 }

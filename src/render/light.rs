@@ -79,7 +79,7 @@ impl Shadows {
         };
         let balls: Vec<Disc> = stage.particles.iter().map(|&(_, p)| disc(p, stage.radius)).collect();
         let flats: Vec<Flat> = stage.sponge.triangles.iter().map(|&(_, c)| self.flat(stage, c)).collect();
-        let casters: Vec<_> = stage.solids.iter().filter(|s| !s.translucent && !s.is_plane()).collect();
+        let casters: Vec<_> = stage.solids.iter().filter(|s| !s.is_clear() && !s.is_plane()).collect();
         let frames: Vec<Disc> = casters.iter().map(|s| disc(s.position, s.radius)).collect();
         let ball_bins = bin(balls.iter().map(|b| b.rows.clone()), SIDE);
         let flat_bins = bin(flats.iter().map(|f| f.rows(SIDE)), SIDE);

@@ -59,7 +59,7 @@ pub(super) fn normal(stage: &Stage<'_>, item: Item, point: Vec3, ray: Vec3) -> V
             let normal = (a * u + b * v + c * w).normalize_or(-ray.normalize());
             if normal.dot(ray) > 0.35 * ray.length() { -normal } else { normal }
         }
-        Item::Body(i) => stage.solids[i].span(stage.view.eye, ray).map_or(Vec3::Y, |span| span.normal),
+        Item::Body(i) => stage.solids[i].span(stage.raster.eye, ray).map_or(Vec3::Y, |span| span.normal),
     }
 }
 
@@ -82,7 +82,7 @@ pub(super) fn colour(stage: &Stage<'_>, item: Item, point: Vec3, ray: Vec3, ligh
         }
         Item::Floor | Item::Nothing => match &stage.floor {
             Some(floor) => {
-                ground(tiles(floor, point, stage.view.focal / (point - stage.view.eye).length()), base)
+                ground(tiles(floor, point, stage.raster.focal / (point - stage.raster.eye).length()), base)
             }
             None => ground(Vec3::splat(0.51), base),
         },
@@ -170,7 +170,7 @@ fn skin(stage: &Stage<'_>, triangle: usize, point: Vec3, normal: Vec3) -> Matter
     #[expect(clippy::cast_possible_truncation, reason = "a key for a hash; the low bits are enough")]
     let patch = Patch { corners: positions, nodes: corners.map(|c| c as u32), key: index as u32 };
     let side = (positions[1] - positions[0]).length() + (positions[2] - positions[0]).length();
-    let samples = 0.5 * side * stage.view.focal / (point - stage.view.eye).length();
+    let samples = 0.5 * side * stage.raster.focal / (point - stage.raster.eye).length();
     let pit = pores::pit(&patch, at, sponge.pores, 2.0 / samples.max(1e-3));
     let shades = patch.nodes.map(|key| unit(key ^ 0x51ed_270b));
     let tint = 0.93 + 0.14 * (shades[0] * u + shades[1] * v + shades[2] * w);
@@ -197,15 +197,15 @@ fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> [f32; 3] {
 
 /// Colour and opacity of a translucent body where a ray meets it.
 pub(super) fn glass(stage: &Stage<'_>, solid: usize, ray: Vec3, depth: f32) -> Option<(Vec3, f32)> {
-    let (view, solid) = (&stage.view, &stage.solids[solid]);
-    let span = solid.span(view.eye, ray).filter(|span| span.enter > view.near && span.enter < depth)?;
+    let (raster, solid) = (&stage.raster, &stage.solids[solid]);
+    let span = solid.span(raster.eye, ray).filter(|span| span.enter > raster.near && span.enter < depth)?;
     let tint = BODIES[solid.index % BODIES.len()].lerp(Vec3::splat(0.75), 0.72);
     let clear = Light::clear();
     let matter = Matter { colour: tint, normal: span.normal, gloss: (0.3, 60), mirror: 0.6 };
     let facing = span.normal.dot(-ray.normalize_or_zero()).clamp(0.0, 1.0);
     let rim = |t: f32| {
-        let width = (0.004 * stage.size).max(1.6 * t / view.focal);
-        1.0 - smooth(0.4 * width, width, solid.edge_distance(view.eye + ray * t))
+        let width = (0.004 * stage.size).max(1.6 * t / raster.focal);
+        1.0 - smooth(0.4 * width, width, solid.edge_distance(raster.eye + ray * t))
     };
     let near_rim = rim(span.enter);
     let far_rim = if span.exit < depth { 0.45 * rim(span.exit) } else { 0.0 };

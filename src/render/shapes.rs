@@ -1,10 +1,11 @@
 //! Intersection of rays with the shapes of bodies.
 
-use super::DrawnBody;
+use super::{DrawnBody, Look};
 use crate::rigid::Shape;
 use glam::{Mat3, Vec3};
 
 /// A body prepared for intersection.
+#[derive(Debug)]
 pub(super) struct Solid<'a> {
     shape: &'a Shape,
     /// Index in the picture's list, which also selects the colour.
@@ -14,11 +15,22 @@ pub(super) struct Solid<'a> {
     pub(super) rotation: Mat3,
     /// Radius of a ball around the origin that holds the shape; infinite for a plane.
     pub(super) radius: f32,
-    pub(super) translucent: bool,
+    pub(super) look: Look,
+    colour: Option<Vec3>,
 }
 
+/// Colours of bodies without one of their own, by their place in the list: linear red, green and blue.
+const COLOURS: [Vec3; 6] = [
+    Vec3::new(0.50, 0.035, 0.025),
+    Vec3::new(0.05, 0.14, 0.42),
+    Vec3::new(0.75, 0.72, 0.66),
+    Vec3::new(0.62, 0.25, 0.04),
+    Vec3::new(0.10, 0.33, 0.24),
+    Vec3::new(0.10, 0.12, 0.16),
+];
+
 /// The part of a ray inside a shape.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) enter: f32,
     pub(super) exit: f32,
@@ -48,8 +60,24 @@ impl<'a> Solid<'a> {
             position: body.state.position,
             rotation: Mat3::from_quat(rotation.normalize()),
             radius,
-            translucent: body.translucent,
+            look: body.look,
+            colour: body.colour.filter(|colour| colour.is_finite()),
         })
+    }
+
+    /// Whether light passes the body.
+    pub(super) fn is_clear(&self) -> bool {
+        self.look != Look::Solid
+    }
+
+    /// The colour of the body, if it has one of its own: linear red, green and blue.
+    pub(super) fn own_colour(&self) -> Option<Vec3> {
+        self.colour
+    }
+
+    /// The colour of the body: linear red, green and blue.
+    pub(super) fn colour(&self) -> Vec3 {
+        self.colour.unwrap_or(COLOURS[self.index % COLOURS.len()])
     }
 
     pub(super) fn is_plane(&self) -> bool {
@@ -76,6 +104,48 @@ impl<'a> Solid<'a> {
             exit_normal: self.rotation * span.exit_normal,
             ..span
         })
+    }
+
+    /// Signed distance of a point from the surface (m), negative inside. That of a hull is exact near its faces only.
+    pub(super) fn distance(&self, point: Vec3) -> f32 {
+        let p = self.local(point);
+        match self.shape {
+            Shape::Plane => p.y,
+            Shape::Sphere { radius } => p.length() - radius,
+            Shape::Cuboid { half_extents } => {
+                let q = p.abs() - *half_extents;
+                q.max(Vec3::ZERO).length() + q.max_element().min(0.0)
+            }
+            Shape::Capsule { half_height, radius } => {
+                (p - Vec3::Y * p.y.clamp(-half_height, *half_height)).length() - radius
+            }
+            Shape::Hull { planes, .. } => {
+                planes.iter().map(|(normal, offset)| normal.dot(p) - offset).fold(f32::MIN, f32::max)
+            }
+        }
+    }
+
+    /// Distance of a point on the surface to the nearest line of a model of wire (m): edges, and three circles of a ball.
+    pub(super) fn wire_distance(&self, point: Vec3) -> f32 {
+        let p = self.local(point);
+        match self.shape {
+            Shape::Plane => f32::INFINITY,
+            Shape::Cuboid { .. } => self.edge_distance(point),
+            Shape::Sphere { .. } => p.abs().min_element(),
+            Shape::Capsule { half_height, .. } => {
+                p.x.abs().min(p.z.abs()).min((p.y - half_height).abs()).min((p.y + half_height).abs())
+            }
+            Shape::Hull { planes, .. } => {
+                // The nearest face is that of the point; the next one is where an edge is.
+                let (mut first, mut second) = (f32::INFINITY, f32::INFINITY);
+                for (normal, offset) in planes {
+                    let gap = (offset - normal.dot(p)).abs();
+                    second = second.min(gap.max(first));
+                    first = first.min(gap);
+                }
+                second
+            }
+        }
     }
 
     /// Distance of a point on the surface to the nearest edge of the shape (m): only cuboids have drawn edges.

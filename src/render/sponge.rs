@@ -9,6 +9,8 @@ pub(super) struct Surface {
     pub(super) triangles: Vec<(usize, [usize; 3])>,
     /// Drawn position of each node.
     pub(super) positions: Vec<Vec3>,
+    /// Place of each node in the sponge at rest.
+    pub(super) rest: Vec<Vec3>,
     /// Outward unit normal of each node of the surface.
     pub(super) normals: Vec<Vec3>,
     /// Wetness of each node, 0..=1.
@@ -32,6 +34,10 @@ impl Surface {
         for weight in [0.6, -0.63, 0.6, -0.63, 0.6, -0.63] {
             relax(&mut positions, &triangles, weight);
         }
+        let mut rest: Vec<Vec3> = picture.rest.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
+        if rest.len() != positions.len() || rest.iter().any(|place| !place.is_finite()) {
+            rest.clone_from(&positions);
+        }
         let normals = normals(&positions, &triangles);
         let wetness = (0..positions.len())
             .map(|i| picture.wetness.get(i).copied().unwrap_or(0.0))
@@ -39,7 +45,7 @@ impl Surface {
             .collect();
         // From the count alone, so that the pores keep their place while the sponge deforms.
         let pores = (9000.0 / triangles.len().max(1) as f32).sqrt().round().clamp(1.0, 12.0);
-        Self { triangles, positions, normals, wetness, pores }
+        Self { triangles, positions, rest, normals, wetness, pores }
     }
 }
 

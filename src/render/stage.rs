@@ -1,12 +1,13 @@
 //! A picture prepared for drawing: finite values only, the middle and the size of the scene.
 
-use super::camera::{Camera, View};
+use super::camera::{Camera, Raster};
 use super::shapes::Solid;
 use super::sponge::Surface;
 use super::{DrawnBody, Picture};
 use glam::Vec3;
 
 /// The floor of the container.
+#[derive(Debug)]
 pub(super) struct Floor {
     pub(super) height: f32,
     pub(super) low: Vec3,
@@ -15,15 +16,20 @@ pub(super) struct Floor {
     pub(super) pitch: f32,
 }
 
+/// A picture prepared for drawing.
 pub(super) struct Stage<'a> {
     pub(super) picture: &'a Picture<'a>,
-    pub(super) view: View,
+    pub(super) raster: Raster,
     /// Particles with a finite position: index in the list and position.
     pub(super) particles: Vec<(usize, Vec3)>,
     pub(super) radius: f32,
     pub(super) solids: Vec<Solid<'a>>,
     pub(super) sponge: Surface,
     pub(super) floor: Option<Floor>,
+    /// Lowest and highest corner of a container (m).
+    pub(super) container: Option<(Vec3, Vec3)>,
+    /// Lowest and highest corner of the box around the drawn items (m).
+    pub(super) around: (Vec3, Vec3),
     /// Middle of the box around the drawn items, stabilised by the container: it must not jump between frames.
     pub(super) centre: Vec3,
     /// Diagonal of the box in m.
@@ -46,18 +52,65 @@ impl<'a> Stage<'a> {
         let solid = |(index, body): (usize, &DrawnBody<'a>)| Solid::new(index, body);
         let solids: Vec<Solid<'a>> = picture.bodies.iter().enumerate().filter_map(solid).collect();
         let sponge = Surface::new(picture);
-        let container =
-            picture.container.map(|(a, b)| (a.min(b), a.max(b))).filter(|(a, b)| (*b - *a).is_finite());
+        let container = picture.container.map(|(a, b)| (a.min(b), a.max(b))).filter(|(a, b)| {
+            let side = *b - *a;
+            side.is_finite() && side.min_element() > 1e-6
+        });
         let (low, high) = extent(&particles, radius, &solids, &sponge, container);
         let height_scale = container.map_or(40.0 * radius, |(a, b)| b.y - a.y).max(1e-6);
         let floor = container.map(|(low, high)| {
             let side = (high - low).max_element().max(1e-6);
             Floor { height: low.y, low, high, pitch: round_pitch(side / 10.0) }
         });
-        let view = View::new(camera, width, height);
+        let raster = Raster::new(camera, width, height);
         let (centre, size) = ((low + high) * 0.5, (high - low).length());
         let fast = 0.75 * (2.0 * 9.81 * height_scale).sqrt();
-        Self { picture, view, particles, radius, solids, sponge, floor, centre, size, fast }
+        let around = (low, high);
+        Self {
+            picture,
+            raster,
+            particles,
+            radius,
+            solids,
+            sponge,
+            floor,
+            container,
+            around,
+            centre,
+            size,
+            fast,
+        }
+    }
+
+    /// Height of the floor (m), with the plane that it is if a body is: the floor of the container, or the highest level plane.
+    pub(super) fn ground(&self) -> Option<(f32, Option<usize>)> {
+        if let Some(floor) = &self.floor {
+            return Some((floor.height, None));
+        }
+        let level = |index: &usize| {
+            let solid = &self.solids[*index];
+            solid.is_plane() && solid.rotation.y_axis.y > 0.9999
+        };
+        let height = |index: usize| self.solids[index].position.y;
+        let highest = (0..self.solids.len()).filter(level).max_by(|a, b| height(*a).total_cmp(&height(*b)));
+        highest.map(|index| (height(index), Some(index)))
+    }
+
+    /// Lowest and highest corner of the box that the scene is in (m): the container, so that nothing jumps when something flies
+    /// out of it.
+    pub(super) fn frame(&self) -> (Vec3, Vec3) {
+        self.container.unwrap_or(self.around)
+    }
+
+    /// Side of a tile of the floor (m).
+    pub(super) fn pitch(&self) -> f32 {
+        let (low, high) = self.frame();
+        round_pitch((high - low).max_element().max(1e-6) / 14.0)
+    }
+
+    /// Share of a particle that a sponge holds, 0 to 1.
+    pub(super) fn interior(&self, particle: usize) -> f32 {
+        self.picture.interior.get(particle).copied().unwrap_or(0.0)
     }
 
     /// Distance from the scene's centre where the ground begins to fade into the sky.

@@ -39,22 +39,22 @@ pub(super) fn pour(
     samples: &[Vec3],
     mut depth: Vec<f32>,
 ) -> (Vec<Vec3>, Vec<f32>) {
-    let view = &stage.view;
-    let layer = Layer::balls(view, &balls(stage, SWELL));
-    let width = view.width / SAMPLES;
+    let raster = &stage.raster;
+    let layer = Layer::balls(raster, &balls(stage, SWELL));
+    let width = raster.width / SAMPLES;
     let mut pixels = thickness(stage, &depth);
     for (i, pixel) in pixels.iter_mut().enumerate() {
-        pixel.depth = layer.depth[SAMPLES * (i / width) * view.width + SAMPLES * (i % width)];
+        pixel.depth = layer.depth[SAMPLES * (i / width) * raster.width + SAMPLES * (i % width)];
     }
     for sideways in [true, false, true, false, true, false] {
         pixels = even_out(stage, &pixels, width, sideways);
     }
     let pixels = orient(stage, shadows, &pixels, width);
     let mut result = samples.to_vec();
-    bands::each_band(&mut result, view.width, BAND, |first, band| {
+    bands::each_band(&mut result, raster.width, BAND, |first, band| {
         for (i, sample) in band.iter_mut().enumerate() {
-            let (x, y) = (i % view.width, first + i / view.width);
-            let at = y * view.width + x;
+            let (x, y) = (i % raster.width, first + i / raster.width);
+            let at = y * raster.width + x;
             if layer.depth[at] < depth[at]
                 && let Some(pixel) = wet(&pixels, width, x / SAMPLES, y / SAMPLES)
             {
@@ -70,19 +70,19 @@ pub(super) fn pour(
 
 /// Length of water in front of the opaque items, and its speed, per pixel.
 fn thickness(stage: &Stage<'_>, depth: &[f32]) -> Vec<Pixel> {
-    let view = &stage.view;
+    let raster = &stage.raster;
     let balls = balls(stage, 1.0);
-    let width = view.width / SAMPLES;
-    let bins = bin(balls.iter().map(|b: &Ball| b.rows.clone()), view.height);
-    let mut pixels = vec![DRY; width * (view.height / SAMPLES)];
+    let width = raster.width / SAMPLES;
+    let bins = bin(balls.iter().map(|b: &Ball| b.rows.clone()), raster.height);
+    let mut pixels = vec![DRY; width * (raster.height / SAMPLES)];
     bands::each_band(&mut pixels, width, BAND / SAMPLES, |first, band| {
         let (start, rows) = (first * SAMPLES, band.len() / width * SAMPLES);
         for ball in bins[start / BAND].iter().map(|&i| &balls[i]) {
             let speed = stage.speed(stage.particles[ball.particle].0);
             for y in overlap(&ball.rows, start, rows).filter(|y| y % SAMPLES == 0) {
                 let row = &mut band[(y - start) / SAMPLES * width..][..width];
-                ball.row(view, y, |x, front, chord| {
-                    if x % SAMPLES == 0 && front < depth[y * view.width + x] {
+                ball.row(raster, y, |x, front, chord| {
+                    if x % SAMPLES == 0 && front < depth[y * raster.width + x] {
                         row[x / SAMPLES].thickness += chord * FILLING;
                         row[x / SAMPLES].speed += speed * chord * FILLING;
                     }
@@ -97,7 +97,7 @@ fn thickness(stage: &Stage<'_>, depth: &[f32]) -> Vec<Pixel> {
 fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -> Vec<Pixel> {
     let height = pixels.len() / width;
     let apart = 3.0 * stage.radius;
-    let scale = 1.7 * stage.radius * stage.view.focal / SAMPLES as f32;
+    let scale = 1.7 * stage.radius * stage.raster.focal / SAMPLES as f32;
     let mut result = pixels.to_vec();
     bands::each_band(&mut result, width, BAND, |first, band| {
         for (i, pixel) in band.iter_mut().enumerate() {
@@ -133,10 +133,10 @@ fn even_out(stage: &Stage<'_>, pixels: &[Pixel], width: usize, sideways: bool) -
 
 /// Normals from the slopes of the depth, and the key light that reaches the surface.
 fn orient(stage: &Stage<'_>, shadows: &Shadows, pixels: &[Pixel], width: usize) -> Vec<Pixel> {
-    let (view, height) = (&stage.view, pixels.len() / width);
+    let (raster, height) = (&stage.raster, pixels.len() / width);
     let apart = 3.0 * stage.radius;
     let place =
-        |x: usize, y: usize| view.eye + view.ray(x * SAMPLES, y * SAMPLES) * pixels[y * width + x].depth;
+        |x: usize, y: usize| raster.eye + raster.ray(x * SAMPLES, y * SAMPLES) * pixels[y * width + x].depth;
     let mut result = pixels.to_vec();
     bands::each_band(&mut result, width, BAND, |first, band| {
         for (i, pixel) in band.iter_mut().enumerate() {
@@ -156,7 +156,7 @@ fn orient(stage: &Stage<'_>, shadows: &Shadows, pixels: &[Pixel], width: usize) 
             let right = (x + 1 < width).then(|| near(x + 1, y)).flatten();
             let above = (y > 0).then(|| near(x, y - 1)).flatten();
             let below = (y + 1 < height).then(|| near(x, y + 1)).flatten();
-            let towards_eye = (view.eye - here).normalize_or(Vec3::Y);
+            let towards_eye = (raster.eye - here).normalize_or(Vec3::Y);
             pixel.normal = slope(below, above).cross(slope(left, right)).normalize_or_zero();
             pixel.normal = if pixel.normal.dot(towards_eye) < 0.0 { -pixel.normal } else { pixel.normal };
             if pixel.normal == Vec3::ZERO {
@@ -183,19 +183,22 @@ fn wet(pixels: &[Pixel], width: usize, x: usize, y: usize) -> Option<Pixel> {
 
 /// Light that the water transmits, scatters and reflects.
 fn water(stage: &Stage<'_>, pixel: Pixel, (x, y): (usize, usize), samples: &[Vec3], depth: &[f32]) -> Vec3 {
-    let view = &stage.view;
-    let ray = view.ray(x, y);
+    let raster = &stage.raster;
+    let ray = raster.ray(x, y);
     let (towards, normal) = (-ray.normalize_or_zero(), pixel.normal);
     // Thin water at an outline is still a drop thick.
     let thickness = pixel.thickness.max(1.5 * stage.radius);
-    let shift = 0.22 * thickness.min(0.1 * stage.size) * view.focal / pixel.depth;
+    let shift = 0.22 * thickness.min(0.1 * stage.size) * raster.focal / pixel.depth;
     let bent = |at: usize, by: f32, limit: usize| {
         usize::try_from(floor(at as f32 + by).max(0)).unwrap_or(0).min(limit - 1)
     };
-    let bx = bent(x, -normal.dot(view.right) * shift, view.width);
-    let by = bent(y, normal.dot(view.up) * shift, view.height);
-    let behind =
-        if depth[by * view.width + bx] > pixel.depth { by * view.width + bx } else { y * view.width + x };
+    let bx = bent(x, -normal.dot(raster.right) * shift, raster.width);
+    let by = bent(y, normal.dot(raster.up) * shift, raster.height);
+    let behind = if depth[by * raster.width + bx] > pixel.depth {
+        by * raster.width + bx
+    } else {
+        y * raster.width + x
+    };
     let loss = ABSORPTION * (-10.0 * thickness / stage.size);
     let left = Vec3::new(loss.x.exp(), loss.y.exp(), loss.z.exp());
     let facing = 0.35 + 0.65 * normal.dot(light::direction()).max(0.0);

@@ -35,7 +35,7 @@ type Turns = [(f32, f32); 16];
 
 impl Visibility {
     pub(super) fn new(stage: &Stage<'_>, layer: &Layer, shadows: &Shadows) -> Self {
-        let (width, height) = (stage.view.width / 2, stage.view.height / 2);
+        let (width, height) = (stage.raster.width / 2, stage.raster.height / 2);
         let turns = std::array::from_fn(|i| (i as f32 * (std::f32::consts::TAU / 16.0)).sin_cos());
         let open = Open::new(stage, layer);
         let mut light = vec![CLEAR; width * height];
@@ -79,14 +79,14 @@ fn gather(
     (turns, open): (&Turns, &Open),
     (x, y): (usize, usize),
 ) -> Light {
-    let view = &stage.view;
-    let at = 2 * y * view.width + 2 * x;
+    let raster = &stage.raster;
+    let at = 2 * y * raster.width + 2 * x;
     let (item, depth) = (Item::from_code(layer.code[at]), layer.depth[at]);
     if item == Item::Nothing {
         return CLEAR;
     }
-    let ray = view.ray(2 * x, 2 * y);
-    let point = view.eye + ray * depth;
+    let ray = raster.ray(2 * x, 2 * y);
+    let point = raster.eye + ray * depth;
     let normal = shade::normal(stage, item, point, ray);
     // Sixteen patterns in a square of 4 by 4 pixels.
     const ORDER: [[usize; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
@@ -111,15 +111,15 @@ impl Open {
 
     fn new(stage: &Stage<'_>, layer: &Layer) -> Self {
         let side = 2 * Self::TILE;
-        let (columns, rows) = (stage.view.width.div_ceil(side), stage.view.height.div_ceil(side));
+        let (columns, rows) = (stage.raster.width.div_ceil(side), stage.raster.height.div_ceil(side));
         let mut empty = vec![true; columns * rows];
-        for (y, row) in layer.code.chunks(stage.view.width).enumerate() {
+        for (y, row) in layer.code.chunks(stage.raster.width).enumerate() {
             for (x, codes) in row.chunks(side).enumerate() {
                 let bare = |&code: &u32| matches!(Item::from_code(code), Item::Floor | Item::Nothing);
                 empty[y / side * columns + x] &= codes.iter().all(bare);
             }
         }
-        let margin = super::colour::index(REACH * stage.view.height as f32) / side + 1;
+        let margin = super::colour::index(REACH * stage.raster.height as f32) / side + 1;
         let around = |i: usize, limit: usize| i.saturating_sub(margin)..(i + margin + 1).min(limit);
         let open = |i: usize| {
             around(i / columns, rows).all(|y| around(i % columns, columns).all(|x| empty[y * columns + x]))
@@ -141,25 +141,25 @@ fn sky(
     normal: Vec3,
     (sine, cosine): (f32, f32),
 ) -> f32 {
-    let view = &stage.view;
+    let raster = &stage.raster;
     let reach = 0.055 * stage.size;
-    let radius = (reach * view.focal / depth).min(REACH * view.height as f32).max(4.0);
+    let radius = (reach * raster.focal / depth).min(REACH * raster.height as f32).max(4.0);
     let place = |x: f32, y: f32, depth: f32| {
-        let (right, up) = view.slopes(x, y);
+        let (right, up) = raster.slopes(x, y);
         Vec3::new(right * depth, up * depth, depth)
     };
     let point = place(2.0 * x as f32, 2.0 * y as f32, depth);
-    let normal = Vec3::new(normal.dot(view.right), normal.dot(view.up), normal.dot(view.forward));
+    let normal = Vec3::new(normal.dot(raster.right), normal.dot(raster.up), normal.dot(raster.forward));
     let (nearby, softening) = (1.0 / (4.0 * reach * reach), 0.02 * reach);
     let mut hidden = 0.0;
     for [u, v] in SPIRAL {
         let sx = 2.0 * x as f32 + 0.5 + radius * (u * cosine - v * sine);
         let sy = 2.0 * y as f32 + 0.5 + radius * (u * sine + v * cosine);
-        if sx < 0.0 || sy < 0.0 || sx >= view.width as f32 || sy >= view.height as f32 {
+        if sx < 0.0 || sy < 0.0 || sx >= raster.width as f32 || sy >= raster.height as f32 {
             continue;
         }
         let (sx, sy) = (super::colour::index(sx), super::colour::index(sy));
-        let other = layer.depth[sy * view.width + sx];
+        let other = layer.depth[sy * raster.width + sx];
         if other == f32::INFINITY {
             continue;
         }

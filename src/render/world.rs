@@ -1,6 +1,6 @@
 //! Pictures of a world.
 
-use super::{Camera, DrawnBody, Image, Picture, Style, draw};
+use super::{Camera, DrawnBody, Image, Look, Picture, Style, draw};
 use crate::rigid::BodyKind;
 use crate::scene::{self, Domain};
 use crate::{World, glam::Vec3};
@@ -17,7 +17,8 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
         .map(|body| DrawnBody {
             shape: &body.shape,
             state: body.state,
-            translucent: body.kind == BodyKind::Kinematic,
+            look: if body.kind == BodyKind::Kinematic { Look::Glass } else { Look::Solid },
+            colour: None,
         })
         .collect();
     let wetness = wetness(world);
@@ -25,8 +26,10 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
         particles: world.particle_positions(),
         velocities: world.particle_velocities(),
         particle_radius: 0.5 * world.params.fluid.spacing,
+        interior: &world.columns().fluid.interior,
         nodes: world.node_positions(),
         wetness: &wetness,
+        rest: &world.lattice().position,
         triangles: &world.lattice().triangles,
         bodies: &bodies,
         container: match world.scene().domain {
@@ -34,6 +37,7 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
             Domain::Open => None,
         },
         style,
+        ..Picture::default()
     };
     draw(&picture, camera, width, height)
 }

@@ -52,6 +52,8 @@ pub(crate) enum StyleName {
     Spheres,
     /// The water is one transparent surface
     Surface,
+    /// Rays from the eye
+    Realistic,
 }
 
 /// Length of a run.
@@ -117,6 +119,7 @@ impl From<StyleName> for Style {
         match name {
             StyleName::Spheres => Self::Spheres,
             StyleName::Surface => Self::Surface,
+            StyleName::Realistic => Self::Realistic,
         }
     }
 }

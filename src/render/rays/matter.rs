@@ -1,0 +1,113 @@
+//! Light that leaves the floor, sponges and bodies.
+
+use super::foam::foam;
+use super::optics::{reflect, schlick};
+use super::path::Signature;
+use super::room::{self, FAR, KEY, hemisphere, key_direction};
+use super::setting::{Matter, Setting};
+use super::skin::skin;
+use crate::render::colour::{smooth, unit};
+use glam::Vec3;
+
+const FLOOR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
+
+/// How a ray arrives at a solid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arrival {
+    pub(super) point: Vec3,
+    pub(super) direction: Vec3,
+    /// Whole way from the eye (m).
+    pub(super) way: f32,
+    /// Whether water thinner than a layer of particles is on the solid.
+    pub(super) film: bool,
+    /// Whether the ray comes through water.
+    pub(super) wet: bool,
+}
+
+impl Setting<'_> {
+    /// Light from a solid along a ray. The signature takes note of it.
+    pub(super) fn shine(&self, matter: &Matter, arrival: &Arrival, signature: &mut Signature) -> Vec3 {
+        match matter {
+            Matter::Floor => {
+                signature.meet(5);
+                self.floor(arrival, signature)
+            }
+            Matter::Sponge(hit) => {
+                signature.meet(6);
+                let width = arrival.way * self.pixel;
+                let film = f32::from(u8::from(arrival.film));
+                let skin = skin(&self.stage.sponge, foam(), hit, arrival.direction, width, film);
+                let (lit, wet) = self.ground.shadow(arrival.point);
+                // The material scatters, so that light reaches around it.
+                let wrap = ((skin.normal.dot(key_direction()) + 0.25) / 1.25).max(0.0);
+                let reach = 0.1 * self.size;
+                let near_floor = 0.65 + 0.35 * smooth(0.0, reach, arrival.point.y - self.ground.height);
+                let key = KEY * (wrap * lit * (0.35 + 0.65 * skin.open)) * self.medium.left(wet);
+                let around = hemisphere(skin.normal) * ((0.12 + 0.88 * skin.open) * near_floor);
+                let half = (key_direction() - arrival.direction).normalize_or_zero();
+                // A film in the open cells glints a little; it is too rough to mirror.
+                let glint = 0.24 * lit * smooth(0.4, 0.9, skin.wet) * skin.open;
+                let glint = glint * skin.normal.dot(half).max(0.0).powi(28);
+                skin.albedo * (key + around * self.medium.left(0.8 * wet)) + KEY * glint
+            }
+            Matter::Body(index, normal) => {
+                signature.meet(7 + *index as u32);
+                self.painted(*index, *normal, arrival)
+            }
+        }
+    }
+
+    /// Paint with a clear coat.
+    fn painted(&self, index: usize, normal: Vec3, arrival: &Arrival) -> Vec3 {
+        let body = self.body(index);
+        let (lit, wet) = self.ground.shadow(arrival.point);
+        let key = KEY * (normal.dot(key_direction()).max(0.0) * lit) * self.medium.left(wet);
+        let diffuse = body.colour() * (key + hemisphere(normal) * self.medium.left(0.8 * wet));
+        if body.is_plane() {
+            return diffuse;
+        }
+        let mirrored = reflect(arrival.direction, normal);
+        let dim = if mirrored.y < 0.0 { 0.72 } else { 0.9 };
+        let share = schlick(0.04, -arrival.direction.dot(normal)) * if arrival.wet { 0.1 } else { 1.0 };
+        diffuse * (1.0 - share) + room::light(mirrored) * (share * dim)
+    }
+
+    fn floor(&self, arrival: &Arrival, signature: &mut Signature) -> Vec3 {
+        let (point, direction) = (arrival.point, arrival.direction);
+        let size = self.size;
+        let fade = smooth(1.1 * size, 4.4 * size, (point - self.centre).length());
+        let width = arrival.way * self.pixel / (-direction.y).max(0.05);
+        let albedo = FLOOR * (1.0 + (self.tiles(point, width, signature) - 1.0) * (1.0 - fade));
+        let arriving = self.ground.arriving(point);
+        let wetness = arriving.w.max(f32::from(u8::from(arrival.film))).min(1.0);
+        let mut light = albedo * (1.0 - 0.16 * wetness) * arriving.truncate();
+        if wetness > 0.02 && !arrival.wet {
+            let gloss = schlick(0.02, -direction.y) * 0.5 * wetness;
+            light += room::light(reflect(direction, Vec3::Y)) * gloss;
+        }
+        light.lerp(FAR, fade)
+    }
+
+    /// Lightness of the tiles of the floor, 1 in the mean, where a pixel has a width (m).
+    fn tiles(&self, point: Vec3, width: f32, signature: &mut Signature) -> f32 {
+        let pitch = self.pitch;
+        let clear = 1.0 - smooth(0.15, 0.6, width / pitch);
+        if clear <= 0.0 {
+            return 1.0;
+        }
+        let (u, v) = (point.x / pitch, point.z / pitch);
+        let (i, j) = (u.floor() as i32, v.floor() as i32);
+        let [i, j] = [i.cast_unsigned(), j.cast_unsigned()];
+        if clear > 0.2 {
+            signature.tile(i.wrapping_mul(73_856_093) ^ j.wrapping_mul(19_349_663));
+        }
+        let check = if i.wrapping_add(j) & 1 == 0 { 1.10 } else { 0.90 };
+        let shade = 0.97 + 0.06 * unit(i.wrapping_mul(7919) ^ j.wrapping_mul(104_729));
+        let joint = |t: f32| (t - t.round()).abs() * pitch;
+        let half = 0.0175 * pitch;
+        let blur = (0.5 * width).max(0.01 * pitch);
+        let line = 1.0 - smooth(half, half + 2.0 * blur, joint(u).min(joint(v)));
+        let line = line * (0.0225 * pitch / (0.0125 * pitch + blur)).min(1.0);
+        1.0 + (check * shade * (1.0 - 0.35 * line) - 1.0) * clear
+    }
+}

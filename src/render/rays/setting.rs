@@ -1,0 +1,241 @@
+//! Everything that rays can meet, and what they meet next.
+
+use super::ground::Ground;
+use super::optics::Medium;
+use super::tree::{Hit, Tree};
+use crate::render::{
+    Look,
+    colour::smooth,
+    shapes::{Solid, Span},
+    stage::Stage,
+    water::Field,
+};
+use glam::Vec3;
+
+/// Thickness of water over a sponge that is wetness alone, and from which on it is water alone, in spacings.
+const FILM_ON_SPONGE: (f32, f32) = (1.1, 2.4);
+/// The same over the floor.
+const FILM_ON_FLOOR: (f32, f32) = (0.2, 0.5);
+/// Nearer things belong to the place where a ray starts (m).
+pub(super) const NEAR: f32 = 1e-6;
+
+/// What rays see.
+pub(super) struct Setting<'a> {
+    pub(super) stage: &'a Stage<'a>,
+    /// The water; nothing without free water.
+    pub(super) field: Option<Field>,
+    pub(super) tree: Tree,
+    pub(super) medium: Medium,
+    pub(super) ground: Ground,
+    /// Solids that rays end at, and those that they pass: indices in the list of the stage.
+    pub(super) opaque: Vec<usize>,
+    pub(super) clear: Vec<usize>,
+    /// Distance that a new ray starts from a surface of water (m).
+    pub(super) nudge: f32,
+    /// Side of a tile of the floor (m).
+    pub(super) pitch: f32,
+    /// Middle and diagonal of the box that the scene is in (m).
+    pub(super) centre: Vec3,
+    pub(super) size: f32,
+    /// Side of a pixel at a distance of 1 m (m).
+    pub(super) pixel: f32,
+}
+
+/// Something that ends a ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Matter {
+    Floor,
+    Sponge(Hit),
+    Body(usize, Vec3),
+}
+
+/// What a ray meets, with its distance (m).
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Event {
+    Nothing,
+    /// A solid, and whether it is below a film of water.
+    Matter(f32, Matter, bool),
+    /// A body that lets light through.
+    Clear(usize, Span),
+    /// The surface of the water.
+    Surface(f32, Face),
+}
+
+/// A surface of water.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Face {
+    /// Normal, against the ray.
+    pub(super) normal: Vec3,
+    /// Whether it is at a wall of the container.
+    pub(super) is_wall: bool,
+    /// How much it bends and mirrors light: less than 1 where thin water becomes wetness.
+    pub(super) strength: f32,
+}
+
+impl Face {
+    fn free(normal: Vec3, direction: Vec3, strength: f32) -> Self {
+        let cosine = normal.dot(direction);
+        let turned = (normal - direction * (cosine + 0.02)).normalize_or(-direction);
+        Self { normal: if cosine < -0.02 { normal } else { turned }, is_wall: false, strength }
+    }
+
+    fn wall(outward: Vec3) -> Self {
+        Self { normal: outward, is_wall: true, strength: 1.0 }
+    }
+}
+
+impl Event {
+    pub(super) fn distance(&self) -> f32 {
+        match self {
+            Self::Nothing => f32::INFINITY,
+            Self::Matter(distance, ..) | Self::Surface(distance, ..) => *distance,
+            Self::Clear(_, span) => span.enter,
+        }
+    }
+}
+
+/// Where a ray enters and leaves a box, if it does so in front of its start.
+pub(super) fn boxed(low: Vec3, high: Vec3, origin: Vec3, direction: Vec3) -> Option<(f32, f32)> {
+    let inverse = direction.recip();
+    let (a, b) = ((low - origin) * inverse, (high - origin) * inverse);
+    let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
+    (enter < leave && leave > 0.0).then_some((enter, leave))
+}
+
+impl<'a> Setting<'a> {
+    pub(super) fn body(&self, index: usize) -> &Solid<'a> {
+        &self.stage.solids[index]
+    }
+
+    pub(super) fn is_wire(&self, index: usize) -> bool {
+        self.body(index).look == Look::Wire
+    }
+
+    /// The nearest solid on a ray that is nearer than a distance.
+    pub(super) fn solid(&self, origin: Vec3, direction: Vec3, mut nearest: f32) -> Option<(f32, Matter)> {
+        let mut best = None;
+        if self.ground.is_seen && direction.y < 0.0 {
+            let distance = ((self.ground.height - origin.y) / direction.y).max(0.0);
+            if distance < nearest {
+                nearest = distance;
+                best = Some((distance, Matter::Floor));
+            }
+        }
+        for index in &self.opaque {
+            if let Some(span) = self.body(*index).span(origin, direction)
+                && span.enter > NEAR
+                && span.enter < nearest
+            {
+                nearest = span.enter;
+                best = Some((span.enter, Matter::Body(*index, span.normal)));
+            }
+        }
+        let sponge = self.tree.hit(origin, direction, nearest);
+        sponge.map(|hit| (hit.distance, Matter::Sponge(hit))).or(best)
+    }
+
+    /// Outward normal of the wall of the container that a point is nearest to.
+    pub(super) fn face(&self, point: Vec3) -> Vec3 {
+        let Some((low, high)) = self.stage.container else { return Vec3::Y };
+        let (a, b) = ((point - low).abs(), (point - high).abs());
+        let least = a.min(b).min_element();
+        for axis in 0..3 {
+            if a[axis] == least {
+                return -Vec3::AXES[axis];
+            }
+            if b[axis] == least {
+                return Vec3::AXES[axis];
+            }
+        }
+        Vec3::Y
+    }
+
+    /// Whether a point is in the water.
+    pub(super) fn is_wet(&self, point: Vec3) -> bool {
+        let inside = |(low, high): (Vec3, Vec3)| point.cmpgt(low).all() && point.cmplt(high).all();
+        self.stage.container.is_none_or(inside)
+            && self.field.as_ref().is_some_and(|field| field.value(point) > 0.0)
+    }
+
+    /// The next event of a ray in air or water, and where it passes the container.
+    pub(super) fn next(&self, origin: Vec3, direction: Vec3, wet: bool) -> (Event, Option<(f32, f32)>) {
+        let solid = self.solid(origin, direction, f32::INFINITY);
+        let mut limit = solid.map_or(f32::INFINITY, |(distance, _)| distance);
+        let mut event =
+            solid.map_or(Event::Nothing, |(distance, matter)| Event::Matter(distance, matter, false));
+        for index in &self.clear {
+            if let Some(span) = self.body(*index).span(origin, direction)
+                && span.enter > NEAR
+                && span.enter < limit
+            {
+                limit = span.enter;
+                event = Event::Clear(*index, span);
+            }
+        }
+        let passage = self.stage.container.and_then(|(low, high)| boxed(low, high, origin, direction));
+        let Some(field) = &self.field else { return (event, passage) };
+        let (enter, leave) = match (self.stage.container, passage) {
+            (Some(_), None) => return (event, None),
+            (_, passage) => passage.unwrap_or((0.0, f32::INFINITY)),
+        };
+        let end = leave.min(limit);
+        let found = if wet {
+            self.leave(field, origin, direction, (end, leave, limit))
+        } else {
+            self.enter(field, origin, direction, (enter, end), &event)
+        };
+        (found.unwrap_or(event), passage)
+    }
+
+    /// Where a ray in air enters the water.
+    fn enter(
+        &self,
+        field: &Field,
+        origin: Vec3,
+        direction: Vec3,
+        (enter, end): (f32, f32),
+        event: &Event,
+    ) -> Option<Event> {
+        let start = enter.max(0.0);
+        if start >= end {
+            return None;
+        }
+        if enter > NEAR {
+            let point = origin + direction * enter;
+            if field.value(point) > 0.0 {
+                return Some(Event::Surface(enter, Face::wall(self.face(point))));
+            }
+        }
+        let distance = field.march(origin, direction, (start, end), false)?;
+        let mut strength = 1.0;
+        if let Event::Matter(depth, matter, _) = event {
+            let layers = (depth - distance) / field.spacing;
+            strength = match matter {
+                Matter::Sponge(_) => smooth(FILM_ON_SPONGE.0, FILM_ON_SPONGE.1, layers),
+                Matter::Floor => smooth(FILM_ON_FLOOR.0, FILM_ON_FLOOR.1, layers),
+                Matter::Body(..) => 1.0,
+            };
+            if strength <= 0.0 {
+                return Some(Event::Matter(*depth, *matter, true));
+            }
+        }
+        let normal = field.normal(origin + direction * distance);
+        Some(Event::Surface(distance, Face::free(normal, direction, strength)))
+    }
+
+    /// Where a ray in water leaves it.
+    fn leave(
+        &self,
+        field: &Field,
+        origin: Vec3,
+        direction: Vec3,
+        (end, leave, limit): (f32, f32, f32),
+    ) -> Option<Event> {
+        if let Some(distance) = field.march(origin, direction, (0.0, end), true) {
+            let normal = -field.normal(origin + direction * distance);
+            return Some(Event::Surface(distance, Face::free(normal, direction, 1.0)));
+        }
+        let is_wall = leave.is_finite() && leave < limit - 1e-5;
+        is_wall.then(|| Event::Surface(leave, Face::wall(-self.face(origin + direction * leave))))
+    }
+}

@@ -1,0 +1,122 @@
+//! Share of a neighbourhood that solids leave free. The density over it shows no gap where water meets a solid.
+
+use super::grid::Grid;
+use super::kernels::REACH;
+use crate::render::{shapes::Solid, sponge::Surface};
+use glam::Vec3;
+use std::ops::Range;
+
+/// A piece of the surface of a sponge.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surfel {
+    centre: Vec3,
+    normal: Vec3,
+}
+
+impl Surfel {
+    /// Its middle (m).
+    pub(super) fn place(&self) -> Vec3 {
+        self.centre
+    }
+}
+
+/// Share of a kernel in front of a plane, with the middle of the kernel at a distance in front of it, in radii: the integral of
+/// `(315/256) (1 - x^2)^4`.
+pub(super) fn share(distance: f32) -> f32 {
+    let x = distance.clamp(-1.0, 1.0);
+    let y = x * x;
+    0.5 + 1.230_468_8 * x * (1.0 + y * (-4.0 / 3.0 + y * (1.2 + y * (-4.0 / 7.0 + y / 9.0))))
+}
+
+/// Pieces of the surface of a sponge, at most about a spacing apart.
+pub(super) fn surfels(sponge: &Surface, spacing: f32) -> Vec<Surfel> {
+    let mut surfels = Vec::new();
+    for (_, corners) in &sponge.triangles {
+        let [a, b, c] = corners.map(|node| sponge.positions[node]);
+        let (e, f) = (b - a, c - a);
+        let cross = e.cross(f);
+        let normal = cross.normalize_or_zero();
+        let parts = ((cross.length() * 0.5).sqrt() / spacing).ceil().clamp(1.0, 4.0);
+        let count = parts as usize;
+        for i in 0..count {
+            for j in 0..count - i {
+                let [u, v] = [i, j].map(|place| (place as f32 + 0.33) / parts);
+                surfels.push(Surfel { centre: a + e * u + f * v, normal });
+                if i + j + 1 < count {
+                    let further = 0.33 / parts;
+                    surfels.push(Surfel { centre: a + e * (u + further) + f * (v + further), normal });
+                }
+            }
+        }
+    }
+    surfels
+}
+
+/// Distances of surfaces from the nodes of a slab.
+pub(super) struct Distances<'a> {
+    /// Signed distance to sponges of every node (m), infinite far from all; empty without any near the slab.
+    sponge: Vec<f32>,
+    bodies: Vec<&'a Solid<'a>>,
+    reach: f32,
+}
+
+impl<'a> Distances<'a> {
+    /// Distances for the nodes of some layers.
+    pub(super) fn new(
+        grid: &Grid,
+        layers: Range<usize>,
+        surfels: impl ExactSizeIterator<Item = Surfel>,
+        bodies: &'a [Solid<'a>],
+        spacing: f32,
+    ) -> Self {
+        let reach = REACH * spacing;
+        let low = grid.node(0, 0, layers.start) - reach;
+        let high = grid.node(grid.sides[0], grid.sides[1], layers.end) + reach;
+        let near = |solid: &&Solid<'_>| {
+            solid.is_plane()
+                || ((solid.position + solid.radius).cmpgt(low).all()
+                    && (solid.position - solid.radius).cmplt(high).all())
+        };
+        let bodies = bodies.iter().filter(near).collect();
+        let sponge = if surfels.len() == 0 { Vec::new() } else { nearest(grid, layers, surfels, reach) };
+        Self { sponge, bodies, reach }
+    }
+
+    /// Whether nothing is near the slab.
+    pub(super) fn are_free(&self) -> bool {
+        self.sponge.is_empty() && self.bodies.is_empty()
+    }
+
+    /// Free share around a node of the slab, 0 to 1.
+    pub(super) fn free(&self, node: usize, place: Vec3) -> f32 {
+        let mut free = self.sponge.get(node).map_or(1.0, |distance| share(*distance / self.reach));
+        for body in &self.bodies {
+            let distance = body.distance(place);
+            if distance < self.reach {
+                free *= share(distance / self.reach);
+            }
+        }
+        free
+    }
+}
+
+/// Mean distance from the planes of the surfels around.
+fn nearest(grid: &Grid, layers: Range<usize>, surfels: impl Iterator<Item = Surfel>, reach: f32) -> Vec<f32> {
+    let mut sums = vec![[0.0_f32; 2]; layers.len() * grid.layer()];
+    let scale = 1.0 / (reach * reach);
+    for Surfel { centre, normal } in surfels {
+        grid.rows(centre, Vec3::splat(reach), layers.clone(), |y, z, x0, x1| {
+            let place = grid.node(x0, y, z + layers.start) - centre;
+            let row = (z * grid.sides[1] + y) * grid.sides[0];
+            for (n, [sum, weights]) in sums[row + x0..row + x1].iter_mut().enumerate() {
+                let r = place + Vec3::X * (n as f32 * grid.cell.x);
+                let weight = (1.0 - r.length_squared() * scale).max(0.0);
+                let weight = weight * weight * weight * weight;
+                *sum += weight * r.dot(normal);
+                *weights += weight;
+            }
+        });
+    }
+    let mean = |[sum, weights]: [f32; 2]| if weights > 1e-4 { sum / weights } else { f32::INFINITY };
+    sums.into_iter().map(mean).collect()
+}

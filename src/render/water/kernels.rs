@@ -1,0 +1,147 @@
+//! An anisotropic kernel for every free particle \[YT13\]: flat along a surface, long in a jet, a ball where a drop is alone.
+
+use super::{cells::Cells, walls::Walls};
+use crate::render::{bands, colour::smooth};
+use glam::{Mat3, Vec3};
+
+/// Radius of the neighbourhood that shapes a kernel, in spacings.
+pub(super) const REACH: f32 = 3.0;
+/// Radius of a kernel in the bulk, in spacings: the radius of the ball of the same volume.
+const RADIUS: f32 = 3.0;
+/// Radius of the kernel of a particle that is alone, in spacings. Its drop then has a radius of 0.56 spacings.
+const ALONE: f32 = 1.05;
+/// Sum of the weights of a full neighbourhood, over `REACH` cubed.
+const FULL: f32 = 0.957;
+/// Added to the covariance, over its mean eigenvalue: bounds how flat a kernel gets, to about 7 to 1.
+const ROUNDING: f32 = 0.25;
+/// Share of the way from the particle to the mean of its neighbours.
+const SHIFT: f32 = 0.9;
+/// One over the integral of `(1 - q^2)^3` over the unit ball, times the volume of a particle.
+const NORM: f32 = 1.566_68;
+/// Particles of one task.
+const CHUNK: usize = 512;
+
+/// `mass (1 - r A r)^3` where `r A r` is below 1, with `r` from the centre.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kernel {
+    /// Middle (m).
+    pub(super) centre: Vec3,
+    /// The symmetric metric A (1/m^2): xx, xy, xz, yy, yz, zz.
+    pub(super) metric: [f32; 6],
+    /// Value in the middle \[1\]; the sum of a full neighbourhood is 1.
+    pub(super) mass: f32,
+    /// Half sides of the box around the kernel (m).
+    pub(super) extent: Vec3,
+    /// Share of a full neighbourhood, 0 (alone) to 1.
+    pub(super) company: f32,
+}
+
+/// Kernels of particles and of their mirror images, in the order of the particles. Particles inside of sponges have none.
+///
+/// `interior` has the share of each particle that a sponge holds, 0 to 1; empty for 0.
+pub(super) fn kernels(positions: &[Vec3], interior: &[f32], spacing: f32, walls: &Walls) -> Vec<Kernel> {
+    let images = walls.images(positions, REACH * spacing);
+    let mut points = positions.to_vec();
+    points.extend(images.iter().map(|image| image.position));
+    let cells = Cells::new(&points, 0.5 * REACH * spacing);
+    let own = bands::map(positions.len().div_ceil(CHUNK), |chunk| {
+        let rows = chunk * CHUNK..((chunk + 1) * CHUNK).min(positions.len());
+        rows.map(|row| {
+            // The water of sponges shows as their wetness.
+            let free = 1.0 - smooth(0.55, 0.85, interior.get(row).copied().unwrap_or(0.0));
+            (free > 0.0).then(|| kernel(row, &points, &cells, spacing, free))
+        })
+        .collect::<Vec<_>>()
+    });
+    let own: Vec<Option<Kernel>> = own.into_iter().flatten().collect();
+    let mirrored = images.iter().filter_map(|image| Some(image.mirror(&own[image.row]?)));
+    own.iter().flatten().copied().chain(mirrored).collect()
+}
+
+/// Weights of a neighbourhood.
+struct Neighbourhood {
+    total: f32,
+    mean: Vec3,
+    covariance: Mat3,
+}
+
+fn neighbourhood(row: usize, points: &[Vec3], cells: &Cells, reach: f32) -> Neighbourhood {
+    let (point, scale) = (points[row], 1.0 / (reach * reach));
+    let (mut total, mut mean) = (0.0_f32, Vec3::ZERO);
+    let [mut xx, mut xy, mut xz, mut yy, mut yz, mut zz] = [0.0_f32; 6];
+    cells.around(point, |rows| {
+        for other in rows {
+            let r = points[*other as usize] - point;
+            let share = 1.0 - r.length_squared() * scale;
+            if share > 0.0 {
+                let weight = share * share;
+                total += weight;
+                mean += r * weight;
+                let weighted = r * weight;
+                xx += weighted.x * r.x;
+                xy += weighted.x * r.y;
+                xz += weighted.x * r.z;
+                yy += weighted.y * r.y;
+                yz += weighted.y * r.z;
+                zz += weighted.z * r.z;
+            }
+        }
+    });
+    let inverse = 1.0 / total.max(1e-6);
+    let m = mean * inverse;
+    let [xx, xy, xz] = [xx * inverse - m.x * m.x, xy * inverse - m.x * m.y, xz * inverse - m.x * m.z];
+    let [yy, yz, zz] = [yy * inverse - m.y * m.y, yz * inverse - m.y * m.z, zz * inverse - m.z * m.z];
+    let covariance = Mat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
+    Neighbourhood { total, mean: m, covariance }
+}
+
+fn kernel(row: usize, points: &[Vec3], cells: &Cells, spacing: f32, free: f32) -> Kernel {
+    let reach = REACH * spacing;
+    let Neighbourhood { total, mean, covariance } = neighbourhood(row, points, cells, reach);
+    let full = FULL * REACH * REACH * REACH;
+    let company = smooth(0.0, 1.0, (total - 1.0) / (0.35 * (full - 1.0)));
+    if total > 0.88 * full && mean.length() < 0.012 * reach {
+        // Deep in the bulk only the sign matters: a narrow kernel that leaves no gaps.
+        return ball(points[row], 1.35 * spacing, 5.0 * free, company);
+    }
+    let radius = (ALONE + (RADIUS - ALONE) * company) * spacing;
+    let mass = free * NORM * (spacing / radius) * (spacing / radius) * (spacing / radius);
+    let centre = points[row] + mean * (SHIFT * company);
+    let trace = (covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z) / 3.0;
+    let floor = ROUNDING * trace + (1.0 - company) * spacing * spacing;
+    let bounded = covariance + Mat3::from_diagonal(Vec3::splat(floor));
+    // Yu and Turk take the covariance itself for the axes, so that its square takes the place of a squared length. Scaled to
+    // the volume of a ball: no eigenvalues are needed.
+    let square = bounded * bounded;
+    let volume = square.determinant();
+    if !(volume > 0.0 && volume.is_finite()) {
+        return ball(centre, radius, mass, company);
+    }
+    let shape = square * (radius * radius / libm::cbrtf(volume));
+    let a = shape.inverse();
+    Kernel {
+        centre,
+        metric: [a.x_axis.x, a.x_axis.y, a.x_axis.z, a.y_axis.y, a.y_axis.z, a.z_axis.z],
+        mass,
+        extent: Vec3::new(shape.x_axis.x.sqrt(), shape.y_axis.y.sqrt(), shape.z_axis.z.sqrt()),
+        company,
+    }
+}
+
+fn ball(centre: Vec3, radius: f32, mass: f32, company: f32) -> Kernel {
+    let a = 1.0 / (radius * radius);
+    Kernel { centre, metric: [a, 0.0, 0.0, a, 0.0, a], mass, extent: Vec3::splat(radius), company }
+}
+
+#[cfg(test)]
+impl Kernel {
+    /// The kernel itself at an offset from its centre, as the paper evaluates it.
+    pub(super) fn value(&self, r: Vec3) -> f32 {
+        let [xx, xy, xz, yy, yz, zz] = self.metric;
+        let square = r.x * (xx * r.x + 2.0 * (xy * r.y + xz * r.z))
+            + r.y * (yy * r.y + 2.0 * yz * r.z)
+            + zz * r.z * r.z;
+        let share = (1.0 - square).max(0.0);
+        self.mass * share * share * share
+    }
+}

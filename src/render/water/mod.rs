@@ -1,0 +1,88 @@
+//! The surface of the free water: kernels of the particles, their density on a grid, and what rays ask of it.
+//!
+//! Each file is one pass. Passes have no state, take slices and give columns.
+
+mod bricks;
+mod cells;
+mod closure;
+mod density;
+mod field;
+mod grid;
+mod kernels;
+#[cfg(test)]
+mod tests;
+mod walls;
+
+pub(super) use field::Field;
+
+use super::{shapes::Solid, sponge::Surface};
+use bricks::Bricks;
+use glam::Vec3;
+use grid::Grid;
+use kernels::Kernel;
+use walls::Walls;
+
+/// Farthest particles from the others in an open scene, in spacings.
+const LOST: f32 = 600.0;
+
+/// What the passes read.
+pub(super) struct Input<'a> {
+    /// Finite positions of the particles (m).
+    pub(super) positions: &'a [Vec3],
+    /// Share of each particle that a sponge holds, 0 to 1; empty for 0.
+    pub(super) interior: &'a [f32],
+    /// Distance of particles at rest (m).
+    pub(super) spacing: f32,
+    /// Lowest and highest corner of a container (m).
+    pub(super) container: Option<(Vec3, Vec3)>,
+    pub(super) sponge: &'a Surface,
+    pub(super) bodies: &'a [Solid<'a>],
+}
+
+/// A ball of water that is smaller than the distance of rays on the picture may be (m).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drop {
+    pub(super) centre: Vec3,
+    pub(super) radius: f32,
+}
+
+/// The field of the free water with the drops that are alone, or nothing without free water.
+pub(super) fn field(input: &Input<'_>) -> Option<(Field, Vec<Drop>)> {
+    let walls = Walls { container: input.container };
+    let rows = near(input);
+    let positions: Vec<Vec3> = rows.iter().map(|row| walls.inside(input.positions[*row])).collect();
+    let interior: Vec<f32> =
+        rows.iter().map(|row| input.interior.get(*row).copied().unwrap_or(0.0)).collect();
+    let kernels = kernels::kernels(&positions, &interior, input.spacing, &walls);
+    if kernels.is_empty() {
+        return None;
+    }
+    let grid = Grid::around(&kernels, input.spacing, &walls);
+    let surfels = closure::surfels(input.sponge, input.spacing);
+    let values = density::density(&grid, &kernels, &surfels, input.bodies, input.spacing);
+    let bricks = Bricks::new(&grid, &values);
+    let alone = |kernel: &&Kernel| kernel.company < 0.5;
+    let drops = kernels
+        .iter()
+        .filter(alone)
+        .map(|kernel| Drop { centre: kernel.centre, radius: 0.6 * kernel.extent.max_element() });
+    let drops = drops.collect();
+    Some((Field { grid, values, bricks, spacing: input.spacing }, drops))
+}
+
+/// Rows of the particles that are not lost: in an open scene, those near to most of the others.
+fn near(input: &Input<'_>) -> Vec<usize> {
+    let positions = input.positions;
+    let all = 0..positions.len();
+    if input.container.is_some() || positions.is_empty() {
+        return all.collect();
+    }
+    let mut middle = Vec3::ZERO;
+    for axis in 0..3 {
+        let mut places: Vec<f32> = positions.iter().map(|position| position[axis]).collect();
+        let half = places.len() / 2;
+        middle[axis] = *places.select_nth_unstable_by(half, f32::total_cmp).1;
+    }
+    let reach = LOST * input.spacing;
+    all.filter(|row| (positions[*row] - middle).abs().max_element() < reach).collect()
+}
