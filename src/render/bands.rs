@@ -1,8 +1,5 @@
 //! Work on independent bands of rows, on all threads or one. The result of a band does not depend on the number of threads.
 
-/// Rows of samples in a band; fixed, so that the division does not depend on the number of threads.
-pub(super) const BAND: usize = 32;
-
 /// Runs `work` on every job.
 pub(super) fn each<J: Send>(jobs: Vec<J>, work: impl Fn(J) + Sync + Send) {
     #[cfg(feature = "threads")]

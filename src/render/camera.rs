@@ -28,7 +28,7 @@ impl Camera {
         let towards_eye = Vec3::new(0.52, 0.50, 1.0).normalize();
         let right = Vec3::Y.cross(towards_eye).normalize();
         let up = towards_eye.cross(right);
-        let vertical = (field_of_view * 0.5).tan() * 0.92;
+        let vertical = libm::tanf(field_of_view * 0.5) * 0.92;
         let horizontal = vertical * 4.0 / 3.0;
         let corner = |i: usize| {
             let sign = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
@@ -81,7 +81,7 @@ impl Raster {
             .filter(|right| right.is_finite())
             .unwrap_or_else(|| forward.any_orthonormal_vector());
         let angle = if camera.field_of_view.is_finite() { camera.field_of_view } else { 0.56 };
-        let slope = (angle.clamp(1e-3, 3.1) * 0.5).tan();
+        let slope = libm::tanf(angle.clamp(1e-3, 3.1) * 0.5);
         let distance = if sight.is_finite() { sight.length().max(1e-6) } else { 1.0 };
         Self {
             eye,
@@ -114,12 +114,5 @@ impl Raster {
             (x + 0.5 - 0.5 * self.width as f32) * self.inverse_focal,
             (0.5 * self.height as f32 - y - 0.5) * self.inverse_focal,
         )
-    }
-
-    /// Ray through the centre of a sample, with a component of 1 along `forward`: depth times this is the offset from the
-    /// eye.
-    pub(super) fn ray(&self, x: usize, y: usize) -> Vec3 {
-        let (right, up) = self.slopes(x as f32, y as f32);
-        self.forward + self.right * right + self.up * up
     }
 }

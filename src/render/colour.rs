@@ -1,39 +1,7 @@
-//! Colours are linear light in `Vec3` (red, green, blue) until they are encoded as bytes.
+//! Colours are linear light in `Vec3` (red, green, blue) until they are displayed.
 
 use glam::Vec3;
 use std::sync::LazyLock;
-
-/// Steps of the table from linear light to sRGB; fine enough for the darkest bytes.
-const STEPS: usize = 8192;
-
-/// Table from linear light to bytes.
-pub(super) struct Encoder {
-    table: Vec<u8>,
-}
-
-impl Encoder {
-    pub(super) fn new() -> Self {
-        let table = (0..=STEPS)
-            .map(|step| {
-                let x = step as f32 / STEPS as f32;
-                let value = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-                byte(value * 255.0 + 0.5)
-            })
-            .collect();
-        Self { table }
-    }
-
-    /// Bytes of a colour; channels are cut to 0..=1.
-    pub(super) fn encode(&self, colour: Vec3) -> [u8; 3] {
-        let scaled = colour.clamp(Vec3::ZERO, Vec3::ONE) * STEPS as f32 + 0.5;
-        scaled.to_array().map(|channel| self.table[index(channel).min(STEPS)])
-    }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "`as` saturates, which is what a channel should do")]
-fn byte(value: f32) -> u8 {
-    value as u8
-}
 
 /// Whole part of a number that is not negative; anything else becomes 0.
 #[expect(
@@ -42,29 +10,6 @@ fn byte(value: f32) -> u8 {
 )]
 pub(super) fn index(value: f32) -> usize {
     value as usize
-}
-
-/// Largest whole number not above `value`, clamped to the range of `i32`.
-#[expect(clippy::cast_possible_truncation, reason = "`as` saturates; callers clip to the picture")]
-pub(super) fn floor(value: f32) -> i32 {
-    value.floor() as i32
-}
-
-/// Compresses highlights so that they keep their colour; identity in the dark, 1 at about 2.5.
-pub(super) fn tone(colour: Vec3) -> Vec3 {
-    const WHITE: f32 = 2.5;
-    const KNEE: f32 = 0.6;
-    let peak = colour.max_element();
-    if peak <= KNEE || peak.is_nan() {
-        return colour;
-    }
-    let x = ((peak - KNEE) / (WHITE - KNEE)).min(1.0);
-    // Slope (WHITE - KNEE) / (1 - KNEE) at the knee keeps the curve smooth there.
-    let slope = (WHITE - KNEE) / (1.0 - KNEE);
-    let mapped = KNEE + (1.0 - KNEE) * (slope * x / (1.0 + (slope - 1.0) * x));
-    let scaled = colour * (mapped / peak);
-    // Very bright light turns white, as on film.
-    scaled.lerp(Vec3::splat(mapped), 0.35 * x)
 }
 
 /// Smooth step from 0 at `low` to 1 at `high`.
@@ -107,4 +52,33 @@ pub(super) fn displayed(light: Vec3) -> Vec3 {
         curve[index(root * (TONES - 1) as f32 + 0.5).min(TONES - 1)]
     };
     Vec3::from(light.to_array().map(channel))
+}
+
+/// Colours of a map at 0, 1/8, ... 1, as displayed: viridis, which grows lighter evenly.
+const MAP: [[f32; 3]; 9] = [
+    [0.267, 0.005, 0.329],
+    [0.279, 0.175, 0.483],
+    [0.230, 0.322, 0.546],
+    [0.173, 0.449, 0.558],
+    [0.128, 0.567, 0.551],
+    [0.158, 0.684, 0.502],
+    [0.369, 0.789, 0.383],
+    [0.678, 0.864, 0.190],
+    [0.993, 0.906, 0.144],
+];
+
+/// Colour of a map at a place from 0 to 1, as displayed; places outside are at its ends.
+pub(super) fn map_as_displayed(place: f32) -> Vec3 {
+    let at = if place.is_finite() { place.clamp(0.0, 1.0) } else { 0.0 } * (MAP.len() - 1) as f32;
+    let first = index(at).min(MAP.len() - 2);
+    Vec3::from(MAP[first]).lerp(Vec3::from(MAP[first + 1]), at - first as f32)
+}
+
+/// Colour of a map in linear light.
+pub(super) fn colour_map(place: f32) -> Vec3 {
+    map_as_displayed(place).map(
+        |v| {
+            if v <= 0.04045 { v / 12.92 } else { libm::powf((v + 0.055) / 1.055, 2.4) }
+        },
+    )
 }

@@ -3,28 +3,18 @@
 //! [`draw`] turns a [`Picture`] (borrowed positions, triangles and bodies) and a [`Camera`] into an [`Image`].
 //! An [`Animation`] appends images to one animated PNG file. The pixels are the same for every number of threads.
 
-#![expect(
-    clippy::disallowed_methods,
-    reason = "pictures do not feed the simulation: the platform's sine will do"
-)]
-
 mod animation;
 mod bands;
 mod camera;
 mod colour;
-mod compose;
 mod error;
 mod image;
-mod layer;
-mod light;
-mod pores;
+mod legend;
 mod rays;
-mod shade;
+mod section;
 mod shapes;
 mod sponge;
 mod stage;
-mod surface;
-mod visibility;
 mod water;
 mod world;
 
@@ -37,16 +27,53 @@ pub use world::draw_world;
 use crate::rigid::{BodyState, Shape};
 use glam::Vec3;
 
-/// How the water is drawn.
+/// What a picture shows. Figure 1 of the paper ([docs/references.md](https://docs.rs/sorb)) has the views a to d.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Style {
-    /// Every particle is a shaded droplet of its own (the default).
+pub enum View {
+    /// Rays from the eye: refraction, reflection, absorption and soft shadows (the default; the paper's figure 1 d).
     #[default]
-    Spheres,
-    /// The particles' depth is smoothed into one transparent surface.
-    Surface,
-    /// Rays from the eye: refraction, reflection, absorption and soft shadows.
     Realistic,
+    /// Water by the depth of its particles, which bends a ray once: the quickest view of surfaces.
+    Fast,
+    /// Particles of the water (figure 1 c).
+    Particles,
+    /// Nodes of the sponges (figure 1 a).
+    Nodes,
+    /// Surfaces of water and sponges that let light through (figure 1 b).
+    Superimposed,
+    /// Saturation of the sponges as a colour map, without water.
+    Saturation,
+    /// Pressure of the particles as a colour map.
+    Pressure,
+    /// Speed of the particles as a colour map.
+    Speed,
+    /// A section through the sponges, with the water in them.
+    Cutaway,
+}
+
+impl View {
+    /// All views, the default first.
+    pub const ALL: [Self; 9] = [
+        Self::Realistic,
+        Self::Fast,
+        Self::Particles,
+        Self::Nodes,
+        Self::Superimposed,
+        Self::Saturation,
+        Self::Pressure,
+        Self::Speed,
+        Self::Cutaway,
+    ];
+
+    /// Title of the legend with the unit, for a view that is a colour map.
+    fn map(self) -> Option<&'static str> {
+        match self {
+            Self::Saturation => Some("saturation (1)"),
+            Self::Pressure => Some("pressure (Pa)"),
+            Self::Speed => Some("speed (m/s)"),
+            _ => None,
+        }
+    }
 }
 
 /// How a body is drawn.
@@ -83,6 +110,12 @@ pub struct Picture<'a> {
     pub particles: &'a [[f32; 4]],
     /// Velocities of the particles (m/s), w is ignored: as long as `particles`, or empty. Fast water is drawn paler.
     pub velocities: &'a [[f32; 4]],
+    /// Pressures of the particles (Pa), for that view: as long as `particles`, or empty.
+    pub pressures: &'a [f32],
+    /// Lowest and highest value of a colour map, in its unit; default 0 to 1.
+    pub range: (f32, f32),
+    /// A point (m) and the normal of the plane of a section, for that view; the side that the normal points to is left out.
+    pub section: Option<(Vec3, Vec3)>,
     /// Share of each particle that a sponge holds, 0 to 1: as long as `particles`, or empty for 0. The realistic view draws the water
     /// of sponges as their wetness.
     pub interior: &'a [f32],
@@ -104,8 +137,8 @@ pub struct Picture<'a> {
     pub absorption: Vec3,
     /// Linear red, green and blue of deep water, 0 to 1; default (0.03, 0.17, 0.22).
     pub scatter: Vec3,
-    /// How the water is drawn.
-    pub style: Style,
+    /// What is shown.
+    pub view: View,
 }
 
 impl Default for Picture<'_> {
@@ -113,6 +146,9 @@ impl Default for Picture<'_> {
         Self {
             particles: &[],
             velocities: &[],
+            pressures: &[],
+            range: (0.0, 1.0),
+            section: None,
             interior: &[],
             particle_radius: 0.0,
             nodes: &[],
@@ -123,7 +159,7 @@ impl Default for Picture<'_> {
             container: None,
             absorption: Vec3::new(8.0, 2.0, 1.1),
             scatter: Vec3::new(0.03, 0.17, 0.22),
-            style: Style::default(),
+            view: View::default(),
         }
     }
 }
@@ -137,8 +173,9 @@ pub fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> 
     if width == 0 || height == 0 {
         return Image { width, height, pixels: Vec::new() };
     }
-    match picture.style {
-        Style::Realistic => rays::draw(picture, camera, width, height),
-        Style::Spheres | Style::Surface => compose::draw(picture, camera, width, height),
+    let mut image = rays::draw(picture, camera, width, height);
+    if let Some(title) = picture.view.map() {
+        legend::draw(&mut image, title, picture.range);
     }
+    image
 }

@@ -158,16 +158,6 @@ impl<'a> Solid<'a> {
         let [a, b, c] = inside;
         a.max(b).min(a.max(c)).min(b.max(c))
     }
-
-    /// Lightness factor of the painted marks that make rotation visible.
-    pub(super) fn mark(&self, point: Vec3) -> f32 {
-        let p = self.local(point);
-        match self.shape {
-            Shape::Sphere { radius } if p.y.abs() < 0.16 * radius => 1.9,
-            Shape::Capsule { radius, .. } if p.x.abs() < 0.22 * radius => 1.7,
-            _ => 1.0,
-        }
-    }
 }
 
 fn plane(o: Vec3, d: Vec3) -> Option<Span> {

@@ -15,8 +15,6 @@ pub(super) struct Surface {
     pub(super) normals: Vec<Vec3>,
     /// Wetness of each node, 0..=1.
     pub(super) wetness: Vec<f32>,
-    /// Pores along a triangle's side.
-    pub(super) pores: f32,
 }
 
 impl Surface {
@@ -43,9 +41,7 @@ impl Surface {
             .map(|i| picture.wetness.get(i).copied().unwrap_or(0.0))
             .map(|w| if w.is_finite() { w.clamp(0.0, 1.0) } else { 0.0 })
             .collect();
-        // From the count alone, so that the pores keep their place while the sponge deforms.
-        let pores = (9000.0 / triangles.len().max(1) as f32).sqrt().round().clamp(1.0, 12.0);
-        Self { triangles, positions, rest, normals, wetness, pores }
+        Self { triangles, positions, rest, normals, wetness }
     }
 }
 

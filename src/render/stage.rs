@@ -1,20 +1,10 @@
-//! A picture prepared for drawing: finite values only, the middle and the size of the scene.
+//! A picture prepared for drawing: finite values only, and the size of the scene.
 
 use super::camera::{Camera, Raster};
 use super::shapes::Solid;
 use super::sponge::Surface;
 use super::{DrawnBody, Picture};
 use glam::Vec3;
-
-/// The floor of the container.
-#[derive(Debug)]
-pub(super) struct Floor {
-    pub(super) height: f32,
-    pub(super) low: Vec3,
-    pub(super) high: Vec3,
-    /// Side of a square of the grid in m: 1, 2 or 5 times a power of ten.
-    pub(super) pitch: f32,
-}
 
 /// A picture prepared for drawing.
 pub(super) struct Stage<'a> {
@@ -25,15 +15,11 @@ pub(super) struct Stage<'a> {
     pub(super) radius: f32,
     pub(super) solids: Vec<Solid<'a>>,
     pub(super) sponge: Surface,
-    pub(super) floor: Option<Floor>,
     /// Lowest and highest corner of a container (m).
     pub(super) container: Option<(Vec3, Vec3)>,
-    /// Lowest and highest corner of the box around the drawn items (m).
+    /// Lowest and highest corner of the box that the scene is in (m): the container, so that nothing jumps when something flies
+    /// out of it.
     pub(super) around: (Vec3, Vec3),
-    /// Middle of the box around the drawn items, stabilised by the container: it must not jump between frames.
-    pub(super) centre: Vec3,
-    /// Diagonal of the box in m.
-    pub(super) size: f32,
     /// Speed of the palest water, m/s.
     pub(super) fast: f32,
 }
@@ -56,36 +42,17 @@ impl<'a> Stage<'a> {
             let side = *b - *a;
             side.is_finite() && side.min_element() > 1e-6
         });
-        let (low, high) = extent(&particles, radius, &solids, &sponge, container);
+        let around = container.unwrap_or_else(|| extent(&particles, radius, &solids, &sponge));
         let height_scale = container.map_or(40.0 * radius, |(a, b)| b.y - a.y).max(1e-6);
-        let floor = container.map(|(low, high)| {
-            let side = (high - low).max_element().max(1e-6);
-            Floor { height: low.y, low, high, pitch: round_pitch(side / 10.0) }
-        });
         let raster = Raster::new(camera, width, height);
-        let (centre, size) = ((low + high) * 0.5, (high - low).length());
         let fast = 0.75 * (2.0 * 9.81 * height_scale).sqrt();
-        let around = (low, high);
-        Self {
-            picture,
-            raster,
-            particles,
-            radius,
-            solids,
-            sponge,
-            floor,
-            container,
-            around,
-            centre,
-            size,
-            fast,
-        }
+        Self { picture, raster, particles, radius, solids, sponge, container, around, fast }
     }
 
     /// Height of the floor (m), with the plane that it is if a body is: the floor of the container, or the highest level plane.
     pub(super) fn ground(&self) -> Option<(f32, Option<usize>)> {
-        if let Some(floor) = &self.floor {
-            return Some((floor.height, None));
+        if let Some((low, _)) = self.container {
+            return Some((low.y, None));
         }
         let level = |index: &usize| {
             let solid = &self.solids[*index];
@@ -96,15 +63,9 @@ impl<'a> Stage<'a> {
         highest.map(|index| (height(index), Some(index)))
     }
 
-    /// Lowest and highest corner of the box that the scene is in (m): the container, so that nothing jumps when something flies
-    /// out of it.
-    pub(super) fn frame(&self) -> (Vec3, Vec3) {
-        self.container.unwrap_or(self.around)
-    }
-
     /// Side of a tile of the floor (m).
     pub(super) fn pitch(&self) -> f32 {
-        let (low, high) = self.frame();
+        let (low, high) = self.around;
         round_pitch((high - low).max_element().max(1e-6) / 14.0)
     }
 
@@ -113,34 +74,22 @@ impl<'a> Stage<'a> {
         self.picture.interior.get(particle).copied().unwrap_or(0.0)
     }
 
-    /// Distance from the scene's centre where the ground begins to fade into the sky.
-    pub(super) fn fade_start(&self) -> f32 {
-        0.6 * self.size
-    }
-
-    /// Distance from the scene's centre where it has faded completely.
-    pub(super) fn fade_end(&self) -> f32 {
-        2.6 * self.size
+    /// Speed of a particle (m/s).
+    pub(super) fn velocity(&self, particle: usize) -> f32 {
+        let velocity = self.picture.velocities.get(particle);
+        velocity.map_or(0.0, |&[x, y, z, _]| Vec3::new(x, y, z).length())
     }
 
     /// Speed of a particle, 0 (still) to 1 (as fast as a fall through the scene).
     pub(super) fn speed(&self, particle: usize) -> f32 {
-        let Some(&[x, y, z, _]) = self.picture.velocities.get(particle) else {
-            return 0.0;
-        };
-        let speed = Vec3::new(x, y, z).length() / self.fast;
+        let speed = self.velocity(particle) / self.fast;
         if speed.is_finite() { speed.min(1.0) } else { 0.0 }
     }
 }
 
-/// Box around everything that can be drawn, except planes; not empty.
-fn extent(
-    particles: &[(usize, Vec3)],
-    radius: f32,
-    solids: &[Solid<'_>],
-    sponge: &Surface,
-    container: Option<(Vec3, Vec3)>,
-) -> (Vec3, Vec3) {
+/// Box around everything that can be drawn in an open scene, except planes; not empty. Its corners are at multiples of a power
+/// of two, so that it seldom changes from picture to picture.
+fn extent(particles: &[(usize, Vec3)], radius: f32, solids: &[Solid<'_>], sponge: &Surface) -> (Vec3, Vec3) {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let mut grow = |p: Vec3, r: f32| {
         low = low.min(p - r);
@@ -157,19 +106,17 @@ fn extent(
             grow(sponge.positions[i], 0.0);
         }
     }
-    let Some((a, b)) = container else {
-        let usable = low.is_finite() && high.is_finite();
-        return if usable { (low, high.max(low + 1e-6)) } else { (Vec3::splat(-0.5), Vec3::splat(0.5)) };
-    };
-    // Stray particles do not stretch the box beyond one container on each side, and it grows in steps of a quarter.
-    let side = (b - a).max(Vec3::splat(1e-6));
-    let steps = |distance: Vec3| ((distance / side * 4.0).ceil() * 0.25).clamp(Vec3::ZERO, Vec3::ONE) * side;
-    (a - steps(a - low.min(a)), a + side + steps(high.max(b) - b))
+    let size = (high - low).max_element();
+    if !(size > 0.0 && size.is_finite()) {
+        return (Vec3::splat(-0.5), Vec3::splat(0.5));
+    }
+    let step = 0.25 * libm::exp2f(libm::log2f(size).ceil());
+    ((low / step).floor() * step, (high / step).ceil() * step)
 }
 
 /// 1, 2 or 5 times a power of ten, at most slightly above `length`.
 fn round_pitch(length: f32) -> f32 {
-    let power = 10.0_f32.powf(length.log10().floor());
+    let power = libm::powf(10.0, libm::log10f(length).floor());
     let lead = length / power;
     power
         * if lead < 1.5 {

@@ -1,6 +1,6 @@
 //! Pictures of a world.
 
-use super::{Camera, DrawnBody, Image, Look, Picture, Style, draw};
+use super::{Camera, DrawnBody, Image, Look, Picture, View, draw, section};
 use crate::rigid::BodyKind;
 use crate::scene::{self, Domain};
 use crate::{World, glam::Vec3};
@@ -10,7 +10,7 @@ use crate::{World, glam::Vec3};
 /// Bodies of prescribed motion are translucent, so that a plate does not hide what it squeezes. Take
 /// `world.scene().viewpoint().into()` for the scene's own camera.
 #[must_use]
-pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, height: u32) -> Image {
+pub fn draw_world(world: &World, camera: &Camera, view: View, width: u32, height: u32) -> Image {
     let bodies: Vec<DrawnBody<'_>> = world
         .bodies()
         .iter()
@@ -22,6 +22,9 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
         })
         .collect();
     let wetness = wetness(world);
+    let pressures = if view == View::Pressure { world.particle_pressures() } else { Vec::new() };
+    let section = (view == View::Cutaway).then(|| section::plane(world, camera.eye));
+    let halves = section.map(|plane| section::behind(world, plane));
     let picture = Picture {
         particles: world.particle_positions(),
         velocities: world.particle_velocities(),
@@ -30,16 +33,47 @@ pub fn draw_world(world: &World, camera: &Camera, style: Style, width: u32, heig
         nodes: world.node_positions(),
         wetness: &wetness,
         rest: &world.lattice().position,
-        triangles: &world.lattice().triangles,
+        triangles: halves.as_ref().unwrap_or(&world.lattice().triangles),
         bodies: &bodies,
         container: match world.scene().domain {
             Domain::Box { minimum, maximum, .. } => Some((minimum, maximum)),
             Domain::Open => None,
         },
-        style,
+        pressures: &pressures,
+        range: range(world, view),
+        section,
+        view,
         ..Picture::default()
     };
     draw(&picture, camera, width, height)
+}
+
+/// Range of a colour map: the same for all pictures of a scene.
+fn range(world: &World, view: View) -> (f32, f32) {
+    let scene = world.scene();
+    let (low, high) = scene.bounds();
+    let gravity = scene.gravity.length();
+    let height = high.y - low.y;
+    let density = scene.fluid.as_ref().map_or(1000.0, |fluid| fluid.rest_density);
+    match view {
+        // That of water that stands a fifth as high as the scene, and of a fall through a quarter of it.
+        View::Pressure => (0.0, round(0.2 * density * gravity * height)),
+        View::Speed => (0.0, round((0.5 * gravity * height).sqrt())),
+        _ => (0.0, 1.0),
+    }
+}
+
+/// The nearest of 1, 2 and 5 times a power of ten above a value.
+fn round(value: f32) -> f32 {
+    if !(value > 0.0 && value.is_finite()) {
+        return 1.0;
+    }
+    let power = libm::powf(10.0, libm::log10f(value).floor());
+    [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|lead| lead * power)
+        .find(|round| *round >= 0.999 * value)
+        .unwrap_or(value)
 }
 
 /// Drawn wetness of each node; before the first step that of the scene.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use sorb::{
-    render::Style,
+    render::View,
     scene::{Scene, SceneError, Time},
 };
 
@@ -45,15 +45,27 @@ pub(crate) struct Arguments {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size(pub(crate) u32, pub(crate) u32);
 
-/// Name of a style of the water.
+/// Name of a view.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub(crate) enum StyleName {
-    /// Every particle is a droplet
-    Spheres,
-    /// The water is one transparent surface
-    Surface,
-    /// Rays from the eye
+pub(crate) enum ViewName {
+    /// Rays from the eye: refraction, reflection, absorption and soft shadows
     Realistic,
+    /// Surfaces by the depth of the particles, which takes a quarter of the time
+    Fast,
+    /// Particles of the water
+    Particles,
+    /// Nodes of the sponges
+    Nodes,
+    /// Surfaces of water and sponges that let light through
+    Superimposed,
+    /// Saturation of the sponges, as a colour map
+    Saturation,
+    /// Pressure of the particles, as a colour map
+    Pressure,
+    /// Speed of the particles, as a colour map
+    Speed,
+    /// A section through the sponges, with the water in them
+    Cutaway,
 }
 
 /// Length of a run.
@@ -77,11 +89,11 @@ pub(crate) struct Drawing {
     #[arg(long, value_name = "RATE", default_value_t = 30.0, value_parser = picture_rate)]
     pub(crate) picture_rate: f32,
     /// Size of the pictures in pixels, each side 16 to 8192
-    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size)]
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub(crate) size: Size,
-    /// Style of the water
-    #[arg(long, value_name = "STYLE", default_value = "spheres")]
-    pub(crate) style: StyleName,
+    /// What the pictures show
+    #[arg(long, value_name = "VIEW", default_value = "realistic")]
+    pub(crate) view: ViewName,
 }
 
 impl Length {
@@ -114,12 +126,18 @@ impl Arguments {
     }
 }
 
-impl From<StyleName> for Style {
-    fn from(name: StyleName) -> Self {
+impl From<ViewName> for View {
+    fn from(name: ViewName) -> Self {
         match name {
-            StyleName::Spheres => Self::Spheres,
-            StyleName::Surface => Self::Surface,
-            StyleName::Realistic => Self::Realistic,
+            ViewName::Realistic => Self::Realistic,
+            ViewName::Fast => Self::Fast,
+            ViewName::Particles => Self::Particles,
+            ViewName::Nodes => Self::Nodes,
+            ViewName::Superimposed => Self::Superimposed,
+            ViewName::Saturation => Self::Saturation,
+            ViewName::Pressure => Self::Pressure,
+            ViewName::Speed => Self::Speed,
+            ViewName::Cutaway => Self::Cutaway,
         }
     }
 }
@@ -147,7 +165,7 @@ fn size(text: &str) -> Result<Size, String> {
     let side = |text: &str| text.parse().ok().filter(|side| (16..=8192).contains(side));
     text.split_once('x')
         .and_then(|(width, height)| Some(Size(side(width)?, side(height)?)))
-        .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x360, each 16 to 8192".to_owned())
+        .ok_or_else(|| "expected WIDTHxHEIGHT such as 1280x720, each 16 to 8192".to_owned())
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::{fs, ops::RangeInclusive, path::PathBuf};
 
 use sorb::{
     World,
-    render::{self, Animation, Camera, Style},
+    render::{self, Animation, Camera, View},
     scene::Scene,
 };
 
@@ -17,7 +17,7 @@ pub(crate) struct Pictures {
     frames: PathBuf,
     animation: Animation,
     camera: Camera,
-    style: Style,
+    view: View,
     size: (u32, u32),
     /// Simulated frames from one picture to the next.
     every: usize,
@@ -51,7 +51,7 @@ impl Pictures {
             frames: folder.frames(),
             animation,
             camera: scene.viewpoint().into(),
-            style: drawing.style.into(),
+            view: drawing.view.into(),
             size: (width, height),
             every: every as usize,
         })
@@ -65,7 +65,7 @@ impl Pictures {
         if !frame.is_multiple_of(self.every) {
             return Ok(());
         }
-        let image = render::draw_world(world, &self.camera, self.style, self.size.0, self.size.1);
+        let image = render::draw_world(world, &self.camera, self.view, self.size.0, self.size.1);
         image.write_png(self.frames.join(format!("{:05}.png", frame / self.every)))?;
         self.animation.append(&image)?;
         Ok(())

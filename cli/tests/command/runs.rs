@@ -167,7 +167,7 @@ fn pictures_exist_and_the_animation_decodes() {
         assert_eq!(decoded(&scratch.path(&format!("out/frames/{picture}.png"))), ((64, 48), 1));
     }
     // A shorter run does not keep pictures of the longer one.
-    let answer = run(&scratch, "ball_drop", &[&small[..], &["2", "--style", "surface"]].concat());
+    let answer = run(&scratch, "ball_drop", &[&small[..], &["2", "--view", "fast"]].concat());
     assert_eq!(answer.code, Some(0), "{answer:?}");
     let pictures = std::fs::read_dir(scratch.path("out/frames")).expect("the folder is there");
     assert_eq!(pictures.count(), 2);

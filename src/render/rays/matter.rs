@@ -4,9 +4,10 @@ use super::foam::foam;
 use super::optics::{reflect, schlick};
 use super::path::Signature;
 use super::room::{self, FAR, KEY, hemisphere, key_direction};
-use super::setting::{Matter, Setting};
-use super::skin::skin;
-use crate::render::colour::{smooth, unit};
+use super::setting::{Coat, Matter, Setting};
+use super::skin::{facet, skin};
+use super::tree::Hit;
+use crate::render::colour::{colour_map, smooth, unit};
 use glam::Vec3;
 
 const FLOOR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
@@ -34,21 +35,21 @@ impl Setting<'_> {
             }
             Matter::Sponge(hit) => {
                 signature.meet(6);
-                let width = arrival.way * self.pixel;
-                let film = f32::from(u8::from(arrival.film));
-                let skin = skin(&self.stage.sponge, foam(), hit, arrival.direction, width, film);
-                let (lit, wet) = self.ground.shadow(arrival.point);
-                // The material scatters, so that light reaches around it.
-                let wrap = ((skin.normal.dot(key_direction()) + 0.25) / 1.25).max(0.0);
-                let reach = 0.1 * self.size;
-                let near_floor = 0.65 + 0.35 * smooth(0.0, reach, arrival.point.y - self.ground.height);
-                let key = KEY * (wrap * lit * (0.35 + 0.65 * skin.open)) * self.medium.left(wet);
-                let around = hemisphere(skin.normal) * ((0.12 + 0.88 * skin.open) * near_floor);
-                let half = (key_direction() - arrival.direction).normalize_or_zero();
-                // A film in the open cells glints a little; it is too rough to mirror.
-                let glint = 0.24 * lit * smooth(0.4, 0.9, skin.wet) * skin.open;
-                let glint = glint * skin.normal.dot(half).max(0.0).powi(28);
-                skin.albedo * (key + around * self.medium.left(0.8 * wet)) + KEY * glint
+                match self.coat {
+                    Coat::Skin => self.sponge(hit, arrival),
+                    Coat::Map => {
+                        let (wetness, normal) = facet(&self.stage.sponge, hit);
+                        self.matt(colour_map(wetness), normal, arrival)
+                    }
+                }
+            }
+            Matter::Bead(hit) => {
+                signature.meet(8);
+                signature.tile(hit.index.wrapping_mul(0x9E37_79B1));
+                let colour = self.beads.as_ref().map_or(Vec3::ONE, |beads| beads.colours[hit.index as usize]);
+                let gloss = schlick(0.03, -arrival.direction.dot(hit.place)) * 0.4;
+                let mirrored = room::light(reflect(arrival.direction, hit.place));
+                self.matt(colour, hit.place, arrival) * (1.0 - gloss) + mirrored * gloss
             }
             Matter::Body(index, normal) => {
                 signature.meet(7 + *index as u32);
@@ -57,12 +58,35 @@ impl Setting<'_> {
         }
     }
 
+    fn sponge(&self, hit: &Hit<[f32; 2]>, arrival: &Arrival) -> Vec3 {
+        let width = arrival.way * self.pixel;
+        let film = f32::from(u8::from(arrival.film));
+        let skin = skin(&self.stage.sponge, foam(), hit, arrival.direction, width, film);
+        let (lit, wet) = self.ground.shadow(arrival.point);
+        // The material scatters, so that light reaches around it.
+        let wrap = ((skin.normal.dot(key_direction()) + 0.25) / 1.25).max(0.0);
+        let reach = 0.1 * self.size;
+        let near_floor = 0.65 + 0.35 * smooth(0.0, reach, arrival.point.y - self.ground.height);
+        let key = KEY * (wrap * lit * (0.35 + 0.65 * skin.open)) * self.medium.left(wet);
+        let around = hemisphere(skin.normal) * ((0.12 + 0.88 * skin.open) * near_floor);
+        let half = (key_direction() - arrival.direction).normalize_or_zero();
+        // A film in the open cells glints a little; it is too rough to mirror.
+        let glint = 0.24 * lit * smooth(0.4, 0.9, skin.wet) * skin.open;
+        let glint = glint * skin.normal.dot(half).max(0.0).powi(28);
+        skin.albedo * (key + around * self.medium.left(0.8 * wet)) + KEY * glint
+    }
+
+    /// A matt colour in the light that arrives.
+    fn matt(&self, colour: Vec3, normal: Vec3, arrival: &Arrival) -> Vec3 {
+        let (lit, wet) = self.ground.shadow(arrival.point);
+        let key = KEY * (normal.dot(key_direction()).max(0.0) * lit) * self.medium.left(wet);
+        colour * (key + hemisphere(normal) * self.medium.left(0.8 * wet))
+    }
+
     /// Paint with a clear coat.
     fn painted(&self, index: usize, normal: Vec3, arrival: &Arrival) -> Vec3 {
         let body = self.body(index);
-        let (lit, wet) = self.ground.shadow(arrival.point);
-        let key = KEY * (normal.dot(key_direction()).max(0.0) * lit) * self.medium.left(wet);
-        let diffuse = body.colour() * (key + hemisphere(normal) * self.medium.left(0.8 * wet));
+        let diffuse = self.matt(body.colour(), normal, arrival);
         if body.is_plane() {
             return diffuse;
         }

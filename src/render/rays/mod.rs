@@ -3,6 +3,7 @@
 //! One file is one pass or one thing that rays meet: maps of light on the floor (`photons`, `ground`), the next event of a ray
 //! (`setting`, `tree`), what solids look like (`matter`, `skin`, `foam`), paths (`path`, `optics`, `room`) and pixels.
 
+mod beads;
 mod foam;
 mod ground;
 mod matter;
@@ -11,57 +12,53 @@ mod path;
 mod photons;
 mod pixels;
 mod room;
+mod screen;
 mod setting;
+mod shells;
 mod skin;
 mod tree;
 
 use super::camera::Raster;
 use super::colour::displayed;
 use super::stage::Stage;
-use super::water::{self, Drop};
-use super::{Camera, Image, Picture};
+use super::water::{self, Drop, Field};
+use super::{Camera, Image, Picture, View};
 use glam::Vec3;
 use ground::Ground;
 use optics::Medium;
 use pixels::STRIDE;
-use setting::Setting;
-use tree::Tree;
+use screen::Screen;
+use setting::{Coat, Setting};
+use tree::{Ball, Tree};
 
 /// Draws the picture.
 pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> Image {
     let (columns, rows) = (width as usize, height as usize);
     let stage = Stage::new(picture, camera, columns, rows);
-    let (setting, drops) = prepare(&stage);
+    let (setting, watched) = prepare(&stage);
     let raster = &stage.raster;
-    let watched = watched(raster, &drops);
+    let screen = (picture.view == View::Fast).then(|| Screen::new(&stage));
     let pixels = pixels::pixels((columns, rows), &watched, |x, y| {
         let (right, up) = raster.slopes(x - 0.5, y - 0.5);
-        let direction = raster.forward + raster.right * right + raster.up * up;
-        let (light, signature) = setting.radiance(raster.eye, direction.normalize());
+        let direction = (raster.forward + raster.right * right + raster.up * up).normalize();
+        let (light, signature) = match (&screen, picture.view) {
+            (Some(screen), _) => setting.by_screen(screen, (x, y), direction),
+            (None, View::Superimposed) => setting.superimposed(raster.eye, direction),
+            (None, _) => setting.radiance(raster.eye, direction),
+        };
         (displayed(light), signature)
     });
     Image { width, height, pixels }
 }
 
 /// The passes before the first ray.
-fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<Drop>) {
-    let positions: Vec<Vec3> = stage.particles.iter().map(|(_, place)| *place).collect();
-    let interior: Vec<f32> = stage.particles.iter().map(|(index, _)| stage.interior(*index)).collect();
-    let input = water::Input {
-        positions: &positions,
-        interior: &interior,
-        spacing: 2.0 * stage.radius,
-        container: stage.container,
-        sponge: &stage.sponge,
-        bodies: &stage.solids,
+fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
+    let view = stage.picture.view;
+    let (field, drops) = match view {
+        View::Realistic | View::Superimposed => water(stage),
+        _ => (None, Vec::new()),
     };
-    let (field, drops) = match water::field(&input) {
-        Some((field, drops)) => (Some(field), drops),
-        None => (None, Vec::new()),
-    };
-    let sponge = &stage.sponge;
-    let corners = sponge.triangles.iter().map(|(_, corners)| corners.map(|node| sponge.positions[node]));
-    let (low, high) = stage.frame();
+    let (low, high) = stage.around;
     let ground = stage.ground();
     let height = ground.map_or(low.y, |(height, _)| height);
     let which = |clear: bool| {
@@ -69,11 +66,16 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<Drop>) {
         let indices = 0..stage.solids.len();
         indices.filter(|i| stage.solids[*i].is_clear() == clear && Some(*i) != floor).collect()
     };
+    let sponge = &stage.sponge;
+    let hides_sponge = matches!(view, View::Nodes | View::Particles | View::Pressure | View::Speed);
+    let triangles = if hides_sponge { &[][..] } else { &sponge.triangles[..] };
     let mut setting = Setting {
         stage,
-        nudge: 0.06 * field.as_ref().map_or(stage.radius, water::Field::cell),
+        nudge: 0.06 * field.as_ref().map_or(stage.radius.max(1e-4), Field::cell),
         field,
-        tree: Tree::new(corners),
+        tree: Tree::new(triangles.iter().map(|(_, corners)| corners.map(|node| sponge.positions[node]))),
+        beads: beads::beads(stage),
+        coat: if view == View::Saturation { Coat::Map } else { Coat::Skin },
         medium: Medium { absorption: stage.picture.absorption, scatter: stage.picture.scatter },
         ground: Ground::new(height, ground.is_some(), low, high),
         opaque: which(false),
@@ -84,21 +86,39 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<Drop>) {
         pixel: 1.0 / stage.raster.focal,
     };
     setting.light_up();
-    (setting, drops)
+    let balls = setting.beads.iter().flat_map(|beads| &beads.balls);
+    let small = drops.iter().map(|drop| (drop.centre, drop.radius)).chain(balls.copied());
+    let watched = watched(&stage.raster, small);
+    (setting, watched)
 }
 
-/// The blocks of pixels that drops are in.
-fn watched(raster: &Raster, drops: &[Drop]) -> Vec<bool> {
+/// The free water and its drops.
+fn water(stage: &Stage<'_>) -> (Option<Field>, Vec<Drop>) {
+    let positions: Vec<Vec3> = stage.particles.iter().map(|(_, place)| *place).collect();
+    let interior: Vec<f32> = stage.particles.iter().map(|(index, _)| stage.interior(*index)).collect();
+    let input = water::Input {
+        positions: &positions,
+        interior: &interior,
+        spacing: 2.0 * stage.radius,
+        container: stage.container,
+        sponge: &stage.sponge,
+        bodies: &stage.solids,
+    };
+    water::field(&input).map_or((None, Vec::new()), |(field, drops)| (Some(field), drops))
+}
+
+/// The blocks of pixels that small balls are in: middles and radii (m).
+fn watched(raster: &Raster, balls: impl Iterator<Item = Ball>) -> Vec<bool> {
     let (columns, rows) = (raster.width.div_ceil(STRIDE), raster.height.div_ceil(STRIDE));
     let mut blocks = vec![false; columns * rows];
-    for drop in drops {
-        let local = raster.local(drop.centre);
+    for (centre, radius) in balls {
+        let local = raster.local(centre);
         if local.z < raster.near {
             continue;
         }
         let (x, y) = raster.project(local);
-        let reach = drop.radius * raster.focal / local.z + 1.0;
-        // Drops of many pixels are found by the rays of the first pass.
+        let reach = radius * raster.focal / local.z + 1.0;
+        // Balls of many pixels are found by the rays of the first pass.
         if reach > 3.0 * STRIDE as f32 {
             continue;
         }

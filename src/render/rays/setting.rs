@@ -1,8 +1,9 @@
 //! Everything that rays can meet, and what they meet next.
 
+use super::beads::Beads;
 use super::ground::Ground;
 use super::optics::Medium;
-use super::tree::{Hit, Tree};
+use super::tree::{Hit, Tree, Triangle};
 use crate::render::{
     Look,
     colour::smooth,
@@ -24,7 +25,12 @@ pub(super) struct Setting<'a> {
     pub(super) stage: &'a Stage<'a>,
     /// The water; nothing without free water.
     pub(super) field: Option<Field>,
-    pub(super) tree: Tree,
+    /// The sponges.
+    pub(super) tree: Tree<Triangle>,
+    /// Balls of a view that shows particles or nodes, with their colours.
+    pub(super) beads: Option<Beads>,
+    /// How sponges look.
+    pub(super) coat: Coat,
     pub(super) medium: Medium,
     pub(super) ground: Ground,
     /// Solids that rays end at, and those that they pass: indices in the list of the stage.
@@ -45,8 +51,18 @@ pub(super) struct Setting<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Matter {
     Floor,
-    Sponge(Hit),
+    Sponge(Hit<[f32; 2]>),
     Body(usize, Vec3),
+    Bead(Hit<Vec3>),
+}
+
+/// How sponges look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Coat {
+    /// Pores, and the colour of wetness.
+    Skin,
+    /// The colour of a map of the saturation.
+    Map,
 }
 
 /// What a ray meets, with its distance (m).
@@ -130,8 +146,12 @@ impl<'a> Setting<'a> {
                 best = Some((span.enter, Matter::Body(*index, span.normal)));
             }
         }
-        let sponge = self.tree.hit(origin, direction, nearest);
-        sponge.map(|hit| (hit.distance, Matter::Sponge(hit))).or(best)
+        if let Some(hit) = self.tree.hit(origin, direction, nearest) {
+            nearest = hit.distance;
+            best = Some((nearest, Matter::Sponge(hit)));
+        }
+        let bead = self.beads.as_ref().and_then(|beads| beads.tree.hit(origin, direction, nearest));
+        bead.map(|hit| (hit.distance, Matter::Bead(hit))).or(best)
     }
 
     /// Outward normal of the wall of the container that a point is nearest to.
@@ -213,7 +233,7 @@ impl<'a> Setting<'a> {
             strength = match matter {
                 Matter::Sponge(_) => smooth(FILM_ON_SPONGE.0, FILM_ON_SPONGE.1, layers),
                 Matter::Floor => smooth(FILM_ON_FLOOR.0, FILM_ON_FLOOR.1, layers),
-                Matter::Body(..) => 1.0,
+                Matter::Body(..) | Matter::Bead(_) => 1.0,
             };
             if strength <= 0.0 {
                 return Some(Event::Matter(*depth, *matter, true));

@@ -57,12 +57,27 @@ impl Facet<'_> {
     }
 }
 
+/// Wetness and normal of the outer surface where a ray meets it.
+pub(super) fn facet(sponge: &Surface, hit: &Hit<[f32; 2]>) -> (f32, Vec3) {
+    let [u, v] = hit.place;
+    let corners = sponge.triangles[hit.index as usize].1;
+    let facet = Facet { sponge, corners, weights: [1.0 - u - v, u, v] };
+    (facet.wetness(), facet.mix(&sponge.normals).normalize_or_zero())
+}
+
 /// The skin of a sponge where a ray meets it.
 ///
 /// `pixel` is the side of a pixel there (m): finer detail is left out. `film` is the wetness of water on it.
-pub(super) fn skin(sponge: &Surface, foam: &Foam, hit: &Hit, direction: Vec3, pixel: f32, film: f32) -> Skin {
-    let [u, v] = hit.at;
-    let corners = sponge.triangles[hit.triangle as usize].1;
+pub(super) fn skin(
+    sponge: &Surface,
+    foam: &Foam,
+    hit: &Hit<[f32; 2]>,
+    direction: Vec3,
+    pixel: f32,
+    film: f32,
+) -> Skin {
+    let [u, v] = hit.place;
+    let corners = sponge.triangles[hit.index as usize].1;
     let facet = Facet { sponge, corners, weights: [1.0 - u - v, u, v] };
     let wet = facet.wetness().max(film);
     let normal = facet.mix(&sponge.normals).normalize_or_zero();

@@ -1,5 +1,6 @@
-//! A tree of boxes over the triangles of the sponges.
+//! A tree of boxes over triangles of sponges, or over balls.
 
+use super::setting::NEAR;
 use glam::Vec3;
 
 /// Most triangles of a leaf.
@@ -7,40 +8,57 @@ const LEAF: usize = 4;
 /// Deepest place that waits for its turn; the tree is balanced, so that 2^32 triangles fit.
 const DEPTH: usize = 64;
 
-/// Where a ray meets a triangle.
+/// Something that rays meet.
+pub(super) trait Shape {
+    /// More about the place where a ray meets it.
+    type Place: Copy;
+
+    /// Lowest and highest corner of a box around it (m).
+    fn bounds(&self) -> (Vec3, Vec3);
+
+    /// Distance and place where a ray meets it from outside, nearer than a distance.
+    fn meet(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<(f32, Self::Place)>;
+}
+
+/// Corners of a triangle; rays meet its outer side only, at the weights of its second and third corner.
+pub(super) type Triangle = [Vec3; 3];
+
+/// A ball: middle and radius (m). Rays meet it with its normal.
+pub(super) type Ball = (Vec3, f32);
+
+/// Where a ray meets something.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
+pub(super) struct Hit<P> {
     /// Distance along the ray.
     pub(super) distance: f32,
-    /// Index of the triangle.
-    pub(super) triangle: u32,
-    /// Weights of its second and third corner.
-    pub(super) at: [f32; 2],
+    /// Index of what it meets.
+    pub(super) index: u32,
+    pub(super) place: P,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
     low: Vec3,
     high: Vec3,
-    /// First triangle of a leaf, or the second child; the first child follows its parent.
+    /// First shape of a leaf, or the second child; the first child follows its parent.
     first: u32,
-    /// Triangles of a leaf, 0 for a branch.
+    /// Shapes of a leaf, 0 for a branch.
     count: u32,
 }
 
-/// The tree; it sees the outer side of triangles only.
-#[derive(Debug, Default)]
-pub(super) struct Tree {
+/// The tree.
+#[derive(Debug)]
+pub(super) struct Tree<S> {
     nodes: Vec<Node>,
-    triangles: Vec<(u32, [Vec3; 3])>,
+    shapes: Vec<(u32, S)>,
 }
 
-impl Tree {
-    /// A tree of corners of triangles.
-    pub(super) fn new(corners: impl Iterator<Item = [Vec3; 3]>) -> Self {
-        let triangles: Vec<_> = corners.enumerate().map(|(index, corners)| (index as u32, corners)).collect();
-        let mut tree = Self { nodes: Vec::new(), triangles };
-        let count = tree.triangles.len();
+impl<S: Shape> Tree<S> {
+    /// A tree of shapes.
+    pub(super) fn new(shapes: impl Iterator<Item = S>) -> Self {
+        let shapes: Vec<_> = shapes.enumerate().map(|(index, shape)| (index as u32, shape)).collect();
+        let mut tree = Self { nodes: Vec::new(), shapes };
+        let count = tree.shapes.len();
         if count > 0 {
             tree.build(0, count);
         }
@@ -49,20 +67,21 @@ impl Tree {
 
     fn build(&mut self, first: usize, end: usize) -> usize {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for (_, corners) in &self.triangles[first..end] {
-            for corner in corners {
-                low = low.min(*corner);
-                high = high.max(*corner);
-            }
+        for (_, shape) in &self.shapes[first..end] {
+            let (a, b) = shape.bounds();
+            low = low.min(a);
+            high = high.max(b);
         }
         let own = self.nodes.len();
         self.nodes.push(Node { low, high, first: first as u32, count: (end - first) as u32 });
         if end - first > LEAF {
-            let side = high - low;
-            let axis = side.max_position();
+            let axis = (high - low).max_position();
             let middle = (first + end) / 2;
-            let centre = |corners: &[Vec3; 3]| corners[0][axis] + corners[1][axis] + corners[2][axis];
-            self.triangles[first..end]
+            let centre = |shape: &S| {
+                let (a, b) = shape.bounds();
+                a[axis] + b[axis]
+            };
+            self.shapes[first..end]
                 .select_nth_unstable_by(middle - first, |a, b| centre(&a.1).total_cmp(&centre(&b.1)));
             self.build(first, middle);
             let second = self.build(middle, end);
@@ -72,8 +91,8 @@ impl Tree {
         own
     }
 
-    /// The nearest triangle on a ray that is nearer than a distance.
-    pub(super) fn hit(&self, origin: Vec3, direction: Vec3, mut nearest: f32) -> Option<Hit> {
+    /// The nearest shape on a ray that is nearer than a distance.
+    pub(super) fn hit(&self, origin: Vec3, direction: Vec3, mut nearest: f32) -> Option<Hit<S::Place>> {
         let inverse = direction.recip();
         let enter = |node: &Node, nearest: f32| {
             let (a, b) = ((node.low - origin) * inverse, (node.high - origin) * inverse);
@@ -84,16 +103,16 @@ impl Tree {
         if enter(root, nearest) == f32::INFINITY {
             return None;
         }
-        let mut waiting = [(0_usize, 0.0_f32); DEPTH];
+        let mut waiting = [(0_u32, 0.0_f32); DEPTH];
         let (mut count, mut at, mut best) = (0, 0, None);
         loop {
             let node = self.nodes[at];
             if node.count > 0 {
                 let leaf = node.first as usize..(node.first + node.count) as usize;
-                for (index, corners) in &self.triangles[leaf] {
-                    if let Some((distance, at)) = meet(origin, direction, corners, nearest) {
+                for (index, shape) in &self.shapes[leaf] {
+                    if let Some((distance, place)) = shape.meet(origin, direction, nearest) {
                         nearest = distance;
-                        best = Some(Hit { distance, triangle: *index, at });
+                        best = Some(Hit { distance, index: *index, place });
                     }
                 }
             } else {
@@ -104,7 +123,7 @@ impl Tree {
                 }
                 if a < f32::INFINITY {
                     if b < f32::INFINITY && count < DEPTH {
-                        waiting[count] = (far, b);
+                        waiting[count] = (far as u32, b);
                         count += 1;
                     }
                     at = near;
@@ -117,7 +136,7 @@ impl Tree {
                 }
                 count -= 1;
                 if waiting[count].1 < nearest {
-                    at = waiting[count].0;
+                    at = waiting[count].0 as usize;
                     break;
                 }
             }
@@ -125,24 +144,53 @@ impl Tree {
     }
 }
 
-/// Distance and weights where a ray meets the outer side of a triangle.
-fn meet(origin: Vec3, direction: Vec3, [a, b, c]: &[Vec3; 3], nearest: f32) -> Option<(f32, [f32; 2])> {
-    let (e, f) = (*b - *a, *c - *a);
-    let p = direction.cross(f);
-    let determinant = e.dot(p);
-    if determinant <= 1e-14 {
-        return None;
+impl Shape for Triangle {
+    type Place = [f32; 2];
+
+    fn bounds(&self) -> (Vec3, Vec3) {
+        let [a, b, c] = *self;
+        (a.min(b).min(c), a.max(b).max(c))
     }
-    let s = origin - *a;
-    let u = s.dot(p);
-    if u < 0.0 || u > determinant {
-        return None;
+
+    fn meet(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<(f32, [f32; 2])> {
+        let [a, b, c] = *self;
+        let (e, f) = (b - a, c - a);
+        let p = direction.cross(f);
+        let determinant = e.dot(p);
+        if determinant <= 1e-14 {
+            return None;
+        }
+        let s = origin - a;
+        let u = s.dot(p);
+        if u < 0.0 || u > determinant {
+            return None;
+        }
+        let q = s.cross(e);
+        let v = direction.dot(q);
+        if v < 0.0 || u + v > determinant {
+            return None;
+        }
+        let t = f.dot(q) / determinant;
+        (t > NEAR && t < nearest).then(|| (t, [u / determinant, v / determinant]))
     }
-    let q = s.cross(e);
-    let v = direction.dot(q);
-    if v < 0.0 || u + v > determinant {
-        return None;
+}
+
+impl Shape for Ball {
+    type Place = Vec3;
+
+    fn bounds(&self) -> (Vec3, Vec3) {
+        (self.0 - self.1, self.0 + self.1)
     }
-    let t = f.dot(q) / determinant;
-    (t > 1e-6 && t < nearest).then(|| (t, [u / determinant, v / determinant]))
+
+    fn meet(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<(f32, Vec3)> {
+        let (centre, radius) = *self;
+        let offset = origin - centre;
+        let middle = -offset.dot(direction);
+        let square = radius * radius - (offset + direction * middle).length_squared();
+        if square <= 0.0 {
+            return None;
+        }
+        let t = middle - square.sqrt();
+        (t > NEAR && t < nearest).then(|| (t, (offset + direction * t) / radius))
+    }
 }
