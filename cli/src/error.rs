@@ -72,6 +72,9 @@ pub(crate) enum CliError {
         /// The out folder.
         folder: PathBuf,
     },
+    /// The simulation of a film diverged.
+    #[error("the simulation diverged: {0}")]
+    Step(StepError),
     /// The GPU failed; everything before that has been written.
     #[error("{error}\nwhat was done until then is in {}", folder.display())]
     Gpu {
@@ -113,7 +116,7 @@ impl CliError {
             Self::CheckFailed(_) => 1,
             Self::Replay { source, .. } if matches!(**source, ReplayError::Mismatch(_)) => 1,
             Self::Replay { source, .. } if matches!(**source, ReplayError::Step { .. }) => 3,
-            Self::Diverged { .. } => 3,
+            Self::Diverged { .. } | Self::Step(_) => 3,
             _ => 2,
         }
     }

@@ -9,6 +9,7 @@ mod machine;
 mod output;
 mod plan;
 mod record;
+mod render;
 mod replay;
 mod run;
 mod scenes;
@@ -47,6 +48,8 @@ enum Command {
     Plan(plan::Arguments),
     /// Simulates a scene and writes measures and pictures
     Run(Box<run::Arguments>),
+    /// Draws films and stills of a scene, a recording or a save
+    Render(Box<render::Arguments>),
     /// Records a scene: a digest of every frame, and key frames
     Record(Box<record::Arguments>),
     /// Plays a recording, and compares every frame
@@ -67,6 +70,7 @@ fn main() -> ExitCode {
         Some(Command::Schema) => schema::run(),
         Some(Command::Plan(arguments)) => plan::run(&arguments),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Record(arguments)) => record::run(&arguments),
         Some(Command::Replay(arguments)) => replay::run(&arguments),
         Some(Command::Diff(arguments)) => diff::run(&arguments),

@@ -32,3 +32,13 @@ pub(super) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send
     #[cfg(not(feature = "threads"))]
     (0..count).map(work).collect()
 }
+
+/// Results of two tasks.
+pub(super) fn both<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    #[cfg(feature = "threads")]
+    {
+        rayon::join(a, b)
+    }
+    #[cfg(not(feature = "threads"))]
+    (a(), b())
+}

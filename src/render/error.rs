@@ -58,6 +58,26 @@ pub enum RenderError {
         /// The requested rate.
         value: f32,
     },
+    /// Sides that the encoder of films does not take.
+    #[cfg(feature = "film")]
+    #[error("{}: a film of {width} x {height} pixels; it may have 16 x 16 to 3840 x 2160", path.display())]
+    FilmSize {
+        /// The file.
+        path: PathBuf,
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The encoder or the file of a film refused a frame.
+    #[cfg(feature = "film")]
+    #[error("cannot write {}: {message}", path.display())]
+    Film {
+        /// The file.
+        path: PathBuf,
+        /// Message of the encoder.
+        message: String,
+    },
     /// The animation was finished before its first frame: no valid file is possible.
     #[error("{}: an animation needs at least one frame", path.display())]
     NoFrames {

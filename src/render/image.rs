@@ -27,6 +27,7 @@ impl Image {
         let mut encoder = png::Encoder::new(&mut buffer, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         let write = |encoder: png::Encoder<'_, _>| {
             let mut writer = encoder.write_header()?;

@@ -8,6 +8,8 @@ mod bands;
 mod camera;
 mod colour;
 mod error;
+#[cfg(feature = "film")]
+mod film;
 mod image;
 mod legend;
 mod rays;
@@ -21,6 +23,8 @@ mod world;
 pub use animation::Animation;
 pub use camera::Camera;
 pub use error::RenderError;
+#[cfg(feature = "film")]
+pub use film::Film;
 pub use image::Image;
 pub use world::draw_world;
 

@@ -41,7 +41,7 @@ impl Folder {
             .map(|entry| entry.path())
             .filter(|path| is_number(path) && path.extension().is_some_and(|extension| extension == "png"))
             .chain(
-                [self.summary(), self.bodies(), self.animation(), self.save()]
+                [self.summary(), self.bodies(), self.film(), self.animation(), self.save()]
                     .into_iter()
                     .filter(|path| path.exists()),
             )
@@ -78,15 +78,25 @@ impl Folder {
         self.path.join("frames")
     }
 
+    /// All pictures as a film.
+    pub(crate) fn film(&self) -> PathBuf {
+        self.path.join("film.mp4")
+    }
+
     /// All pictures as one animated PNG.
     pub(crate) fn animation(&self) -> PathBuf {
         self.path.join("animation.png")
     }
 
-    /// Names of what a run leaves in the folder: with a table of bodies, with pictures.
-    pub(crate) fn contents(bodies: bool, pictures: bool) -> String {
+    /// Names of what a run leaves in the folder: with a table of bodies, with pictures, with an animation.
+    pub(crate) fn contents(bodies: bool, pictures: bool, animation: bool) -> String {
         let bodies = if bodies { ", bodies.csv" } else { "" };
-        let pictures = if pictures { ", animation.png, frames/" } else { "" };
+        let pictures = match (pictures, cfg!(feature = "film"), animation) {
+            (false, ..) => "",
+            (true, true, false) => ", film.mp4, frames/",
+            (true, true, true) => ", film.mp4, animation.png, frames/",
+            (true, false, _) => ", animation.png, frames/",
+        };
         format!("measures.csv{bodies}, summary.json{pictures}")
     }
 }

@@ -156,7 +156,9 @@ fn finish(
         output::print(&json)?;
     } else if !arguments.quiet {
         let path = folder.path().display();
-        let contents = Folder::contents(!world.scene().bodies.is_empty(), arguments.drawing.pictures);
+        let drawing = &arguments.drawing;
+        let contents =
+            Folder::contents(!world.scene().bodies.is_empty(), drawing.pictures, drawing.animation);
         output::print(&format!("{summary}results in {path}: {contents}\n"))?;
     }
     match failure {

@@ -79,16 +79,26 @@ pub(crate) struct Length {
     time: Option<f64>,
 }
 
-/// What pictures look like.
+/// Which pictures are drawn.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Drawing {
-    /// Draws PNG frames and an animated PNG (APNG, which web browsers play)
+    /// Draws PNG frames and a film (MP4)
     #[arg(long)]
     pub(crate) pictures: bool,
-    /// Pictures per simulated second, at most; the animation plays at the speed of the simulated world
+    /// With --pictures: an animated PNG as well, which web browsers play
+    #[arg(long, requires = "pictures")]
+    pub(crate) animation: bool,
+    /// Pictures per simulated second, at most; the film plays at the speed of the simulated world
     #[arg(long, value_name = "RATE", default_value_t = 30.0, value_parser = picture_rate)]
     pub(crate) picture_rate: f32,
-    /// Size of the pictures in pixels, each side 16 to 8192
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+/// What pictures look like.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Picture {
+    /// Size of the pictures in pixels, each side 16 to 8192 (of films 3840)
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub(crate) size: Size,
     /// What the pictures show
@@ -151,8 +161,17 @@ fn interval(text: &str) -> Result<f64, String> {
 }
 
 fn picture_rate(text: &str) -> Result<f32, String> {
-    let rate = ranged(text, 0.1, 1e3);
-    rate.map(|rate| rate as f32).ok_or_else(|| "expected a number from 0.1 to 1000 1/s".to_owned())
+    number(text, 0.1, 1e3, "1/s")
+}
+
+/// A number in a range, in a unit.
+///
+/// # Errors
+/// The text is no number, or it is out of the range.
+pub(crate) fn number(text: &str, minimum: f64, maximum: f64, unit: &str) -> Result<f32, String> {
+    let number = ranged(text, minimum, maximum).map(|number| number as f32);
+    number
+        .ok_or_else(|| format!("expected a number from {minimum} to {maximum} {unit}").trim_end().to_owned())
 }
 
 /// A number in a range; `nan` is in no range.

@@ -1,21 +1,21 @@
-//! PNG frames and the animation.
+//! PNG frames, the film and the animation.
 
-use std::{fs, ops::RangeInclusive, path::PathBuf};
+use std::{fs, ops::RangeInclusive, path::PathBuf, thread};
 
 use sorb::{
     World,
-    render::{self, Animation, Camera, View},
+    render::{self, Camera, View},
     scene::Scene,
 };
 
 use super::{folder::Folder, options::Drawing};
-use crate::error::CliError;
+use crate::{error::CliError, render::sink::Sink};
 
-/// PNG frames and the animation, while they are written.
+/// PNG frames, the film and the animation, while they are written.
 #[derive(Debug)]
 pub(crate) struct Pictures {
     frames: PathBuf,
-    animation: Animation,
+    sinks: Vec<Sink>,
     camera: Camera,
     view: View,
     size: (u32, u32),
@@ -24,7 +24,7 @@ pub(crate) struct Pictures {
 }
 
 impl Pictures {
-    /// Creates the folder of the frames and the animation.
+    /// Creates the folder of the frames, the film and the animation.
     ///
     /// # Errors
     /// The system refuses to create them.
@@ -38,21 +38,26 @@ impl Pictures {
         let rate = scene.time.frame_rate;
         // Whole frames, so that pictures are evenly spaced. Rounding up keeps the rate below the requested one.
         let every = (rate / drawing.picture_rate - 1e-3).ceil().max(1.0) as u32;
-        let (width, height) = (drawing.size.0, drawing.size.1);
-        let count = frames.end() / every + 1 - frames.start().div_ceil(every);
-        let animation = Animation::create(
-            folder.animation(),
-            width,
-            height,
-            (rate / every as f32).clamp(0.02, 1e3),
-            count,
-        )?;
+        let size = (drawing.picture.size.0, drawing.picture.size.1);
+        // At least two, so that one picture is an animation too.
+        let count = (frames.end() / every + 1 - frames.start().div_ceil(every)).max(2);
+        let rate = rate / every as f32;
+        let is_film = cfg!(feature = "film");
+        let mut files = Vec::new();
+        if is_film {
+            files.push(folder.film());
+        }
+        if drawing.animation || !is_film {
+            files.push(folder.animation());
+        }
+        let sinks =
+            files.iter().map(|file| Sink::create(file, size, rate, count)).collect::<Result<_, _>>()?;
         Ok(Self {
             frames: folder.frames(),
-            animation,
+            sinks,
             camera: scene.viewpoint().into(),
-            view: drawing.view.into(),
-            size: (width, height),
+            view: drawing.picture.view.into(),
+            size,
             every: every as usize,
         })
     }
@@ -66,17 +71,25 @@ impl Pictures {
             return Ok(());
         }
         let image = render::draw_world(world, &self.camera, self.view, self.size.0, self.size.1);
-        image.write_png(self.frames.join(format!("{:05}.png", frame / self.every)))?;
-        self.animation.append(&image)?;
-        Ok(())
+        let path = self.frames.join(format!("{:05}.png", frame / self.every));
+        let (image, sinks) = (&image, &mut self.sinks);
+        // Each file on a thread of its own: none of the formats is written on more than one.
+        thread::scope(|scope| {
+            let others: Vec<_> =
+                sinks.iter_mut().map(|sink| scope.spawn(move || sink.append(image))).collect();
+            image.write_png(path)?;
+            others.into_iter().try_for_each(|other| match other.join() {
+                Ok(written) => written,
+                Err(panic) => std::panic::resume_unwind(panic),
+            })
+        })
     }
 
-    /// Completes the animation.
+    /// Completes film and animation.
     ///
     /// # Errors
     /// The file cannot be written.
     pub(crate) fn finish(self) -> Result<(), CliError> {
-        self.animation.finish()?;
-        Ok(())
+        self.sinks.into_iter().try_for_each(Sink::finish)
     }
 }

@@ -155,7 +155,7 @@ fn quiet_prints_nothing() {
 #[test]
 fn pictures_exist_and_the_animation_decodes() {
     let scratch = Scratch::new("pictures");
-    let small = ["--pictures", "--size", "64x48", "--frames"];
+    let small = ["--pictures", "--animation", "--size", "64x48", "--frames"];
     let answer = run(&scratch, "ball_drop", &[&small[..], &["7"]].concat());
     assert_eq!(answer.code, Some(0), "{answer:?}");
     assert_eq!(
@@ -163,6 +163,10 @@ fn pictures_exist_and_the_animation_decodes() {
         ((64, 48), 4),
         "every second frame, and time zero"
     );
+    if cfg!(feature = "film") {
+        let film = std::fs::read(scratch.path("out/film.mp4")).expect("the film is there");
+        assert!(film.len() > 500 && film[4..8] == *b"ftyp");
+    }
     for picture in ["00000", "00003"] {
         assert_eq!(decoded(&scratch.path(&format!("out/frames/{picture}.png"))), ((64, 48), 1));
     }
@@ -197,8 +201,11 @@ fn a_run_that_diverges_exits_with_3_and_leaves_what_it_has() {
         ["--set", "time.minimum_step=0.0005"],
     ]
     .concat();
-    let answer =
-        run(&scratch, "water", &[&sets[..], &["--frames", "60", "--pictures", "--size", "32x32"]].concat());
+    let answer = run(
+        &scratch,
+        "water",
+        &[&sets[..], &["--frames", "60", "--pictures", "--animation", "--size", "32x32"]].concat(),
+    );
     assert_eq!(answer.code, Some(3), "{answer:?}");
     assert!(answer.err.contains("time.minimum_step"), "{}", answer.err);
     let rows = scratch.read("out/measures.csv").lines().count();

@@ -60,7 +60,7 @@ fn numbers_out_of_range_are_refused() {
     refused(&["water", "--threads", "100000"], &["100000 threads", "1 to 1024"]);
     refused(&["water", "--resolution", "0"], &["resolution", "0.1 to 8"]);
     refused(&["water", "--resolution", "nan"], &["resolution", "NaN", "0.1 to 8"]);
-    refused(&["water", "--size", "10x10"], &["10x10", "640x360"]);
+    refused(&["water", "--size", "10x10"], &["10x10", "1280x720"]);
     refused(&["water", "--picture-rate", "0"], &["picture-rate", "0.1 to 1000"]);
 }
 

@@ -6,7 +6,7 @@ use super::room::{AMBIENT, KEY, key_direction};
 use glam::{Vec3, Vec4};
 
 /// Texels along a side of the maps.
-pub(super) const SIDE: usize = 320;
+pub(super) const SIDE: usize = 288;
 
 /// The floor with its maps.
 #[derive(Debug)]

@@ -44,7 +44,7 @@ impl Setting<'_> {
             }
         }
         even_out(&mut light);
-        let (contact, wetness) = (self.contact(), self.wetness());
+        let (contact, wetness) = bands::both(|| self.contact(), || self.wetness());
         let height = key_direction().y;
         let arriving = |index: usize| {
             let (x, y) = (index % SIDE, index / SIDE);
@@ -59,7 +59,8 @@ impl Setting<'_> {
                 self.medium.left(way * if under { 0.8 } else { 0.35 }) / (1.0 + contact[index].min(1.6));
             (KEY * height * key + AMBIENT * around).extend(wetness[index].min(1.0))
         };
-        self.ground.arriving = (0..SIDE * SIDE).map(arriving).collect();
+        let rows = bands::map(SIDE, |y| (y * SIDE..(y + 1) * SIDE).map(arriving).collect::<Vec<_>>());
+        self.ground.arriving = rows.into_iter().flatten().collect();
     }
 
     /// What happens to the photon of every texel.

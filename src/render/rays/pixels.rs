@@ -8,12 +8,14 @@ use super::path::Signature;
 use crate::render::{bands, colour::smooth};
 use glam::Vec3;
 
-/// Largest difference of colours that are mixed.
-const TOLERANCE: f32 = 0.045;
+/// Difference of colours, of [`MOST`], that are not mixed.
+const TOLERANCE: u32 = 48;
 /// Difference of neighbours, with equal and with different paths, from which on a pixel gets more rays, and where it takes
 /// them fully: a pixel at the limit must not jump from frame to frame.
 const CONTRAST: (f32, f32) = (0.17, 0.27);
 const PATHS: (f32, f32) = (0.05, 0.09);
+/// Largest value of a channel.
+const MOST: u32 = 1023;
 /// Places of the rays that are added, in pixels.
 const ADDED: [(f32, f32); 3] = [(0.33, 0.17), (-0.17, 0.33), (-0.33, -0.25)];
 /// Pixels from one ray of the first pass to the next.
@@ -28,13 +30,23 @@ struct Sample {
 
 impl Sample {
     fn new(colour: Vec3, path: u32) -> Self {
-        let [r, g, b] = colour.to_array().map(|channel| (channel * 1023.0 + 0.5) as u32);
+        let [r, g, b] = colour.to_array().map(|channel| (channel * MOST as f32 + 0.5) as u32);
         Self { colour: r | g << 10 | b << 20, path }
     }
 
+    fn channels(self) -> [u32; 3] {
+        [self.colour & MOST, self.colour >> 10 & MOST, self.colour >> 20 & MOST]
+    }
+
     fn colour(self) -> Vec3 {
-        let channel = |shift: u32| (self.colour >> shift & 1023) as f32;
-        Vec3::new(channel(0), channel(10), channel(20)) / 1023.0
+        let [r, g, b] = self.channels();
+        Vec3::new(r as f32, g as f32, b as f32) / MOST as f32
+    }
+
+    /// Largest difference of a channel, 0 to [`MOST`].
+    fn difference(self, other: Self) -> u32 {
+        let ([a, b, c], [d, e, f]) = (self.channels(), other.channels());
+        a.abs_diff(d).max(b.abs_diff(e)).max(c.abs_diff(f))
     }
 }
 
@@ -98,15 +110,22 @@ pub(super) fn pixels(
 
 /// The mean of samples with equal paths and similar colours.
 fn mixed(four: [Sample; 4]) -> Option<Sample> {
-    if four.iter().any(|sample| sample.path != four[0].path) {
+    let path = four[0].path;
+    if four.iter().any(|sample| sample.path != path) {
         return None;
     }
-    let path = four[0].path;
-    let four = four.map(Sample::colour);
-    let least = four[0].min(four[1]).min(four[2]).min(four[3]);
-    let most = four[0].max(four[1]).max(four[2]).max(four[3]);
-    let mean = (four[0] + four[1] + four[2] + four[3]) * 0.25;
-    ((most - least).max_element() < TOLERANCE).then(|| Sample::new(mean, path))
+    let [a, b, c, d] = four.map(Sample::channels);
+    let mut colour = 0;
+    for (channel, shift) in [0, 10, 20].into_iter().enumerate() {
+        let four = [a[channel], b[channel], c[channel], d[channel]];
+        let least = four[0].min(four[1]).min(four[2]).min(four[3]);
+        let most = four[0].max(four[1]).max(four[2]).max(four[3]);
+        if most - least >= TOLERANCE {
+            return None;
+        }
+        colour |= ((four[0] + four[1] + four[2] + four[3] + 2) / 4) << shift;
+    }
+    Some(Sample { colour, path })
 }
 
 /// Colour of a pixel, with more rays where its neighbours differ.
@@ -117,24 +136,32 @@ fn refined(
     ray: &(impl Fn(f32, f32) -> (Vec3, Signature) + Sync),
 ) -> Vec3 {
     let index = y * width + x;
-    let (own, colour) = (samples[index], samples[index].colour());
-    let neighbours = [
-        (x > 0).then(|| index - 1),
-        (x + 1 < width).then(|| index + 1),
-        (y > 0).then(|| index - width),
-        (y + 1 < height).then(|| index + width),
-    ];
+    let own = samples[index];
+    // Less than that has no effect.
+    let least = (PATHS.0 * MOST as f32) as u32;
     let mut share = 0.0_f32;
-    for other in neighbours.into_iter().flatten().map(|other| samples[other]) {
-        if other.colour == own.colour {
-            continue;
+    let mut compare = |other: Sample| {
+        let difference = own.difference(other);
+        if difference <= least {
+            return;
         }
-        let difference = (other.colour() - colour).abs().max_element();
-        share = share.max(smooth(CONTRAST.0, CONTRAST.1, difference));
-        if (other.path ^ own.path) & 0xffff != 0 {
-            share = share.max(smooth(PATHS.0, PATHS.1, difference));
-        }
+        let difference = difference as f32 / MOST as f32;
+        let limits = if (other.path ^ own.path) & 0xffff == 0 { CONTRAST } else { PATHS };
+        share = share.max(smooth(limits.0, limits.1, difference));
+    };
+    if x > 0 {
+        compare(samples[index - 1]);
     }
+    if x + 1 < width {
+        compare(samples[index + 1]);
+    }
+    if y > 0 {
+        compare(samples[index - width]);
+    }
+    if y + 1 < height {
+        compare(samples[index + width]);
+    }
+    let colour = own.colour();
     if share <= 0.0 {
         return colour;
     }

@@ -27,9 +27,15 @@ impl Field {
 
     /// The first of the eight nodes around a point, and the place between them, 0 to 1.
     fn locate(&self, point: Vec3) -> (usize, Vec3) {
+        self.nodes((point - self.grid.origin) * self.grid.inverse)
+    }
+
+    /// The same for a place in cells.
+    #[inline]
+    fn nodes(&self, place: Vec3) -> (usize, Vec3) {
         let [nx, ny, nz] = self.grid.sides;
         let last = Vec3::new(nx as f32 - 2.01, ny as f32 - 2.01, nz as f32 - 2.01);
-        let place = ((point - self.grid.origin) * self.grid.inverse).clamp(Vec3::ONE, last);
+        let place = place.max(Vec3::ONE).min(last);
         let (x, y, z) = (place.x as i32, place.y as i32, place.z as i32);
         let whole = Vec3::new(x as f32, y as f32, z as f32);
         ((z as usize * ny + y as usize) * nx + x as usize, place - whole)
@@ -37,7 +43,12 @@ impl Field {
 
     /// The value at a point, linear between nodes.
     pub(in crate::render) fn value(&self, point: Vec3) -> f32 {
-        let (at, f) = self.locate(point);
+        self.between(self.locate(point))
+    }
+
+    /// The value between eight nodes.
+    #[inline]
+    fn between(&self, (at, f): (usize, Vec3)) -> f32 {
         let (nx, layer) = (self.grid.sides[0], self.grid.layer());
         let nodes = &self.values[at..at + layer + nx + 2];
         let row = |i: usize| nodes[i] + (nodes[i + 1] - nodes[i]) * f.x;
@@ -116,7 +127,8 @@ impl Field {
     /// The first change of sign between two distances, in steps that follow the value.
     fn cross(&self, origin: Vec3, direction: Vec3, (mut t, end): (f32, f32), inside: bool) -> Option<f32> {
         let side = if inside { 1.0 } else { -1.0 };
-        let value = |t: f32| self.value(origin + direction * t) * side;
+        let (start, slope) = ((origin - self.grid.origin) * self.grid.inverse, direction * self.grid.inverse);
+        let value = |t: f32| self.between(self.nodes(start + slope * t)) * side;
         let least = 0.9 * self.cell();
         // Rays start within rounding of the surface.
         let mut here = value(t).max(1e-6);
