@@ -67,7 +67,7 @@ impl Film {
         let config = EncoderConfig::new()
             .bitrate(BitRate::from_bps(bits as u32))
             .max_frame_rate(FrameRate::from_hz(rate))
-            .rate_control_mode(RateControlMode::Quality)
+            .rate_control_mode(RateControlMode::Off)
             .qp(QpRange::new(14, 30))
             .skip_frames(false)
             // One thread, so that the same pictures give the same file.

@@ -13,12 +13,12 @@ const BAR: usize = 12;
 const TEXT: RasterHeight = RasterHeight::Size16;
 const INK: u8 = 38;
 
-/// Draws the legend into the lower left corner of a picture; nothing where it does not fit.
+/// Draws the legend into the lower left corner of a picture; nothing on pictures that are too small for it.
 pub(super) fn draw(image: &mut Image, title: &str, (low, high): (f32, f32)) {
     let (width, height) = (image.width as usize, image.height as usize);
     let bar = (width / 4).max(160);
     let needed = 2 * MARGIN + BAR + 2 * (TEXT.val() + GAP);
-    if bar + 2 * MARGIN > width || needed > height {
+    if 2 * (bar + MARGIN) > width || needed > height / 2 {
         return;
     }
     let top = height - MARGIN - TEXT.val() - GAP - BAR;
@@ -61,4 +61,20 @@ fn write(image: &mut Image, text: &str, left: usize, top: usize) {
 fn number(value: f32) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_drawn_on_large_pictures_only() {
+        for (width, height, expected) in [(640, 360, true), (192, 108, false), (1, 1, false)] {
+            let mut image = Image { width, height, pixels: vec![200; (width * height * 3) as usize] };
+            let before = image.clone();
+            draw(&mut image, "speed (m/s)", (0.0, 2.5));
+            assert_eq!(image != before, expected, "{width}");
+        }
+        assert_eq!([number(0.0), number(2.5), number(1000.0), number(0.125)], ["0", "2.5", "1000", "0.125"]);
+    }
 }

@@ -28,6 +28,8 @@ pub use film::Film;
 pub use image::Image;
 pub use world::draw_world;
 
+pub use crate::scene::Look;
+
 use crate::rigid::{BodyState, Shape};
 use glam::Vec3;
 
@@ -78,18 +80,6 @@ impl View {
             _ => None,
         }
     }
-}
-
-/// How a body is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Look {
-    /// Paint that hides what is behind (the default).
-    #[default]
-    Solid,
-    /// Two thin shells without refraction, which show what the body squeezes.
-    Glass,
-    /// Edges and lines alone.
-    Wire,
 }
 
 /// A rigid body to draw.

@@ -7,24 +7,29 @@ use crate::{World, glam::Vec3};
 
 /// Draws a world as `camera` sees it into an image of `width` x `height` pixels.
 ///
-/// Bodies of prescribed motion are translucent, so that a plate does not hide what it squeezes. Take
-/// `world.scene().viewpoint().into()` for the scene's own camera.
+/// Looks and colours are those of the scene. Take `world.scene().viewpoint().into()` for its camera.
 #[must_use]
 pub fn draw_world(world: &World, camera: &Camera, view: View, width: u32, height: u32) -> Image {
     let bodies: Vec<DrawnBody<'_>> = world
         .bodies()
         .iter()
-        .map(|body| DrawnBody {
+        .zip(&world.scene().bodies)
+        .map(|(body, keys)| DrawnBody {
             shape: &body.shape,
             state: body.state,
-            look: if body.kind == BodyKind::Kinematic { Look::Glass } else { Look::Solid },
-            colour: None,
+            look: keys.look.unwrap_or(if body.kind == BodyKind::Kinematic {
+                Look::Glass
+            } else {
+                Look::Solid
+            }),
+            colour: keys.colour,
         })
         .collect();
     let wetness = wetness(world);
     let pressures = if view == View::Pressure { world.particle_pressures() } else { Vec::new() };
     let section = (view == View::Cutaway).then(|| section::plane(world, camera.eye));
     let halves = section.map(|plane| section::behind(world, plane));
+    let (fluid, water) = (world.scene().fluid.as_ref(), Picture::default());
     let picture = Picture {
         particles: world.particle_positions(),
         velocities: world.particle_velocities(),
@@ -39,11 +44,12 @@ pub fn draw_world(world: &World, camera: &Camera, view: View, width: u32, height
             Domain::Box { minimum, maximum, .. } => Some((minimum, maximum)),
             Domain::Open => None,
         },
+        absorption: fluid.and_then(|fluid| fluid.absorption).unwrap_or(water.absorption),
+        scatter: fluid.and_then(|fluid| fluid.colour).unwrap_or(water.scatter),
         pressures: &pressures,
         range: range(world, view),
         section,
         view,
-        ..Picture::default()
     };
     draw(&picture, camera, width, height)
 }

@@ -43,6 +43,27 @@ pub struct Body {
     pub motions: Vec<Motion>,
     /// Whether a fixed or kinematic body holds the sponge nodes that are inside it at time zero (a grip); default false.
     pub grip: bool,
+    /// How pictures show it; default `glass` for a kinematic body, which shows what it squeezes, else `solid`.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub look: Option<Look>,
+    /// Colour in pictures: linear red, green and blue. Range 0 to 1; default by the place in the list of bodies.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[cfg_attr(feature = "serde", schemars(with = "Option<[f32; 3]>"))]
+    pub colour: Option<Vec3>,
+}
+
+/// How pictures show a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Look {
+    /// Paint that hides what is behind.
+    #[default]
+    Solid,
+    /// Two thin shells without refraction, which show what the body squeezes.
+    Glass,
+    /// Edges and lines alone.
+    Wire,
 }
 
 impl Default for Body {
@@ -61,6 +82,8 @@ impl Default for Body {
             restitution: 0.1,
             motions: Vec::new(),
             grip: false,
+            look: None,
+            colour: None,
         }
     }
 }

@@ -79,6 +79,15 @@ pub struct Fluid {
     pub no_slip: bool,
     /// Fraction of the normal velocity that a collision with elastic walls and bodies removes. Range 0 to 1; default 0.1.
     pub repulsion_damping: f32,
+    /// Absorption of red, green and blue light in pictures. Range 0 to 100000 1/m; default (8, 2, 1.1), that of blue water in a small
+    /// tank.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[cfg_attr(feature = "serde", schemars(with = "Option<[f32; 3]>"))]
+    pub absorption: Option<Vec3>,
+    /// Colour of deep fluid in pictures: linear red, green and blue. Range 0 to 1; default (0.03, 0.17, 0.22).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[cfg_attr(feature = "serde", schemars(with = "Option<[f32; 3]>"))]
+    pub colour: Option<Vec3>,
     /// Blocks of water at time zero; they must not overlap.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub blocks: Vec<FluidBlock>,
@@ -106,6 +115,8 @@ impl Default for Fluid {
             surface_tension: 0.0,
             no_slip: false,
             repulsion_damping: 0.1,
+            absorption: None,
+            colour: None,
             blocks: Vec::new(),
         }
     }

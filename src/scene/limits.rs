@@ -128,6 +128,8 @@ pub(super) const FLUID: &[Row<Fluid>] = fields! { Fluid, "fluid.";
     artificial_viscosity: 0.0 to 1.0, "1";
     surface_tension: 0.0 to 10.0, "N/m";
     repulsion_damping: 0.0 to 1.0, "1";
+    absorption: 0.0 to 1e5, "1/m";
+    colour: 0.0 to 1.0, "1";
 };
 
 pub(super) const FLUID_BLOCK: &[Row<FluidBlock>] = fields! { FluidBlock, "fluid.blocks[].";
@@ -173,6 +175,7 @@ pub(super) const BODY: &[Row<Body>] = fields! { Body, "bodies[].";
     angular_velocity: -1000.0 to 1000.0, "rad/s";
     friction: 0.0 to 10.0, "1";
     restitution: 0.0 to 1.0, "1";
+    colour: 0.0 to 1.0, "1";
 };
 
 pub(super) const SHAPE: &[Row<ShapeKind>] = variants! { ShapeKind, "bodies[].shape.";

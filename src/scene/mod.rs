@@ -57,7 +57,7 @@ mod text;
 #[cfg(test)]
 mod tests;
 
-pub use bodies::{Body, Rotation, ShapeKind};
+pub use bodies::{Body, Look, Rotation, ShapeKind};
 pub use camera::Camera;
 pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};

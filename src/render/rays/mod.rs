@@ -16,6 +16,8 @@ mod screen;
 mod setting;
 mod shells;
 mod skin;
+#[cfg(test)]
+mod tests;
 mod tree;
 
 use super::camera::Raster;
