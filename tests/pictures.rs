@@ -4,7 +4,8 @@ use std::{path::PathBuf, sync::OnceLock};
 
 use sorb::{
     Options, SimdLevel, World,
-    render::{Camera, Image, View, draw_world},
+    glam::Vec3,
+    render::{Camera, Image, Steady, View, draw_world},
     scene,
 };
 
@@ -35,8 +36,10 @@ fn pressed() -> &'static World {
     WORLD.get_or_init(|| world(12, &Options::default()))
 }
 
+/// Of its own, so that scenes may have others.
 fn camera(world: &World) -> Camera {
-    world.scene().viewpoint().into()
+    let own = Camera::from(world.scene().viewpoint());
+    Camera { eye: Vec3::new(0.2, 0.26, 0.32), target: Vec3::new(0.0, 0.06, 0.0), ..own }
 }
 
 fn picture(world: &World, view: View) -> Image {
@@ -118,6 +121,19 @@ fn a_picture_does_not_depend_on_the_one_before() {
     let other = world(2, &Options::default());
     assert!(picture(&other, View::Realistic) != first);
     assert!(picture(pressed(), View::Realistic) == first);
+}
+
+#[test]
+fn steady_pictures_start_with_the_state_and_follow_it() {
+    let mut steady = Steady::default();
+    let (width, height) = SIZE;
+    let mut draw = |world: &World| steady.draw_world(world, &camera(world), View::Realistic, width, height);
+    assert!(draw(pressed()) == picture(pressed(), View::Realistic));
+    let moved = world(20, &Options::default());
+    let followed = draw(&moved);
+    assert!(difference(&followed, &picture(&moved, View::Realistic)) < 0.02);
+    // Negative control: it is not the picture before.
+    assert!(difference(&followed, &picture(pressed(), View::Realistic)) > 0.03);
 }
 
 #[test]

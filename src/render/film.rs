@@ -5,8 +5,8 @@ use super::{Image, RenderError};
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;
 use openh264::encoder::{
-    BitRate, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod, QpRange, RateControlMode,
-    VuiConfig,
+    BitRate, Complexity, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod, QpRange,
+    RateControlMode, VuiConfig,
 };
 use openh264::formats::{RgbSliceU8, YUVBuffer};
 use std::fs::File;
@@ -70,6 +70,7 @@ impl Film {
             .rate_control_mode(RateControlMode::Off)
             .qp(QpRange::new(14, 30))
             .skip_frames(false)
+            .complexity(Complexity::Low)
             // One thread, so that the same pictures give the same file.
             .num_threads(1)
             .intra_frame_period(IntraFramePeriod::from_num_frames((WHOLE * rate).ceil().max(1.0) as u32))

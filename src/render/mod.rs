@@ -17,6 +17,7 @@ mod section;
 mod shapes;
 mod sponge;
 mod stage;
+mod steady;
 mod water;
 mod world;
 
@@ -26,6 +27,7 @@ pub use error::RenderError;
 #[cfg(feature = "film")]
 pub use film::Film;
 pub use image::Image;
+pub use steady::Steady;
 pub use world::draw_world;
 
 pub use crate::scene::Look;

@@ -10,6 +10,18 @@ use crate::{World, glam::Vec3};
 /// Looks and colours are those of the scene. Take `world.scene().viewpoint().into()` for its camera.
 #[must_use]
 pub fn draw_world(world: &World, camera: &Camera, view: View, width: u32, height: u32) -> Image {
+    let positions = (world.particle_positions(), world.node_positions());
+    draw_positions(world, positions, camera, view, (width, height))
+}
+
+/// Draws a world with its particles and nodes at other positions.
+pub(super) fn draw_positions(
+    world: &World,
+    (particles, nodes): (&[[f32; 4]], &[[f32; 4]]),
+    camera: &Camera,
+    view: View,
+    (width, height): (u32, u32),
+) -> Image {
     let bodies: Vec<DrawnBody<'_>> = world
         .bodies()
         .iter()
@@ -31,11 +43,11 @@ pub fn draw_world(world: &World, camera: &Camera, view: View, width: u32, height
     let halves = section.map(|plane| section::behind(world, plane));
     let (fluid, water) = (world.scene().fluid.as_ref(), Picture::default());
     let picture = Picture {
-        particles: world.particle_positions(),
+        particles,
         velocities: world.particle_velocities(),
         particle_radius: 0.5 * world.params.fluid.spacing,
         interior: &world.columns().fluid.interior,
-        nodes: world.node_positions(),
+        nodes,
         wetness: &wetness,
         rest: &world.lattice().position,
         triangles: halves.as_ref().unwrap_or(&world.lattice().triangles),

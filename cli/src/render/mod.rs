@@ -10,7 +10,10 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sorb::{World, render};
+use sorb::{
+    World,
+    render::{self, Steady},
+};
 
 use crate::{
     choice::Changes,
@@ -81,12 +84,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let size = (arguments.picture.size.0, arguments.picture.size.1);
     let mut sink = Sink::create(&path, size, plan.rate, plan.count)?;
     let bar = progress(&path.display().to_string(), plan.count, arguments.quiet);
-    let mut count = 0;
+    let (mut count, view) = (0, arguments.picture.view.into());
+    let mut steady = arguments.picture.steady.then(Steady::default);
     source.play(&options, &plan, &mut |world: &World, time: f32| {
         let flight = Flight::new(world.scene().viewpoint().into(), arguments.keys.clone(), arguments.orbit);
         let share = count as f32 / (plan.count.max(2) - 1) as f32;
         let camera = flight.at(time, share);
-        sink.append(&render::draw_world(world, &camera, arguments.picture.view.into(), size.0, size.1))?;
+        let image = match &mut steady {
+            Some(steady) => steady.draw_world(world, &camera, view, size.0, size.1),
+            None => render::draw_world(world, &camera, view, size.0, size.1),
+        };
+        sink.append(&image)?;
         count += 1;
         bar.inc(1);
         Ok(())

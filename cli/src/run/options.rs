@@ -104,6 +104,9 @@ pub(crate) struct Picture {
     /// What the pictures show
     #[arg(long, value_name = "VIEW", default_value = "realistic")]
     pub(crate) view: ViewName,
+    /// Follows small motions slowly, so that what is at rest does not flicker; a picture then depends on those before it
+    #[arg(long)]
+    pub(crate) steady: bool,
 }
 
 impl Length {

@@ -4,7 +4,7 @@ use std::{fs, ops::RangeInclusive, path::PathBuf, thread};
 
 use sorb::{
     World,
-    render::{self, Camera, View},
+    render::{self, Camera, Steady, View},
     scene::Scene,
 };
 
@@ -18,6 +18,7 @@ pub(crate) struct Pictures {
     sinks: Vec<Sink>,
     camera: Camera,
     view: View,
+    steady: Option<Steady>,
     size: (u32, u32),
     /// Simulated frames from one picture to the next.
     every: usize,
@@ -57,6 +58,7 @@ impl Pictures {
             sinks,
             camera: scene.viewpoint().into(),
             view: drawing.picture.view.into(),
+            steady: drawing.picture.steady.then(Steady::default),
             size,
             every: every as usize,
         })
@@ -70,7 +72,10 @@ impl Pictures {
         if !frame.is_multiple_of(self.every) {
             return Ok(());
         }
-        let image = render::draw_world(world, &self.camera, self.view, self.size.0, self.size.1);
+        let image = match &mut self.steady {
+            Some(steady) => steady.draw_world(world, &self.camera, self.view, self.size.0, self.size.1),
+            None => render::draw_world(world, &self.camera, self.view, self.size.0, self.size.1),
+        };
         let path = self.frames.join(format!("{:05}.png", frame / self.every));
         let (image, sinks) = (&image, &mut self.sinks);
         // Each file on a thread of its own: none of the formats is written on more than one.

@@ -233,7 +233,7 @@ impl Setting<'_> {
             let cosine = path.direction.dot(normal);
             let slant = 1.0 - cosine.abs();
             let slant = slant * slant;
-            let share = 0.05 * (0.5 + 5.0 * slant * slant);
+            let share = 0.035 * (0.5 + 4.0 * slant * slant);
             // The near pane mirrors the room, the far pane the inside of the container.
             let seen =
                 if cosine < 0.0 { room::light(reflect(path.direction, normal)) } else { Vec3::splat(0.55) };

@@ -1,10 +1,16 @@
 //! Share of a neighbourhood that solids leave free. The density over it shows no gap where water meets a solid.
 
+use super::density::THIN;
 use super::grid::Grid;
 use super::kernels::REACH;
 use crate::render::{shapes::Solid, sponge::Surface};
 use glam::Vec3;
 use std::ops::Range;
+
+/// Columns that are looked at together; rows of a grid are multiples of it.
+const EIGHT: usize = 8;
+/// Side of the piece of surface that a surfel stands for, at most (spacings).
+const PIECE: f32 = 2.0;
 
 /// A piece of the surface of a sponge.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +34,7 @@ pub(super) fn share(distance: f32) -> f32 {
     0.5 + 1.230_468_8 * x * (1.0 + y * (-4.0 / 3.0 + y * (1.2 + y * (-4.0 / 7.0 + y / 9.0))))
 }
 
-/// Pieces of the surface of a sponge, at most about a spacing apart.
+/// Pieces of the surface of a sponge, at most about two spacings apart.
 pub(super) fn surfels(sponge: &Surface, spacing: f32) -> Vec<Surfel> {
     let mut surfels = Vec::new();
     for (_, corners) in &sponge.triangles {
@@ -36,7 +42,7 @@ pub(super) fn surfels(sponge: &Surface, spacing: f32) -> Vec<Surfel> {
         let (e, f) = (b - a, c - a);
         let cross = e.cross(f);
         let normal = cross.normalize_or_zero();
-        let parts = ((cross.length() * 0.5).sqrt() / spacing).ceil().clamp(1.0, 4.0);
+        let parts = ((cross.length() * 0.5).sqrt() / (PIECE * spacing)).ceil().clamp(1.0, 4.0);
         let count = parts as usize;
         for i in 0..count {
             for j in 0..count - i {
@@ -65,8 +71,8 @@ impl<'a> Distances<'a> {
     pub(super) fn new(
         grid: &Grid,
         layers: Range<usize>,
-        surfels: impl ExactSizeIterator<Item = Surfel>,
-        bodies: &'a [Solid<'a>],
+        (surfels, bodies): (impl ExactSizeIterator<Item = Surfel>, &'a [Solid<'a>]),
+        densities: &[f32],
         spacing: f32,
     ) -> Self {
         let reach = REACH * spacing;
@@ -78,7 +84,8 @@ impl<'a> Distances<'a> {
                     && (solid.position - solid.radius).cmplt(high).all())
         };
         let bodies = bodies.iter().filter(near).collect();
-        let sponge = if surfels.len() == 0 { Vec::new() } else { nearest(grid, layers, surfels, reach) };
+        let sponge =
+            if surfels.len() == 0 { Vec::new() } else { nearest(grid, layers, surfels, densities, reach) };
         Self { sponge, bodies, reach }
     }
 
@@ -101,19 +108,34 @@ impl<'a> Distances<'a> {
 }
 
 /// Mean distance from the planes of the surfels around.
-fn nearest(grid: &Grid, layers: Range<usize>, surfels: impl Iterator<Item = Surfel>, reach: f32) -> Vec<f32> {
+fn nearest(
+    grid: &Grid,
+    layers: Range<usize>,
+    surfels: impl Iterator<Item = Surfel>,
+    densities: &[f32],
+    reach: f32,
+) -> Vec<f32> {
+    // Nodes without water need no distance.
+    let wet: Vec<bool> = densities
+        .as_chunks::<EIGHT>()
+        .0
+        .iter()
+        .map(|eight| eight.iter().any(|density| *density > THIN))
+        .collect();
     let mut sums = vec![[0.0_f32; 2]; layers.len() * grid.layer()];
     let scale = 1.0 / (reach * reach);
     for Surfel { centre, normal } in surfels {
         grid.rows(centre, Vec3::splat(reach), layers.clone(), |y, z, x0, x1| {
-            let place = grid.node(x0, y, z + layers.start) - centre;
             let row = (z * grid.sides[1] + y) * grid.sides[0];
-            for (n, [sum, weights]) in sums[row + x0..row + x1].iter_mut().enumerate() {
-                let r = place + Vec3::X * (n as f32 * grid.cell.x);
-                let weight = (1.0 - r.length_squared() * scale).max(0.0);
-                let weight = weight * weight * weight * weight;
-                *sum += weight * r.dot(normal);
-                *weights += weight;
+            for x in (x0..x1).step_by(EIGHT).filter(|x| wet[(row + x) / EIGHT]) {
+                let place = grid.node(x, y, z + layers.start) - centre;
+                for (n, [sum, weights]) in sums[row + x..row + x + EIGHT].iter_mut().enumerate() {
+                    let r = place + Vec3::X * (n as f32 * grid.cell.x);
+                    let weight = (1.0 - r.length_squared() * scale).max(0.0);
+                    let weight = weight * weight * weight * weight;
+                    *sum += weight * r.dot(normal);
+                    *weights += weight;
+                }
             }
         });
     }

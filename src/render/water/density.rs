@@ -9,6 +9,8 @@ use crate::render::{bands, shapes::Solid};
 pub(super) const LEVEL: f32 = 0.5;
 /// Largest density; what is deep in the water does not matter.
 const LARGEST: f32 = 1.5;
+/// Density below which there is no surface, whatever the free share.
+pub(super) const THIN: f32 = 0.02;
 /// Smallest free share that a density is divided by.
 const LEAST_FREE: f32 = 0.12;
 
@@ -41,13 +43,13 @@ pub(super) fn density(
             add(grid, layers.start, kernel, values);
         }
         let pieces = around[slab].iter().map(|index| surfels[*index as usize]);
-        let distances = Distances::new(grid, layers.clone(), pieces, bodies, spacing);
+        let distances = Distances::new(grid, layers.clone(), (pieces, bodies), values, spacing);
         if distances.are_free() {
             values.iter_mut().for_each(|value| *value = value.min(LARGEST) - LEVEL);
             return;
         }
         for (node, value) in values.iter_mut().enumerate() {
-            if *value > 0.02 {
+            if *value > THIN {
                 let (x, row) = (node % grid.sides[0], node / grid.sides[0]);
                 let place = grid.node(x, row % grid.sides[1], row / grid.sides[1] + layers.start);
                 *value /= distances.free(node, place).max(LEAST_FREE);
@@ -66,6 +68,10 @@ fn add(grid: &Grid, first: usize, kernel: &Kernel, values: &mut [f32]) {
         let r = grid.node(x0, y, z + first) - kernel.centre;
         let slope = 2.0 * (xy * r.y + xz * r.z);
         let rest = 1.0 - (yy * r.y * r.y + zz * r.z * r.z + 2.0 * yz * r.y * r.z);
+        // Its largest value on the whole row.
+        if 4.0 * xx * rest + slope * slope <= 0.0 {
+            return;
+        }
         let row = (z * grid.sides[1] + y) * grid.sides[0];
         for (n, lanes) in values[row + x0..row + x1].as_chunks_mut::<8>().0.iter_mut().enumerate() {
             for (lane, value) in lanes.iter_mut().enumerate() {
