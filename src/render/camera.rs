@@ -115,4 +115,16 @@ impl Raster {
             (0.5 * self.height as f32 - y - 0.5) * self.inverse_focal,
         )
     }
+
+    /// The same view with samples that are so many pixels wide and high.
+    pub(super) fn coarser(&self, pixels: usize) -> Self {
+        let scale = pixels as f32;
+        Self {
+            focal: self.focal / scale,
+            inverse_focal: self.inverse_focal * scale,
+            width: self.width.div_ceil(pixels),
+            height: self.height.div_ceil(pixels),
+            ..*self
+        }
+    }
 }

@@ -86,20 +86,25 @@ impl Setting<'_> {
     /// Paint with a clear coat.
     fn painted(&self, index: usize, normal: Vec3, arrival: &Arrival) -> Vec3 {
         let body = self.body(index);
-        let diffuse = self.matt(body.colour(), normal, arrival);
         if body.is_plane() {
-            return diffuse;
+            let ground = self.matt(body.own_colour().unwrap_or(FLOOR), normal, arrival);
+            return ground.lerp(FAR, self.fade(arrival.point));
         }
+        let diffuse = self.matt(body.colour(), normal, arrival);
         let mirrored = reflect(arrival.direction, normal);
         let dim = if mirrored.y < 0.0 { 0.72 } else { 0.9 };
         let share = schlick(0.04, -arrival.direction.dot(normal)) * if arrival.wet { 0.1 } else { 1.0 };
         diffuse * (1.0 - share) + room::light(mirrored) * (share * dim)
     }
 
+    /// How much a place of the ground looks as it does far away, 0 to 1.
+    fn fade(&self, point: Vec3) -> f32 {
+        smooth(1.1 * self.size, 4.4 * self.size, (point - self.centre).length())
+    }
+
     fn floor(&self, arrival: &Arrival, signature: &mut Signature) -> Vec3 {
         let (point, direction) = (arrival.point, arrival.direction);
-        let size = self.size;
-        let fade = smooth(1.1 * size, 4.4 * size, (point - self.centre).length());
+        let fade = self.fade(point);
         let width = arrival.way * self.pixel / (-direction.y).max(0.05);
         let albedo = FLOOR * (1.0 + (self.tiles(point, width, signature) - 1.0) * (1.0 - fade));
         let arriving = self.ground.arriving(point);

@@ -16,25 +16,38 @@ const BALL: f32 = 0.62;
 const FILLING: f32 = 1.0;
 /// Rows of a task.
 const BAND: usize = 16;
-/// The filter: reach along a row, in spacings and in pixels, and the range of depths that mix, in spacings.
+/// The filter: reach along a row, in spacings and in samples, and the range of depths that mix, in spacings.
 const REACH: f32 = 1.6;
-const MOST_PIXELS: f32 = 14.0;
+const MOST_SAMPLES: f32 = 8.0;
 const RANGE: f32 = 2.5;
 /// What is farther behind counts as this far behind, in spacings.
 const BEHIND: f32 = 0.5;
 /// Passes of the filter, each along rows and along columns.
 const PASSES: usize = 2;
 
-/// Water on the picture.
+/// Pixels of the picture along a side of a sample of the screen.
+const COARSE: usize = 2;
+
+/// Water on the picture, at a part of its resolution.
 #[derive(Debug)]
 pub(super) struct Screen {
+    raster: Raster,
     width: usize,
     height: usize,
     /// Depth along the line of sight of the eye (m), infinite without water.
     depth: Vec<f32>,
     /// Length of water along the ray (m).
     thickness: Vec<f32>,
+    /// Normal against the eye, in the axes of the raster.
+    normal: Vec<Vec3>,
     spacing: f32,
+}
+
+/// The surface of the water on a ray.
+struct Seen {
+    depth: f32,
+    thickness: f32,
+    normal: Vec3,
 }
 
 /// A ball on the raster.
@@ -47,11 +60,11 @@ struct Disc {
 impl Screen {
     /// The free water as the raster sees it.
     pub(super) fn new(stage: &Stage<'_>) -> Self {
-        let raster = &stage.raster;
+        let raster = stage.raster.coarser(COARSE);
         let (width, height, spacing) = (raster.width, raster.height, 2.0 * stage.radius);
         let radius = BALL * spacing;
         let free = stage.particles.iter().filter(|(index, _)| stage.interior(*index) < 0.7);
-        let discs: Vec<Disc> = free.filter_map(|(_, place)| disc(raster, *place, radius)).collect();
+        let discs: Vec<Disc> = free.filter_map(|(_, place)| disc(&raster, *place, radius)).collect();
         let mut bins = vec![Vec::new(); height.div_ceil(BAND)];
         for (index, disc) in discs.iter().enumerate() {
             for bin in &mut bins[disc.rows.start / BAND..=(disc.rows.end - 1) / BAND] {
@@ -64,22 +77,24 @@ impl Screen {
             depth.chunks_mut(BAND * width).zip(thickness.chunks_mut(BAND * width)).enumerate().collect();
         bands::each(jobs, |(band, (depth, thickness)): (usize, (&mut [f32], &mut [f32]))| {
             for index in &bins[band] {
-                splat(raster, &discs[*index as usize], radius, band * BAND, depth, thickness);
+                splat(&raster, &discs[*index as usize], radius, band * BAND, depth, thickness);
             }
         });
-        let mut screen = Self { width, height, depth, thickness, spacing };
+        let mut screen = Self { raster, width, height, depth, thickness, normal: Vec::new(), spacing };
         for _ in 0..PASSES {
-            screen.even_out(raster, true);
-            screen.even_out(raster, false);
+            screen.even_out(true);
+            screen.even_out(false);
         }
+        let rows = bands::map(height, |y| (0..width).map(|x| screen.slope(x, y)).collect::<Vec<_>>());
+        screen.normal = rows.into_iter().flatten().collect();
         screen
     }
 
     /// One pass of the filter along rows or columns.
-    fn even_out(&mut self, raster: &Raster, sideways: bool) {
+    fn even_out(&mut self, sideways: bool) {
         let (width, height) = (self.width, self.height);
         let (near, behind) = (RANGE * self.spacing, BEHIND * self.spacing);
-        let scale = REACH * self.spacing * raster.focal;
+        let scale = REACH * self.spacing * self.raster.focal;
         let (depth, thickness) = (&self.depth, &self.thickness);
         let mut result: Vec<(f32, f32)> = vec![(f32::INFINITY, 0.0); width * height];
         bands::each_band(&mut result, width, BAND, |first, band| {
@@ -90,7 +105,7 @@ impl Screen {
                 if here == f32::INFINITY {
                     continue;
                 }
-                let reach = (scale / here).clamp(1.0, MOST_PIXELS);
+                let reach = (scale / here).clamp(1.0, MOST_SAMPLES);
                 let taps = reach as usize;
                 let (at, limit, stride) = if sideways { (x, width, 1) } else { (y, height, width) };
                 // As far to one side as to the other, or a slope would shrink.
@@ -115,24 +130,22 @@ impl Screen {
         (self.depth, self.thickness) = result.into_iter().unzip();
     }
 
-    /// Depth, thickness and normal at a place in pixels; nothing without water.
-    fn at(&self, raster: &Raster, x: f32, y: f32) -> Option<(f32, f32, Vec3)> {
-        let (x, y) = ((x as usize).min(self.width - 1), (y as usize).min(self.height - 1));
-        let own = y * self.width + x;
-        let here = self.depth[own];
+    /// Normal of a sample, in the axes of the raster.
+    fn slope(&self, x: usize, y: usize) -> Vec3 {
+        let here = self.depth[y * self.width + x];
         if here == f32::INFINITY {
-            return None;
+            return Vec3::NEG_Z;
         }
         let place = |x: usize, y: usize| {
-            let (right, up) = raster.slopes(x as f32, y as f32);
+            let (right, up) = self.raster.slopes(x as f32, y as f32);
             Vec3::new(right, up, 1.0) * self.depth[y * self.width + x]
         };
-        // Differences to the neighbour that is nearer in depth, on the same sheet.
-        let slope = |before: Option<(usize, usize)>, after: Option<(usize, usize)>| {
+        let own = place(x, y);
+        // Between neighbours on the same sheet.
+        let difference = |before: Option<(usize, usize)>, after: Option<(usize, usize)>| {
             let sheet = |at: Option<(usize, usize)>| {
                 at.filter(|(x, y)| (self.depth[y * self.width + x] - here).abs() < self.spacing)
             };
-            let own = place(x, y);
             match (sheet(before), sheet(after)) {
                 (Some(a), Some(b)) => place(b.0, b.1) - place(a.0, a.1),
                 (Some(a), None) => own - place(a.0, a.1),
@@ -140,12 +153,47 @@ impl Screen {
                 (None, None) => Vec3::ZERO,
             }
         };
-        let across = slope((x > 0).then(|| (x - 1, y)), (x + 1 < self.width).then(|| (x + 1, y)));
-        let down = slope((y > 0).then(|| (x, y - 1)), (y + 1 < self.height).then(|| (x, y + 1)));
-        let local = down.cross(across).normalize_or(Vec3::NEG_Z);
-        let local = if local.z > 0.0 { -local } else { local };
-        let normal = raster.right * local.x + raster.up * local.y + raster.forward * local.z;
-        Some((here, self.thickness[own], normal))
+        let across = difference((x > 0).then(|| (x - 1, y)), (x + 1 < self.width).then(|| (x + 1, y)));
+        let down = difference((y > 0).then(|| (x, y - 1)), (y + 1 < self.height).then(|| (x, y + 1)));
+        let normal = down.cross(across).normalize_or(Vec3::NEG_Z);
+        if normal.z > 0.0 { -normal } else { normal }
+    }
+
+    /// The water at a place in pixels of the picture, between the four samples around it; nothing without water.
+    fn at(&self, x: f32, y: f32) -> Option<Seen> {
+        let at = |place: f32, limit: usize| {
+            let place = (place / COARSE as f32 - 0.5).clamp(0.0, limit as f32 - 1.0);
+            let first = place as usize;
+            (first, (first + 1).min(limit - 1), place - first as f32)
+        };
+        let ((x0, x1, fx), (y0, y1, fy)) = (at(x, self.width), at(y, self.height));
+        let samples = [
+            (y0 * self.width + x0, (1.0 - fx) * (1.0 - fy)),
+            (y0 * self.width + x1, fx * (1.0 - fy)),
+            (y1 * self.width + x0, (1.0 - fx) * fy),
+            (y1 * self.width + x1, fx * fy),
+        ];
+        let nearest = samples.iter().map(|(index, _)| self.depth[*index]).fold(f32::INFINITY, f32::min);
+        let (mut depth, mut thickness, mut normal, mut total) = (0.0, 0.0, Vec3::ZERO, 0.0);
+        for (index, weight) in samples {
+            // Of the nearest sheet alone.
+            if self.depth[index] < nearest + self.spacing {
+                depth += weight * self.depth[index];
+                thickness += weight * self.thickness[index];
+                normal += self.normal[index] * weight;
+                total += weight;
+            }
+        }
+        if total < 0.5 {
+            return None;
+        }
+        let raster = &self.raster;
+        let normal = raster.right * normal.x + raster.up * normal.y + raster.forward * normal.z;
+        Some(Seen {
+            depth: depth / total,
+            thickness: thickness / total,
+            normal: normal.normalize_or(-raster.forward),
+        })
     }
 }
 
@@ -198,7 +246,7 @@ impl Setting<'_> {
     ) -> (Vec3, Signature) {
         let raster = &self.stage.raster;
         let origin = raster.eye;
-        let found = screen.at(raster, x, y).and_then(|(depth, thickness, normal)| {
+        let found = screen.at(x, y).and_then(|Seen { depth, thickness, normal }| {
             let mut distance = depth / direction.dot(raster.forward).max(1e-3);
             let mut normal = normal;
             if let Some((low, high)) = self.stage.container {
