@@ -10,7 +10,7 @@ use super::{busy, common, world};
 const FRAMES: u32 = 12;
 
 fn picture(world: &World) -> Image {
-    draw_world(world, &world.scene().viewpoint().into(), View::default(), 320, 180)
+    draw_world(world, &world.scene().viewpoint().into(), View::Particles, 320, 180)
 }
 
 /// Share of the pixels that differ by more than 8 of 255 in a channel.

@@ -50,7 +50,7 @@ pub(crate) struct Size(pub(crate) u32, pub(crate) u32);
 pub(crate) enum ViewName {
     /// Rays from the eye: refraction, reflection, absorption and soft shadows
     Realistic,
-    /// Surfaces by the depth of the particles, which takes a quarter of the time
+    /// Surfaces by the depth of the particles, in about half of the time
     Fast,
     /// Particles of the water
     Particles,
