@@ -35,7 +35,7 @@ pub use crate::scene::Look;
 use crate::rigid::{BodyState, Shape};
 use glam::Vec3;
 
-/// What a picture shows. Figure 1 of the paper ([docs/references.md](https://docs.rs/sorb)) has the views a to d.
+/// What a picture shows. Figure 1 of the paper has the views a to d.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
     /// Rays from the eye: refraction, reflection, absorption and soft shadows (the default; the paper's figure 1 d).

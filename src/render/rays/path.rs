@@ -194,7 +194,7 @@ impl Setting<'_> {
             let point = path.at(distance);
             let cosine = (-path.direction.dot(normal)).clamp(0.0, 1.0);
             let slant = (1.0 - cosine) * (1.0 - cosine);
-            let mut share = if shell == 0 { 1.0 } else { 0.45 } * if path.wet { 0.45 } else { 1.0 };
+            let mut share = if shell == 0 { 1.0 } else { 0.45 } * if path.wet { 0.8 } else { 1.0 };
             share *= if wire { 0.0 } else { 0.045 + 0.9 * slant * slant };
             let line = 0.004 * body.radius.min(0.3 * self.size).max(0.05 * self.size);
             let gap = if wire { body.wire_distance(point) } else { body.edge_distance(point) };

@@ -17,6 +17,8 @@ use glam::Vec3;
 const FILM_ON_SPONGE: (f32, f32) = (1.1, 2.4);
 /// The same over the floor.
 const FILM_ON_FLOOR: (f32, f32) = (0.2, 0.5);
+/// A narrower gap between water and a solid is water, in spacings.
+const GAP: f32 = 1.0;
 /// Nearer things belong to the place where a ray starts (m).
 pub(super) const NEAR: f32 = 1e-6;
 
@@ -251,7 +253,12 @@ impl<'a> Setting<'a> {
         direction: Vec3,
         (end, leave, limit): (f32, f32, f32),
     ) -> Option<Event> {
-        if let Some(distance) = field.march(origin, direction, (0.0, end), true) {
+        let found = field.march(origin, direction, (0.0, end), true);
+        // Particles keep away from solids: what is between them and the solid is no air.
+        if found.is_some_and(|distance| limit - distance < GAP * field.spacing) {
+            return None;
+        }
+        if let Some(distance) = found {
             let normal = -field.normal(origin + direction * distance);
             return Some(Event::Surface(distance, Face::free(normal, direction, 1.0)));
         }
