@@ -7,7 +7,7 @@ use crate::{
     pick,
 };
 
-/// Coarse: `tests/scenes.rs` runs the scenes at half the resolution of the library.
+/// Coarse: `tests/scenes` runs the scenes at half the resolution of the library.
 const RESOLUTION: f32 = 0.4;
 
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
