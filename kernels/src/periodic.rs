@@ -43,6 +43,14 @@ impl Periodic {
         (self.low, self.high)
     }
 
+    /// A difference of two places in the box, with the nearest image of the second.
+    #[must_use]
+    pub(crate) fn nearest(&self, apart: Vec3) -> Vec3 {
+        let periods = self.periods();
+        let across = apart.abs().cmpgt(self.halves());
+        Vec3::select(across, apart - periods * apart.signum(), apart)
+    }
+
     /// `point` with the middle of the box along periodic axes.
     #[must_use]
     pub(crate) fn centred(&self, point: Vec3) -> Vec3 {

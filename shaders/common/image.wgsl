@@ -2,7 +2,7 @@
 
 // -1 along the axes whose walls mirror an image, else 1.
 fn signs_of(image: Image) -> vec3<f32> {
-    let bits = (vec3<u32>(image.walls) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
+    let bits = (vec3<u32>(image.axes) >> vec3<u32>(0u, 1u, 2u)) & vec3<u32>(1u);
     return 1.0 - 2.0 * vec3<f32>(bits);
 }
 

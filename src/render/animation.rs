@@ -76,14 +76,7 @@ impl Animation {
     /// # Errors
     /// [`RenderError`] when the image has another size than the animation or the file cannot be written.
     pub fn append(&mut self, image: &Image) -> Result<(), RenderError> {
-        if (image.width, image.height) != (self.width, self.height) {
-            return Err(RenderError::FrameSize {
-                path: self.path.clone(),
-                expected: (self.width, self.height),
-                found: (image.width, image.height),
-            });
-        }
-        image.check(&self.path)?;
+        image.check_frame(&self.path, (self.width, self.height))?;
         let patch = if self.frames == 0 { Patch::whole(image) } else { Patch::changes(image, &self.canvas) };
         let data = patch.compress().map_err(|source| RenderError::encode(&self.path, source))?;
         self.frame(&patch, &data).map_err(|source| RenderError::write(&self.path, source))?;

@@ -98,14 +98,7 @@ impl Film {
     /// # Errors
     /// [`RenderError`] when the image has another size than the film, or when the file cannot be written.
     pub fn append(&mut self, image: &Image) -> Result<(), RenderError> {
-        if (image.width, image.height) != (self.width, self.height) {
-            return Err(RenderError::FrameSize {
-                path: self.path.clone(),
-                expected: (self.width, self.height),
-                found: (image.width, image.height),
-            });
-        }
-        image.check(&self.path)?;
+        image.check_frame(&self.path, (self.width, self.height))?;
         let (width, height) = ((self.width & !1) as usize, (self.height & !1) as usize);
         let row = 3 * self.width as usize;
         let cut: Vec<u8>;

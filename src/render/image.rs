@@ -38,6 +38,15 @@ impl Image {
         buffer.flush().map_err(|source| RenderError::write(path, source))
     }
 
+    /// Refuses images of another size than the frames of a film before.
+    pub(super) fn check_frame(&self, path: &Path, expected: (u32, u32)) -> Result<(), RenderError> {
+        let found = (self.width, self.height);
+        if found != expected {
+            return Err(RenderError::FrameSize { path: path.to_owned(), expected, found });
+        }
+        self.check(path)
+    }
+
     /// Refuses images that a PNG file cannot hold.
     pub(super) fn check(&self, path: &Path) -> Result<(), RenderError> {
         check_size(path, self.width, self.height)?;

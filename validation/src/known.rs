@@ -90,12 +90,8 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "10 layers",
         "the damping of noise between neighbours: it falls with the square of the spacing",
     ),
-    miss(
-        "slope",
-        "divergence",
-        "",
-        "water around the ribs moves by some millimetres a second, in either direction",
-    ),
+    miss("slope", "divergence", "speed at a stress of 0.5", RIBS),
+    miss("slope", "divergence", "resisting stress", RIBS),
     miss(
         "floating",
         "divergence",
@@ -188,6 +184,7 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     ),
 ];
 
+const RIBS: &str = "water around the ribs moves by some millimetres a second, in either direction";
 const EDGES: &str =
     "friction at the edges of cuboids, about a hundredth of the weight of the water displaced; cause unknown";
 const LIGHT: &str = "particles have the mass with which a lattice sums up to rest density: 3.3 % too little at a support of two spacings";

@@ -83,7 +83,7 @@ impl Images {
                 let mut at = 0;
                 sources.visit(row, |image| {
                     places[at] = place(&image, sources.params);
-                    lifts[at] = lift(&image, particle, gravity);
+                    lifts[at] = lift((image.body, image.axes), image.position, particle, gravity);
                     (axes[at], body[at]) = (image.axes, image.body);
                     at += 1;
                 });
@@ -123,7 +123,8 @@ impl Images {
         let gravity = along_open_axes(params);
         for (at, (source, image)) in found.iter().enumerate() {
             self.position[at] = place(image, params);
-            self.lift[at] = lift(image, &particles[*source as usize], gravity);
+            let particle = &particles[*source as usize];
+            self.lift[at] = lift((image.body, image.axes), image.position, particle, gravity);
             (self.axes[at], self.source[at], self.body[at]) = (image.axes, *source, image.body);
             if self.has_bodies {
                 [self.foot[at], self.along[at], self.between[at], self.in_bodies[at]] = map(image, params);
@@ -190,14 +191,14 @@ fn place(image: &Image, params: &Params) -> [f32; 4] {
     place
 }
 
-/// The row of `Images::lift` of an image.
-fn lift(image: &Image, [x, y, z, _]: &[f32; 4], gravity: Vec3) -> [f32; 4] {
-    if image.body != NO_BODY {
-        return [0.0, 0.0, 0.0, -0.5 * gravity.dot(image.position - Vec3::new(*x, *y, *z))];
+/// The row of `Images::lift` of an image in a body and by the walls along the axes, with its place and that of its particle.
+pub(crate) fn lift((body, axes): (u32, u32), place: Vec3, particle: &[f32; 4], gravity: Vec3) -> [f32; 4] {
+    let particle = Vec3::new(particle[0], particle[1], particle[2]);
+    if body != NO_BODY {
+        return [0.0, 0.0, 0.0, -0.5 * gravity.dot(place - particle)];
     }
-    let signs = signs(image.axes);
-    let walls = image.position - signs * image.mirrored.position;
-    (0.5 * (signs - 1.0) * gravity).extend(0.5 * gravity.dot(walls)).to_array()
+    let signs = signs(axes);
+    (0.5 * (signs - 1.0) * gravity).extend(0.5 * gravity.dot(place - signs * particle)).to_array()
 }
 
 /// Position in the body, map along and between the axes, and the place of an image in a body.

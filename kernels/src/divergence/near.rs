@@ -4,6 +4,8 @@
 //! the wall instead of by their difference. Images in walls are therefore found among the neighbours, without a search. Images in
 //! bodies can be nearer than their particle, and are searched for.
 
+use glam::Vec3;
+
 use super::{
     image_rows::{Images, NO_BODY},
     walls::{MIRRORS, NearWalls, mirrors_of, rank},
@@ -154,15 +156,9 @@ impl Seekers<'_> {
 
     fn value(&self, point: &[f32; 4], image: &[f32; 4]) -> f32 {
         let fluid = &self.params.fluid;
-        let periods = self.params.periodic.map_or(glam::Vec3::ZERO, |periodic| periodic.periods());
-        let mut square = 0.0;
-        for axis in 0..3 {
-            let apart = (point[axis] - image[axis]).abs();
-            let is_across = periods[axis] > 0.0 && 2.0 * apart > periods[axis];
-            let apart = if is_across { periods[axis] - apart } else { apart };
-            square += apart * apart;
-        }
-        image[3] * (fluid.rest_volume() * fluid.smoothing.gradient_at(square.sqrt()))
+        let apart = Vec3::new(point[0] - image[0], point[1] - image[1], point[2] - image[2]);
+        let apart = self.params.periodic.map_or(apart, |periodic| periodic.nearest(apart));
+        image[3] * (fluid.rest_volume() * fluid.smoothing.gradient_at(apart.length()))
     }
 }
 

@@ -15,7 +15,10 @@ use super::{
 use crate::{
     column::{FAR_ROW, padded},
     columns::{Columns, Fluid, RowCounts},
-    divergence::image_rows::{Images, NO_BODY, along_open_axes, signs},
+    divergence::{
+        collect::lift,
+        image_rows::{Images, NO_BODY, along_open_axes},
+    },
     grid::{
         cells::Domain,
         neighbors::{ListValues, Neighbors},
@@ -38,7 +41,7 @@ layout! {
         /// yz, zx, xy.
         between: [f32; 3],
         /// Axes whose walls mirror it, a bit each.
-        walls: u32,
+        axes: u32,
     }
 }
 
@@ -189,20 +192,14 @@ impl Resident {
         *found = Images { position: position[..count].to_vec(), ..Images::default() };
         let gravity = along_open_axes(&self.params);
         for (words, at) in images.chunks_exact(DeviceImage::WORDS).zip(&position[..count]) {
-            let DeviceImage { foot, source, along, body, between, walls } = DeviceImage::take(words);
+            let DeviceImage { foot, source, along, body, between, axes } = DeviceImage::take(words);
             let row = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
             found.foot.push(row(foot, 0.0));
             found.along.push(row(along, 0.0));
             found.between.push(row(between, 0.0));
             let vector = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
-            let (signs, of) = (signs(walls), vector(&points[source as usize]));
-            found.lift.push(if body == NO_BODY {
-                let walls = vector(at) - signs * of;
-                row((0.5 * (signs - 1.0) * gravity).to_array(), 0.5 * gravity.dot(walls))
-            } else {
-                [0.0, 0.0, 0.0, -0.5 * gravity.dot(vector(at) - of)]
-            });
-            found.axes.push(walls);
+            found.lift.push(lift((body, axes), vector(at), &points[source as usize], gravity));
+            found.axes.push(axes);
             found.source.push(source);
             found.body.push(body);
         }
@@ -243,7 +240,7 @@ fn device_image(fluid: &Fluid, image: usize) -> DeviceImage {
         along: of_body(&images.along, [1.0; 4]),
         body: images.body[image],
         between: of_body(&images.between, [0.0; 4]),
-        walls: images.axes[image],
+        axes: images.axes[image],
     }
 }
 
@@ -255,14 +252,11 @@ fn values(
     ratio: impl Fn(&[f32; 4], &[f32; 4]) -> f32,
 ) -> ListValues {
     let (smoothing, volume) = (&params.fluid.smoothing, params.fluid.rest_volume());
-    let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
     let mut values = ListValues::default();
     values.fill(lists, |query, target| {
         let (Some(a), Some(b)) = (queries.get(query), targets.get(target)) else { return 0.0 };
-        let mut apart = Vec3::new(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-        for axis in (0..3).filter(|axis| periods[*axis] > 0.0) {
-            apart[axis] -= periods[axis] * (apart[axis] / periods[axis]).round();
-        }
+        let apart = Vec3::new(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        let apart = params.periodic.map_or(apart, |periodic| periodic.nearest(apart));
         volume * smoothing.gradient_at(apart.length()) * ratio(a, b)
     });
     values
