@@ -40,7 +40,8 @@ fn pool(low: f32, high: f32) -> Fluid {
 /// A sponge that is held at its foot and rotated for the whole scene.
 fn turned(scene: Scene) -> Scene {
     let foot = ShapeKind::Cuboid { half_extents: Vec3::new(0.1, 0.011, 0.1) };
-    let turn = Motion::Turn { axis: Vec3::Y, pivot: Vec3::X * 0.3, rate: 2.0, start: 0.0, end: 1e5 };
+    let turn =
+        Motion::Turn { axis: Vec3::Y, pivot: Vec3::X * 0.3, rate: 2.0, start: 0.0, end: 1e5, ease: 0.0 };
     let foot = Body::kinematic("foot", foot, Vec3::new(0.3, 0.0, 0.0), vec![turn]);
     scene.with_sponge(block("turned", 0.26, UVec3::new(8, 8, 8))).with_body(Body { grip: true, ..foot })
 }
@@ -48,8 +49,14 @@ fn turned(scene: Scene) -> Scene {
 /// A body that pushes the water back and forth.
 fn stirred(scene: Scene) -> Scene {
     let paddle = ShapeKind::Cuboid { half_extents: Vec3::new(0.005, 0.06, 0.06) };
-    let turn =
-        Motion::Turn { axis: Vec3::Y, pivot: Vec3::new(0.3, 0.0, 0.0), rate: 2.0, start: 0.0, end: 1e5 };
+    let turn = Motion::Turn {
+        axis: Vec3::Y,
+        pivot: Vec3::new(0.3, 0.0, 0.0),
+        rate: 2.0,
+        start: 0.0,
+        end: 1e5,
+        ease: 0.0,
+    };
     let paddle = Body::kinematic("paddle", paddle, Vec3::new(0.3, 0.06, 0.0), vec![turn]);
     scene.with_fluid(pool(0.1, 0.4)).with_body(paddle)
 }

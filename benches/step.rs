@@ -72,7 +72,7 @@ fn bench(criterion: &mut Criterion, name: &str, size: &str, resolution: f32) {
 }
 
 fn scenes(criterion: &mut Criterion) {
-    for name in busy::SCENES {
+    for name in busy::names() {
         bench(criterion, name, "paper", 1.0);
     }
     for (name, resolution) in LARGE {
@@ -84,7 +84,7 @@ fn scenes(criterion: &mut Criterion) {
 #[cfg(feature = "gpu")]
 fn scenes_on_gpu(criterion: &mut Criterion) {
     let Some(gpu) = on_gpu::adapter() else { return };
-    let paper = busy::SCENES.iter().map(|name| (*name, "paper", 1.0));
+    let paper = busy::names().map(|name| (name, "paper", 1.0));
     for (name, size, resolution) in paper.chain(LARGE.map(|(name, resolution)| (name, "100k", resolution))) {
         let scene = busy::scene(name, resolution);
         let mut group = criterion.benchmark_group(format!("step::{name}"));

@@ -182,13 +182,14 @@ fn folded(self_contact: bool) -> Scene {
     let quarter = std::f32::consts::FRAC_PI_2;
     let cuboid = |half_extents: [f32; 3]| ShapeKind::Cuboid { half_extents: Vec3::from(half_extents) };
     let grip = |name: &str, side: f32| {
-        let fold = Motion::Turn { axis: Vec3::Z, pivot, rate: side * quarter, start: 0.0, end: 1.0 };
+        let fold =
+            Motion::Turn { axis: Vec3::Z, pivot, rate: side * quarter, start: 0.0, end: 1.0, ease: 0.0 };
         let place = Vec3::new(0.12 + side * 0.105, 0.02, 0.015);
         Body { grip: true, ..Body::kinematic(name, cuboid([0.0155, 0.021, 0.016]), place, vec![fold]) }
     };
     let plate = |name: &str, side: f32| {
         let velocity = Vec3::new(-0.3 * side, 0.0, 0.0);
-        let press = Motion::Linear { velocity, start: 1.1, end: 1.1 + 0.165 / 0.3 };
+        let press = Motion::Linear { velocity, start: 1.1, end: 1.1 + 0.165 / 0.3, ease: 0.0 };
         let place = Vec3::new(0.12 + side * 0.2, 0.105, 0.015);
         Body { friction: 0.0, ..Body::kinematic(name, cuboid([0.01, 0.02, 0.03]), place, vec![press]) }
     };

@@ -104,7 +104,7 @@ macro_rules! scenes {
         })+
     };
 }
-scenes! { standing ball_drop squish dam_break wring life stack bobbing water dry empty ball_drop_paper dry_paper life_pbf }
+sorb::for_every_preset!(scenes ball_drop_paper dry_paper life_pbf);
 
 #[test]
 fn a_pool_of_the_host_changes_nothing() {

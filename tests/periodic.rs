@@ -31,7 +31,7 @@ fn channel() -> Scene {
         fluid.blocks[0].velocity = Vec3::new(0.8, 0.3, -0.5);
         fluid.no_slip = true;
     }
-    let motion = Motion::Linear { velocity: Vec3::new(0.5, -0.1, 0.0), start: 0.0, end: 0.02 };
+    let motion = Motion::Linear { velocity: Vec3::new(0.5, -0.1, 0.0), start: 0.0, end: 0.02, ease: 0.0 };
     let shape = ShapeKind::Cuboid { half_extents: Vec3::new(0.2, 0.004, 0.2) };
     let body = Body::kinematic("plate", shape, Vec3::new(0.0, 0.049, 0.0), vec![motion]);
     scene.with_body(Body { no_slip: true, ..body })

@@ -44,7 +44,7 @@ macro_rules! plans {
         })+
     };
 }
-plans! { standing ball_drop squish dam_break wring life stack bobbing water dry empty }
+sorb::for_every_preset!(plans);
 
 #[test]
 fn a_scene_without_sponge_runs_no_phase_of_it() {
@@ -78,7 +78,7 @@ fn nothing_runs_where_nothing_is() {
 fn every_phase_of_the_step_has_a_line_with_a_reason_if_it_is_skipped() {
     let lines = |name: &str| plan(name).lines().len();
     let (porous, divergence, other) = (lines("ball_drop"), lines("water"), lines("empty"));
-    for name in common::busy::SCENES {
+    for name in common::busy::names() {
         let plan = plan(name);
         let expected = match name {
             "bobbing" | "water" => divergence,

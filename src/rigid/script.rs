@@ -40,15 +40,15 @@ impl Script {
         let mut angular = DVec3::ZERO;
         for motion in &self.motions {
             match *motion {
-                Motion::Linear { velocity, start, end } => {
-                    let (elapsed, active) = elapsed(time, start, end);
+                Motion::Linear { velocity, start, end, ease } => {
+                    let (elapsed, speed) = elapsed(time, start, end, ease);
                     position += velocity.as_dvec3() * elapsed;
-                    if active {
-                        linear += velocity.as_dvec3();
+                    if speed > 0.0 {
+                        linear += velocity.as_dvec3() * speed;
                     }
                 }
-                Motion::Turn { axis, pivot, rate, start, end } => {
-                    let (elapsed, active) = elapsed(time, start, end);
+                Motion::Turn { axis, pivot, rate, start, end, ease } => {
+                    let (elapsed, speed) = elapsed(time, start, end, ease);
                     let axis = axis.as_dvec3().normalize();
                     let turn = axis_angle(axis, f64::from(rate) * elapsed);
                     let arm = turn * (position - pivot.as_dvec3());
@@ -56,8 +56,8 @@ impl Script {
                     rotation = turn * rotation;
                     linear = turn * linear;
                     angular = turn * angular;
-                    if active {
-                        let spin = axis * f64::from(rate);
+                    if speed > 0.0 {
+                        let spin = axis * (f64::from(rate) * speed);
                         linear += spin.cross(arm);
                         angular += spin;
                     }
@@ -73,13 +73,25 @@ impl Script {
     }
 }
 
-/// Time spent in `[start, end]` by `time`, and whether the motion continues after `time`.
-fn elapsed(time: f64, start: f32, end: f32) -> (f64, bool) {
-    let (start, end) = (f64::from(start), f64::from(end));
+/// Time spent in `[start, end]` by `time`, as if at full speed, and the share of the full speed to the right of `time`.
+///
+/// The share rises as `3 u^2 - 2 u^3` within the time `ease`, whose integral is `u^3 - u^4 / 2`, and falls as its mirror image.
+fn elapsed(time: f64, start: f32, end: f32, ease: f32) -> (f64, f64) {
+    let (start, end, ease) = (f64::from(start), f64::from(end), f64::from(ease));
     let begun = time >= start * (1.0 - TIME_TOLERANCE);
     let over = time >= end * (1.0 - TIME_TOLERANCE);
     let until = if over { end } else { time };
-    ((until - start).max(0.0), begun && !over)
+    let (spent, left) = ((until - start).max(0.0), end - until);
+    let full = if begun && !over { 1.0 } else { 0.0 };
+    if ease == 0.0 {
+        return (spent, full);
+    }
+    let share = |time: f64| (time / ease).min(1.0);
+    let lag = |u: f64| ease * (u - u * u * u * (1.0 - 0.5 * u));
+    let speed = |u: f64| u * u * (3.0 - 2.0 * u);
+    let (risen, to_fall) = (share(spent), share(left));
+    let way = spent - lag(risen) - (lag(1.0) - lag(to_fall));
+    (way, full * speed(risen) * speed(to_fall))
 }
 
 /// The rotation by `angle` \[rad\] about a unit axis, with the same bits on every platform.

@@ -140,24 +140,23 @@ fn check_shape(body: &BodySetup) -> Result<(), RigidError> {
 
 fn check_motion(body: &BodySetup, index: usize, motion: &Motion) -> Result<(), RigidError> {
     let key = |name: &str| format!("motions[{index}].{name}");
-    let (start, end) = match *motion {
-        Motion::Linear { velocity, start, end } => {
-            body.finite(key("velocity"), velocity)?;
-            (start, end)
-        }
-        Motion::Turn { axis, pivot, rate, start, end } => {
+    match *motion {
+        Motion::Linear { velocity, .. } => body.finite(key("velocity"), velocity)?,
+        Motion::Turn { axis, pivot, rate, .. } => {
             body.finite(key("axis"), axis)?;
             if axis == Vec3::ZERO {
                 return Err(body.bad_value(key("axis"), axis, "any length but zero"));
             }
             body.finite(key("pivot"), pivot)?;
             body.number(key("rate"), rate, rate.is_finite(), FINITE)?;
-            (start, end)
         }
-    };
+    }
+    let ((start, end), ease) = (motion.interval(), motion.ease());
     body.number(key("start"), start, start.is_finite() && start >= 0.0, NOT_BELOW_ZERO)?;
     // An infinite end is allowed: the motion never stops.
-    body.number(key("end"), end, end >= start, "at least `start`")
+    body.number(key("end"), end, end >= start, "at least `start`")?;
+    let fits = ease.is_finite() && ease >= 0.0 && 2.0 * ease <= end - start;
+    body.number(key("ease"), ease, fits || ease == 0.0, "0 to half of the motion")
 }
 
 /// Checks the arguments of a step, before anything moves.

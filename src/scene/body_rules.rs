@@ -53,6 +53,12 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
         if start >= end {
             let rule = format!("must be before `end` = {}", number_text(end));
             broken(&format!("motions[{index}].start"), number_text(start), &rule);
+        } else if motion.ease() > 0.5 * (end - start) {
+            let rule = format!(
+                "at most half of the time from `start` to `end`: {}",
+                number_text(0.5 * (end - start))
+            );
+            broken(&format!("motions[{index}].ease"), number_text(motion.ease()), &rule);
         }
         if let Motion::Turn { axis, .. } = motion
             && axis.length_squared() < 1e-12

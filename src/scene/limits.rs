@@ -197,6 +197,7 @@ pub(super) const MOTION: &[Row<Motion>] = variants! { Motion, "bodies[].motions[
     rate in Turn: -1000.0 to 1000.0, "rad/s";
     start in Linear | Turn: 0.0 to 1e5, "s";
     end in Linear | Turn: 0.0 to 1e5, "s";
+    ease in Linear | Turn: 0.0 to 1e5, "s";
 };
 
 pub(super) const CAMERA: &[Row<Camera>] = fields! { Camera, "camera.";

@@ -5,22 +5,34 @@ use glam::Vec3;
 use super::{Body, BodyState};
 use crate::rigid::Script;
 
+/// Whether a motion has its full speed from `start` to `end`.
+#[cfg(feature = "serde")]
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
+fn is_abrupt(ease: &f32) -> bool {
+    *ease == 0.0
+}
+
 /// One scripted motion, active from `start` to `end`.
 ///
-/// Motions may overlap. Each acts, in the order of the list, on the result of the previous ones.
+/// Motions may overlap. Each acts, in the order of the list, on the result of the previous ones. With `ease` the speed rises
+/// from zero and falls to zero without a jump of the acceleration, and the way is `velocity * (end - start - ease)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
 pub enum Motion {
     /// Straight motion at constant velocity.
     Linear {
-        /// Velocity. Range -100 to 100 m/s.
+        /// Velocity, between rise and fall. Range -100 to 100 m/s.
         #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
         velocity: Vec3,
         /// Time at which the motion begins. Range 0 to 100000 s.
         start: f32,
         /// Time at which it ends, after `start`. Range 0 to 100000 s.
         end: f32,
+        /// How long the speed rises after `start`, and falls before `end`: at most half of the motion. Range 0 to 100000 s;
+        /// default 0.
+        #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_abrupt"))]
+        ease: f32,
     },
     /// Rotation at constant rate about an axis in the world.
     Turn {
@@ -30,12 +42,16 @@ pub enum Motion {
         /// A point on the axis. Range -1000 to 1000 m.
         #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
         pivot: Vec3,
-        /// Rate, counter-clockwise seen from the tip of the axis. Range -1000 to 1000 rad/s.
+        /// Rate, between rise and fall, counter-clockwise seen from the tip of the axis. Range -1000 to 1000 rad/s.
         rate: f32,
         /// Time at which the motion begins. Range 0 to 100000 s.
         start: f32,
         /// Time at which it ends, after `start`. Range 0 to 100000 s.
         end: f32,
+        /// How long the speed rises after `start`, and falls before `end`: at most half of the motion. Range 0 to 100000 s;
+        /// default 0.
+        #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_abrupt"))]
+        ease: f32,
     },
 }
 
@@ -45,6 +61,14 @@ impl Motion {
     pub fn interval(&self) -> (f32, f32) {
         match *self {
             Self::Linear { start, end, .. } | Self::Turn { start, end, .. } => (start, end),
+        }
+    }
+
+    /// How long the speed rises and falls \[s\].
+    #[must_use]
+    pub fn ease(&self) -> f32 {
+        match *self {
+            Self::Linear { ease, .. } | Self::Turn { ease, .. } => ease,
         }
     }
 }

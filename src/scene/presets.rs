@@ -14,29 +14,51 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-macro_rules! presets {
-    ($($name:literal: $title:literal;)+) => {
-        &[$(Preset {
-            name: $name,
-            title: $title,
-            text: include_str!(concat!("../../scenes/", $name, ".toml")),
-        }),+]
+/// Hands the names of all presets, and others behind them, to a macro: `for_every_preset!(tests)`.
+///
+/// The one list of them, in the order of the documentation. **Without any promise**, for tests of this project.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! for_every_preset {
+    ($macro:ident $($other:ident)*) => {
+        $macro! {
+            standing ball_drop squish dam_break wring wipe life stack bobbing water dry empty $($other)*
+        }
     };
 }
 
-const PRESETS: &[Preset] = presets! {
-    "standing": "A dry sponge stands in shallow water and drinks";
-    "ball_drop": "A heavy ball falls on a saturated sponge";
-    "squish": "Two plates squeeze a saturated sponge and let it recover";
-    "dam_break": "A breaking dam drags a sponge along";
-    "wring": "Two grips wring a saturated sponge bar";
-    "life": "Dropped dry into water, squeezed by a ball, let go";
-    "stack": "A plate presses a dry sponge onto a wet one";
-    "bobbing": "Bodies of 0.3 to 2.5 times the density of water fall into a pool";
-    "water": "Control: the breaking dam without the sponge";
-    "dry": "Control: the ball and the sponge without water";
-    "empty": "Control: nothing at all";
-};
+macro_rules! presets {
+    ($($name:ident)+) => {
+        &[$(Preset::of(
+            stringify!($name),
+            include_str!(concat!("../../scenes/", stringify!($name), ".toml")),
+        )),+]
+    };
+}
+
+const PRESETS: &[Preset] = for_every_preset!(presets);
+
+impl Preset {
+    const fn of(name: &'static str, text: &'static str) -> Self {
+        Self { name, title: quoted_after(text, b"\ntitle = \""), text }
+    }
+}
+
+/// What stands between the end of a key and the next quotation mark. Without the key the build fails.
+const fn quoted_after(text: &'static str, key: &[u8]) -> &'static str {
+    let bytes = text.as_bytes();
+    let mut start = 0;
+    let mut matched = 0;
+    while matched < key.len() {
+        matched = if bytes[start] == key[matched] { matched + 1 } else { 0 };
+        start += 1;
+    }
+    let mut end = start;
+    while bytes[end] != b'"' {
+        end += 1;
+    }
+    text.split_at(end).0.split_at(start).1
+}
 
 /// The scenes that come with the library, in the order of the documentation.
 #[must_use]

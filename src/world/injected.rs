@@ -8,8 +8,11 @@ use crate::scene::preset;
 fn busy(name: &str) -> World {
     let scene = preset(name).and_then(|scene| scene.scaled(0.4));
     let mut scene = scene.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let top = scene.sponges.first().map_or(0.08, |sponge| sponge.maximum().y);
     if let Some(body) = scene.bodies.first_mut() {
-        (body.position.y, body.linear_velocity.y) = (0.111, -1.0);
+        (body.position.y, body.linear_velocity.y) = (top + 0.031, -1.0);
+        // So light that a sponge under it has nearly its volume at rest.
+        body.density = 1000.0;
     }
     let mut world = World::new(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
     for _ in 0..6 {

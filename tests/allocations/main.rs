@@ -69,7 +69,7 @@ fn world(name: &str) -> World {
 
 #[test]
 fn snapshots_and_roll_backs_allocate_nothing_but_the_engine() {
-    for name in busy::SCENES {
+    for name in busy::names() {
         let mut world = world(name);
         let mut snapshot = Snapshot::new();
         world.snapshot_into(&mut snapshot);
@@ -91,7 +91,7 @@ fn snapshots_and_roll_backs_allocate_nothing_but_the_engine() {
 #[test]
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
 fn steps_hold_no_more_memory_than_before() {
-    for name in busy::SCENES {
+    for name in busy::names() {
         let mut world = world(name);
         let first = allocations(|| common::steps(&mut world, 40));
         let later = allocations(|| common::steps(&mut world, 40));

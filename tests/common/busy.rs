@@ -9,20 +9,10 @@ use sorb::{
     scene::{self, FluidSolver, Motion, Scene, Solver},
 };
 
-/// All presets, in the order of the documentation.
-pub(crate) const SCENES: [&str; 11] = [
-    "standing",
-    "ball_drop",
-    "squish",
-    "dam_break",
-    "wring",
-    "life",
-    "stack",
-    "bobbing",
-    "water",
-    "dry",
-    "empty",
-];
+/// Names of all presets, in the order of the documentation.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    scene::presets().iter().map(|preset| preset.name)
+}
 
 /// The models of the paper, with moduli that are about as stiff.
 pub(crate) fn as_in_the_paper(scene: &mut Scene) {
@@ -71,38 +61,44 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     }
     match name {
         "ball_drop" | "dry" => {
-            // A radius of 3 cm on a sponge of 8 cm: just above the surface, off centre, falling.
-            scene.bodies[0].position = Vec3::new(0.005, 0.1105, 0.003);
+            // A radius of 3 cm just above the surface, off centre, falling.
+            scene.bodies[0].position = Vec3::new(0.005, scene.sponges[0].maximum().y + 0.0305, 0.003);
             scene.bodies[0].linear_velocity = Vec3::new(0.1, -1.0, 0.0);
         }
         "squish" => {
             for (body, side) in scene.bodies.iter_mut().zip([-1.0, 1.0]) {
                 body.position.x = side * 0.0452;
                 let velocity = Vec3::new(-0.5 * side, 0.0, 0.0);
-                body.motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
+                body.motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05, ease: 0.0 }];
             }
         }
         "life" => {
             scene.sponges[0].position.y = 0.012;
             scene.bodies[0].position.y = scene.sponges[0].maximum().y + 0.031;
             let velocity = Vec3::new(0.0, -0.5, 0.0);
-            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
+            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05, ease: 0.0 }];
         }
         "stack" => {
             // The upper sponge falls and slides, and the plate pushes it.
             scene.sponges[1].velocity = Vec3::new(0.1, -0.5, 0.05);
             scene.bodies[0].position.y = scene.sponges[1].maximum().y + 0.0051;
             let velocity = Vec3::new(0.0, -0.5, 0.0);
-            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05 }];
+            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05, ease: 0.0 }];
         }
         "wring" => {
             for (body, rate) in scene.bodies.iter_mut().zip([20.0, -20.0]) {
                 let (axis, pivot) = (Vec3::X, Vec3::new(0.0, 0.12, 0.0));
-                body.motions = vec![Motion::Turn { axis, pivot, rate, start: 0.0, end: 0.1 }];
+                body.motions = vec![Motion::Turn { axis, pivot, rate, start: 0.0, end: 0.1, ease: 0.0 }];
             }
         }
+        "wipe" => {
+            scene.sponges[0].saturation = 0.3;
+            let velocity = Vec3::new(1.0, -0.1, 0.0);
+            scene.bodies[0].motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05, ease: 0.02 }];
+        }
         "dam_break" => {
-            scene.sponges[0].position.x = -0.118;
+            // Just right of the dam.
+            scene.sponges[0].position.x = -0.236;
             scene.sponges[0].saturation = 0.3;
             start_flow(&mut scene);
         }

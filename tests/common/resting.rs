@@ -37,7 +37,7 @@ pub(crate) fn one_lies_one_flies() -> Scene {
 /// A plate that slides away along z at [`START`].
 pub(crate) fn plate(place: Vec3, half: Vec3) -> Body {
     let start = START as f32;
-    let slide = Motion::Linear { velocity: Vec3::Z * 0.8, start, end: start + 0.2 };
+    let slide = Motion::Linear { velocity: Vec3::Z * 0.8, start, end: start + 0.2, ease: 0.0 };
     Body {
         friction: 0.0,
         ..Body::kinematic("plate", ShapeKind::Cuboid { half_extents: half }, place, vec![slide])

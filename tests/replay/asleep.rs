@@ -16,7 +16,7 @@ fn pool() -> Scene {
     let place = Vec3::new(0.01, 0.0, -0.015);
     let sponge = Sponge { cells: [3, 3, 3].into(), edge: 0.01, ..Sponge::new("sponge", place) };
     let cuboid = ShapeKind::Cuboid { half_extents: Vec3::new(0.005, 0.04, 0.04) };
-    let motion = Motion::Linear { velocity: Vec3::X * 0.1, start: 3.0, end: 3.2 };
+    let motion = Motion::Linear { velocity: Vec3::X * 0.1, start: 3.0, end: 3.2, ease: 0.0 };
     let plate = Body::kinematic("plate", cuboid, Vec3::new(-0.07, 0.04, 0.0), vec![motion]);
     let cube = ShapeKind::Cuboid { half_extents: Vec3::splat(0.008) };
     let cube = Body::dynamic("cube", cube, Vec3::new(-0.03, 0.01, 0.0), 4000.0);

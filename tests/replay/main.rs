@@ -1,5 +1,12 @@
 //! The same bits after any interruption: saves, restores, commands, recordings and roll backs.
 
+/// Hands all scenes of the library, busy, and others with other solvers to a macro.
+macro_rules! for_every_scene {
+    ($macro:ident) => {
+        sorb::for_every_preset! { $macro ball_drop_paper dry_paper life_pbf life_divergence }
+    };
+}
+
 mod asleep;
 mod commands;
 #[path = "../common/mod.rs"]
@@ -15,25 +22,6 @@ use sorb::{Options, SimdLevel, World, scene::Scene};
 
 /// More than one chunk of nodes and several chunks of particles, so that threads matter.
 const RESOLUTION: f32 = 0.6;
-
-/// All scenes of the library, busy, and others with other solvers.
-const SCENES: [&str; 15] = [
-    "standing",
-    "ball_drop",
-    "squish",
-    "dam_break",
-    "wring",
-    "life",
-    "stack",
-    "bobbing",
-    "water",
-    "dry",
-    "empty",
-    "ball_drop_paper",
-    "dry_paper",
-    "life_pbf",
-    "life_divergence",
-];
 
 fn options(threads: usize, simd: SimdLevel) -> Options {
     Options { threads: Some(threads), simd: Some(simd), ..Options::default() }

@@ -66,9 +66,13 @@ fn played(recording: &Recording, options: &Options) -> u64 {
     player.world().digest()
 }
 
+macro_rules! names {
+    ($($scene:ident)+) => { [$(stringify!($scene)),+] };
+}
+
 #[test]
 fn every_scene_replays_with_commands_on_other_threads_and_levels() {
-    for name in super::SCENES {
+    for name in for_every_scene!(names) {
         let scene = busy::scene(name, 0.4);
         let (recording, world) = recorded(&scene, 8, Some(3));
         let pushed = recording.commands().count();

@@ -7,7 +7,7 @@ use super::common;
 #[test]
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
 fn saves_are_small() {
-    for name in super::busy::SCENES {
+    for name in super::busy::names() {
         let mut world = common::world(&common::preset(name, 1.0));
         for _ in 0..10 {
             common::frame(&mut world);

@@ -245,7 +245,7 @@ fn what_trembles_near_the_limit_does_not_fall_asleep_by_turns() {
     let beside = |gap: f32| {
         let motion = |k: i32| {
             let velocity = Vec3::X * if k % 2 == 0 { 0.02 } else { -0.02 };
-            Motion::Linear { velocity, start: 0.1 * k as f32, end: 0.1 * (k + 1) as f32 }
+            Motion::Linear { velocity, start: 0.1 * k as f32, end: 0.1 * (k + 1) as f32, ease: 0.0 }
         };
         let shape = ShapeKind::Cuboid { half_extents: Vec3::new(0.005, 0.02, 0.02) };
         let place = Vec3::new(0.015 + gap + 0.005, 0.021, 0.0);

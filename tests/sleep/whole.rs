@@ -25,7 +25,7 @@ fn pool(sleep_after: f32) -> World {
     let sponge =
         Sponge { cells: [3, 3, 3].into(), edge: 0.01, ..Sponge::new("sponge", Vec3::new(0.01, 0.0, -0.015)) };
     let shape = ShapeKind::Cuboid { half_extents: Vec3::new(0.005, 0.04, 0.04) };
-    let motion = Motion::Linear { velocity: Vec3::X * 0.1, start: START, end: START + 0.2 };
+    let motion = Motion::Linear { velocity: Vec3::X * 0.1, start: START, end: START + 0.2, ease: 0.0 };
     let plate = Body::kinematic("plate", shape, Vec3::new(-0.07, 0.04, 0.0), vec![motion]);
     let mut scene = Scene::new("pool")
         .in_box(-half - Vec3::X * 0.02, half + Vec3::new(0.02, 0.1, 0.0))

@@ -93,7 +93,8 @@ fn swept(mut scene: Scene, thickness: f32, speed: f32) -> Scene {
     if let Some(sponge) = scene.sponges.first_mut() {
         sponge.position.x = -0.01;
     }
-    let motion = Motion::Linear { velocity: Vec3::X * speed, start: 0.0, end: (to - from) / speed };
+    let motion =
+        Motion::Linear { velocity: Vec3::X * speed, start: 0.0, end: (to - from) / speed, ease: 0.0 };
     let shape = ShapeKind::Cuboid { half_extents };
     scene.with_body(Body::kinematic("wall", shape, Vec3::new(from, BOX, 0.0), vec![motion]))
 }
@@ -215,6 +216,7 @@ fn bodies_that_are_somewhere_else_at_once() {
             velocity: Vec3::Y * 100.0 * sign,
             start,
             end: start + 6e-4,
+            ease: 0.0,
         };
         let ball = ShapeKind::Sphere { radius: 0.015 };
         let motions = vec![jump(0.05, -1.0), jump(0.1, 1.0), jump(0.15, -1.0)];

@@ -121,7 +121,7 @@ fn read(text: &str, parse: fn(&str, &str) -> Result<Scene, SceneError>) -> Resul
 }
 
 fn texts() -> Vec<String> {
-    busy::SCENES.map(|name| busy::scene(name, 0.4).to_toml().unwrap_or_default()).to_vec()
+    busy::names().map(|name| busy::scene(name, 0.4).to_toml().unwrap_or_default()).collect()
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn scenes_with_slips_are_read_or_refused_with_a_place() {
 fn json_with_slips_is_read_or_refused_with_a_place() {
     let texts: Vec<String> =
         texts().iter().filter_map(|text| Scene::from_toml(text, "").ok()?.to_json().ok()).collect();
-    assert_eq!(texts.len(), busy::SCENES.len());
+    assert_eq!(texts.len(), busy::names().count());
     let changes = vec((0.0..1.0, any::<u8>(), any::<usize>()), 1..4);
     let strategy = (0..texts.len(), changes);
     let result = runner(pick(600, 40_000))

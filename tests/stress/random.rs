@@ -157,8 +157,15 @@ fn body(draw: &mut Draw<'_>, name: &str) -> Body {
         },
         1 => {
             let motions = vec![
-                Motion::Linear { velocity, start: 0.0, end: 0.003 },
-                Motion::Turn { axis: Vec3::ONE, pivot: place, rate: spin.x, start: 0.002, end: 0.1 },
+                Motion::Linear { velocity, start: 0.0, end: 0.003, ease: 0.0 },
+                Motion::Turn {
+                    axis: Vec3::ONE,
+                    pivot: place,
+                    rate: spin.x,
+                    start: 0.002,
+                    end: 0.1,
+                    ease: 0.0,
+                },
             ];
             Body { rotation, ..Body::kinematic(name, shape, place, motions) }
         }

@@ -63,7 +63,8 @@ pub(crate) fn crushed(mut scene: Scene, axes: &[usize], gap: f32) -> Scene {
             let mut half_extents = Vec3::splat(0.03);
             half_extents[*axis] = thickness;
             let way = half[*axis] - 0.5 * gap;
-            let motion = |velocity: Vec3, start: f32| Motion::Linear { velocity, start, end: start + 0.2 };
+            let motion =
+                |velocity: Vec3, start: f32| Motion::Linear { velocity, start, end: start + 0.2, ease: 0.0 };
             let motions = vec![motion(-unit * (way / 0.2), 0.0), motion(unit * (way / 0.2), 0.3)];
             let position = centre + unit * (half[*axis] + thickness);
             let shape = ShapeKind::Cuboid { half_extents };
@@ -78,7 +79,7 @@ pub(crate) fn shaken(velocity: Vec3, time: f32, count: u16) -> Vec<Motion> {
     let way = |index: u16| {
         let start = time * f32::from(index);
         let sign = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
-        Motion::Linear { velocity: velocity * sign, start, end: start + time }
+        Motion::Linear { velocity: velocity * sign, start, end: start + time, ease: 0.0 }
     };
     (0..2 * count).map(way).collect()
 }

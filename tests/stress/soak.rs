@@ -2,10 +2,7 @@
 
 use sorb::World;
 
-use crate::{
-    common::{self, busy},
-    pick,
-};
+use crate::{common, pick};
 
 /// Coarse: `tests/scenes` runs the scenes at half the resolution of the library.
 const RESOLUTION: f32 = 0.4;
@@ -44,11 +41,6 @@ macro_rules! scenes {
         fn $scene() {
             soak(stringify!($scene));
         })+
-
-        #[test]
-        fn all_scenes_are_here() {
-            assert_eq!(busy::SCENES, [$(stringify!($scene)),+]);
-        }
     };
 }
-scenes! { standing ball_drop squish dam_break wring life stack bobbing water dry empty }
+sorb::for_every_preset!(scenes);

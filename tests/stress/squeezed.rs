@@ -50,8 +50,12 @@ fn inside_out(mut scene: Scene) -> Scene {
     scene.sponges[0].position.y = 0.03;
     let shape = ShapeKind::Cuboid { half_extents: Vec3::new(0.002, 0.03, 0.03) };
     let place = |x: f32| Vec3::new(x, 0.054, 0.0);
-    let way =
-        |sign: f32, start: f32| Motion::Linear { velocity: Vec3::X * 0.3 * sign, start, end: start + 0.2 };
+    let way = |sign: f32, start: f32| Motion::Linear {
+        velocity: Vec3::X * 0.3 * sign,
+        start,
+        end: start + 0.2,
+        ease: 0.0,
+    };
     let left = Body { grip: true, ..Body::fixed("left", shape.clone(), place(-0.024)) };
     let right = Body::kinematic("right", shape, place(0.024), vec![way(-1.0, 0.0), way(1.0, 0.3)]);
     scene.with_body(left).with_body(Body { grip: true, ..right })

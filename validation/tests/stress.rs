@@ -100,7 +100,8 @@ fn crushed(mut scene: Scene, axes: &[usize], gap: f32) -> Scene {
             half_extents[*axis] = thickness;
             // Plates of several axes pass each other: each is as wide as the sponge.
             let way = half[*axis] - 0.5 * gap;
-            let motion = |velocity: Vec3, start: f32| Motion::Linear { velocity, start, end: start + 0.2 };
+            let motion =
+                |velocity: Vec3, start: f32| Motion::Linear { velocity, start, end: start + 0.2, ease: 0.0 };
             let closes = motion(-unit * (way / 0.2), 0.0);
             let opens = motion(unit * (way / 0.2), 0.3);
             let position = centre + unit * (half[*axis] + thickness);

@@ -4,29 +4,19 @@ use serde_json::Value;
 
 use crate::support::{Scratch, sorb};
 
-const NAMES: [&str; 11] = [
-    "standing",
-    "ball_drop",
-    "squish",
-    "dam_break",
-    "wring",
-    "life",
-    "stack",
-    "bobbing",
-    "water",
-    "dry",
-    "empty",
-];
+fn names() -> impl Iterator<Item = &'static str> {
+    sorb::scene::presets().iter().map(|preset| preset.name)
+}
 
 #[test]
 fn scenes_lists_all() {
     let answer = sorb(&["scenes"]);
     let listed: Vec<_> =
         answer.out.lines().skip(1).filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!((answer.code, listed), (Some(0), NAMES.to_vec()));
+    assert_eq!((answer.code, listed), (Some(0), names().collect()));
     let json = sorb(&["scenes", "--json"]).json();
     let scenes = json.as_array().expect("an array");
-    assert_eq!(scenes.len(), NAMES.len());
+    assert_eq!(scenes.len(), names().count());
     let nodes =
         |name: &str| scenes.iter().find(|scene| scene["name"] == name).map(|scene| scene["nodes"] != 0);
     assert_eq!((nodes("ball_drop"), nodes("water")), (Some(true), Some(false)));
@@ -44,7 +34,7 @@ fn no_arguments_say_what_there_is_and_how_to_run_it() {
 
 #[test]
 fn check_accepts_presets_and_good_files() {
-    for name in NAMES {
+    for name in names() {
         let answer = sorb(&["check", name]);
         assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""), "{name}");
     }

@@ -77,7 +77,7 @@ fn splinter_shape() -> Shape {
 
 #[test]
 fn a_kinematic_plate_carries_a_ball_up() {
-    let motion = Motion::Linear { velocity: Vec3::Y * 0.1, start: 0.5, end: 1.5 };
+    let motion = Motion::Linear { velocity: Vec3::Y * 0.1, start: 0.5, end: 1.5, ease: 0.0 };
     let mut engine = boxed(&[plate(vec![motion]), ball(Vec3::Y * 0.14)]);
     step(&mut engine, DT, 60);
     assert_close(engine.state(1).position, Vec3::Y * 0.13, 5e-5);
@@ -118,7 +118,8 @@ fn a_bouncing_ball_gains_no_energy() {
 
 #[test]
 fn a_turning_plate_drags_a_ball_along() {
-    let motion = Motion::Turn { axis: Vec3::Y, pivot: Vec3::ZERO, rate: 1.0, start: 0.0, end: 10.0 };
+    let motion =
+        Motion::Turn { axis: Vec3::Y, pivot: Vec3::ZERO, rate: 1.0, start: 0.0, end: 10.0, ease: 0.0 };
     let mut engine = boxed(&[plate(vec![motion]), ball(Vec3::new(0.05, 0.131, 0.0))]);
     step(&mut engine, DT, 60);
     let state = engine.state(1);
@@ -135,8 +136,14 @@ fn pile() -> RapierEngine {
         Shape::Capsule { half_height: 0.015, radius: 0.01 },
         splinter_shape(),
     ];
-    let spin =
-        Motion::Turn { axis: Vec3::new(0.2, 1.0, 0.0), pivot: Vec3::ZERO, rate: 4.0, start: 0.2, end: 1.0 };
+    let spin = Motion::Turn {
+        axis: Vec3::new(0.2, 1.0, 0.0),
+        pivot: Vec3::ZERO,
+        rate: 4.0,
+        start: 0.2,
+        end: 1.0,
+        ease: 0.0,
+    };
     let mut bodies = vec![plate(vec![spin])];
     for index in 0..24_u8 {
         let (column, layer) = (f32::from(index % 4), f32::from(index / 4));

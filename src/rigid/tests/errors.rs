@@ -76,14 +76,20 @@ fn bad_shapes_name_body_and_key() {
 
 #[test]
 fn bad_motions_name_body_and_key() {
-    let good = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
-    let linear = |velocity, start, end| plate(vec![good, Motion::Linear { velocity, start, end }]);
+    let good = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0, ease: 0.0 };
+    let linear = |velocity, start, end| plate(vec![good, Motion::Linear { velocity, start, end, ease: 0.0 }]);
     assert_value(linear(Vec3::X * f32::NAN, 0.0, 1.0), "motions[1].velocity");
     assert_value(linear(Vec3::X, -1.0, 1.0), "motions[1].start");
     assert_value(linear(Vec3::X, f32::INFINITY, f32::INFINITY), "motions[1].start");
     assert_value(linear(Vec3::X, 2.0, 1.0), "motions[1].end");
     assert_value(linear(Vec3::X, 2.0, f32::NAN), "motions[1].end");
-    let turn = |axis, pivot, rate| plate(vec![Motion::Turn { axis, pivot, rate, start: 0.0, end: 1.0 }]);
+    let eased = |ease| plate(vec![Motion::Linear { velocity: Vec3::X, start: 1.0, end: 3.0, ease }]);
+    for ease in [-0.1, 1.1, f32::NAN, f32::INFINITY] {
+        assert_value(eased(ease), "motions[0].ease");
+    }
+    assert!(ScriptedEngine::new(&[eased(1.0)]).is_ok(), "half of the motion");
+    let turn =
+        |axis, pivot, rate| plate(vec![Motion::Turn { axis, pivot, rate, start: 0.0, end: 1.0, ease: 0.0 }]);
     assert_value(turn(Vec3::ZERO, Vec3::ZERO, 1.0), "motions[0].axis");
     assert_value(turn(Vec3::NAN, Vec3::ZERO, 1.0), "motions[0].axis");
     assert_value(turn(Vec3::X, Vec3::NAN, 1.0), "motions[0].pivot");
@@ -92,7 +98,7 @@ fn bad_motions_name_body_and_key() {
 
 #[test]
 fn what_does_not_fit_the_kind_is_refused() {
-    let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
+    let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0, ease: 0.0 };
     assert_kind(BodySetup { motions: vec![motion], ..ball(Vec3::ZERO) }, "motions");
     assert_kind(BodySetup { kind: BodyKind::Fixed, ..plate(vec![motion]) }, "motions");
     assert_kind(body("ground", BodyKind::Dynamic, Shape::Plane, Vec3::ZERO), "shape");
@@ -143,7 +149,7 @@ pub(super) fn assert_bad_steps(engine: &mut dyn RigidEngine) {
 
 #[test]
 fn bad_steps_move_nothing() {
-    let lift = Motion::Linear { velocity: Vec3::Y, start: 0.0, end: 1.0 };
+    let lift = Motion::Linear { velocity: Vec3::Y, start: 0.0, end: 1.0, ease: 0.0 };
     let mut engine = ScriptedEngine::new(&[plate(vec![lift])]).expect("the plate is valid");
     assert_bad_steps(&mut engine);
 }

@@ -6,7 +6,7 @@ use crate::rigid::{RapierEngine, RigidError};
 
 #[test]
 fn bad_steps_move_nothing() {
-    let lift = Motion::Linear { velocity: Vec3::Y, start: 0.0, end: 1.0 };
+    let lift = Motion::Linear { velocity: Vec3::Y, start: 0.0, end: 1.0, ease: 0.0 };
     let bodies = [ball(Vec3::Y), plate(vec![lift])];
     assert_bad_steps(&mut RapierEngine::new(GRAVITY, None, &bodies).expect("the bodies are valid"));
 }

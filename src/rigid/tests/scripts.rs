@@ -3,11 +3,11 @@ use crate::rigid::ScriptedEngine;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 fn lift() -> Motion {
-    Motion::Linear { velocity: Vec3::new(0.0, 0.2, 0.0), start: 0.5, end: 1.5 }
+    Motion::Linear { velocity: Vec3::new(0.0, 0.2, 0.0), start: 0.5, end: 1.5, ease: 0.0 }
 }
 
 fn turn() -> Motion {
-    Motion::Turn { axis: Vec3::Z * 3.0, pivot: Vec3::ZERO, rate: FRAC_PI_2, start: 1.0, end: 3.0 }
+    Motion::Turn { axis: Vec3::Z * 3.0, pivot: Vec3::ZERO, rate: FRAC_PI_2, start: 1.0, end: 3.0, ease: 0.0 }
 }
 
 fn engine(bodies: &[BodySetup]) -> ScriptedEngine {
@@ -42,6 +42,42 @@ fn a_translation_starts_runs_and_stops() {
 }
 
 #[test]
+fn an_eased_motion_begins_and_ends_at_rest() {
+    let lift =
+        |speed: f32, ease: f32| Motion::Linear { velocity: Vec3::Y * speed, start: 0.5, end: 1.5, ease };
+    let eased = [plate(vec![lift(0.25, 0.2)])];
+    // The way is that of 0.2 m/s in one second.
+    for (time, way, speed) in [
+        (0.5, 0.0, 0.0),
+        (0.6, 0.25 * 0.01875, 0.125),
+        (1.0, 0.1, 0.25),
+        (1.4, 0.2 - 0.25 * 0.01875, 0.125),
+        (2.0, 0.2, 0.0),
+    ] {
+        let state = state_at(&eased, time);
+        assert_close(state.position, Vec3::Y * (0.1 + way), 1e-7);
+        assert_close(state.linear_velocity, Vec3::Y * speed, 1e-6);
+    }
+    let slope = |bodies: &[BodySetup], time: f32| {
+        let (before, after) = (state_at(bodies, time - 1.0 / 256.0), state_at(bodies, time + 1.0 / 256.0));
+        (after.position - before.position) * 128.0
+    };
+    for time in [0.55, 0.65, 1.2, 1.33, 1.47] {
+        assert_close(slope(&eased, time), state_at(&eased, time).linear_velocity, 2e-3);
+    }
+    // The control: the motion without `ease` is elsewhere, and jumps to its full speed.
+    let abrupt = [plate(vec![lift(0.2, 0.0)])];
+    assert!(state_at(&abrupt, 0.6).position.distance(state_at(&eased, 0.6).position) > 0.01);
+    assert!(state_at(&abrupt, 0.5).linear_velocity.y > 0.1);
+    // All of it may be rise and fall; nothing ends that never stops.
+    let swing = [plate(vec![lift(0.4, 0.5)])];
+    assert_close(state_at(&swing, 1.0).linear_velocity, Vec3::Y * 0.4, 1e-6);
+    assert_close(state_at(&swing, 1.5).position, Vec3::Y * 0.3, 1e-6);
+    let forever = Motion::Linear { velocity: Vec3::Y, start: 0.0, end: f32::INFINITY, ease: 1.0 };
+    assert_close(state_at(&[plate(vec![forever])], 3.0).position, Vec3::Y * 2.6, 1e-6);
+}
+
+#[test]
 fn a_turn_swings_the_body_about_its_pivot() {
     let bodies = [plate(vec![turn()])];
     let halfway = state_at(&bodies, 2.0);
@@ -62,8 +98,9 @@ fn the_velocity_is_the_derivative_of_the_pose() {
         rate: -1.3,
         start: 0.0,
         end: f32::INFINITY,
+        ease: 0.0,
     };
-    let drift = Motion::Linear { velocity: Vec3::new(0.4, 0.1, -0.3), start: 0.0, end: 10.0 };
+    let drift = Motion::Linear { velocity: Vec3::new(0.4, 0.1, -0.3), start: 0.0, end: 10.0, ease: 0.0 };
     let bodies = [plate(vec![drift, turn(), tilt, lift()])];
     let (time, step) = (1.25, 1.0 / 256.0);
     let (before, now, after) =
@@ -79,8 +116,8 @@ fn the_velocity_is_the_derivative_of_the_pose() {
 
 #[test]
 fn motions_apply_in_the_order_of_the_list() {
-    let along = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
-    let half = Motion::Turn { axis: Vec3::Y, pivot: Vec3::ZERO, rate: PI, start: 0.0, end: 1.0 };
+    let along = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0, ease: 0.0 };
+    let half = Motion::Turn { axis: Vec3::Y, pivot: Vec3::ZERO, rate: PI, start: 0.0, end: 1.0, ease: 0.0 };
     let shifted_then_turned = state_at(&[plate(vec![along, half])], 2.0);
     let turned_then_shifted = state_at(&[plate(vec![half, along])], 2.0);
     assert_close(shifted_then_turned.position, Vec3::new(-1.0, 0.1, 0.0), 1e-6);
@@ -90,7 +127,7 @@ fn motions_apply_in_the_order_of_the_list() {
 #[test]
 fn rounded_steps_do_not_prolong_a_motion() {
     for (dt, count) in [(0.01_f32, 100), (0.001, 1000), (1.0 / 60.0, 60), (0.1, 10)] {
-        let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
+        let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0, ease: 0.0 };
         let mut engine = engine(&[plate(vec![motion])]);
         step(&mut engine, dt, count - 1);
         assert_eq!(engine.state(0).linear_velocity, Vec3::X, "one step of {dt} s before the end");

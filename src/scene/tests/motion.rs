@@ -13,7 +13,12 @@ fn scripted(motions: Vec<Motion>) -> Body {
 
 #[test]
 fn a_linear_motion_acts_between_start_and_end_only() {
-    let body = scripted(vec![Motion::Linear { velocity: Vec3::new(0.0, 2.0, 0.0), start: 1.0, end: 2.0 }]);
+    let body = scripted(vec![Motion::Linear {
+        velocity: Vec3::new(0.0, 2.0, 0.0),
+        start: 1.0,
+        end: 2.0,
+        ease: 0.0,
+    }]);
     for (time, height, speed) in
         [(0.0, 0.0, 0.0), (1.0, 0.0, 2.0), (1.5, 1.0, 2.0), (2.0, 2.0, 0.0), (9.0, 2.0, 0.0)]
     {
@@ -25,8 +30,14 @@ fn a_linear_motion_acts_between_start_and_end_only() {
 
 #[test]
 fn a_turn_moves_and_turns_the_body() {
-    let quarter =
-        Motion::Turn { axis: 2.0 * Vec3::Y, pivot: Vec3::ZERO, rate: 0.5 * PI, start: 0.0, end: 1.0 };
+    let quarter = Motion::Turn {
+        axis: 2.0 * Vec3::Y,
+        pivot: Vec3::ZERO,
+        rate: 0.5 * PI,
+        start: 0.0,
+        end: 1.0,
+        ease: 0.0,
+    };
     let body = scripted(vec![quarter]);
     let start = body.state_at(0.0);
     assert!(close(start.angular_velocity, Vec3::new(0.0, 0.5 * PI, 0.0)));
@@ -40,9 +51,16 @@ fn a_turn_moves_and_turns_the_body() {
 #[test]
 fn velocities_are_the_derivatives_of_the_pose() {
     let body = scripted(vec![
-        Motion::Linear { velocity: Vec3::new(0.3, 0.1, 0.0), start: 0.2, end: 5.0 },
-        Motion::Turn { axis: Vec3::new(1.0, 2.0, 0.5), pivot: Vec3::Y, rate: 1.5, start: 0.1, end: 5.0 },
-        Motion::Turn { axis: Vec3::Z, pivot: Vec3::X, rate: -0.7, start: 0.3, end: 5.0 },
+        Motion::Linear { velocity: Vec3::new(0.3, 0.1, 0.0), start: 0.2, end: 5.0, ease: 0.0 },
+        Motion::Turn {
+            axis: Vec3::new(1.0, 2.0, 0.5),
+            pivot: Vec3::Y,
+            rate: 1.5,
+            start: 0.1,
+            end: 5.0,
+            ease: 0.0,
+        },
+        Motion::Turn { axis: Vec3::Z, pivot: Vec3::X, rate: -0.7, start: 0.3, end: 5.0, ease: 0.0 },
     ]);
     let (time, step) = (1.3, 1e-3);
     let (before, now, after) = (body.state_at(time - step), body.state_at(time), body.state_at(time + step));
@@ -71,6 +89,6 @@ fn rotations_turn_counter_clockwise_in_degrees() {
 
 #[test]
 fn an_invalid_script_does_not_panic() {
-    let body = scripted(vec![Motion::Linear { velocity: Vec3::X, start: 2.0, end: 1.0 }]);
+    let body = scripted(vec![Motion::Linear { velocity: Vec3::X, start: 2.0, end: 1.0, ease: 0.0 }]);
     assert_eq!(body.state_at(1.5).position, Vec3::X);
 }

@@ -1,12 +1,13 @@
 use super::super::*;
 
 /// Fluid particles and sponge nodes that the default sizes aim at.
-const SIZES: [(&str, u64, u64); 11] = [
+const SIZES: [(&str, u64, u64); 12] = [
     ("standing", 8192, 1024),
     ("ball_drop", 8192, 1024),
     ("squish", 8192, 1024),
-    ("dam_break", 8192, 1024),
+    ("dam_break", 8192, 512),
     ("wring", 8192, 1024),
+    ("wipe", 7168, 1024),
     ("life", 14_336, 1024),
     ("stack", 7168, 1118),
     ("bobbing", 12_288, 0),
@@ -57,6 +58,15 @@ fn grips_hold_the_ends_of_the_bar_and_nothing_else() {
             .filter(|x| (x - body.position.x).abs() <= half_extents.x);
         assert_eq!(held.count(), 2, "both layers of nodes of the last cells");
     }
+    let scene = preset("wipe").unwrap_or_else(|error| panic!("{error}"));
+    let (sponge, pad) = (&scene.sponges[0], &scene.bodies[0]);
+    let ShapeKind::Cuboid { half_extents } = pad.shape else { panic!("the pad is a cuboid") };
+    let wider = half_extents - 0.5 * (sponge.maximum() - sponge.position);
+    assert!(wider.x > 0.0 && wider.z > 0.0, "the pad covers the sponge: {wider}");
+    let held = (0..=sponge.cells.y)
+        .map(|layer| sponge.position.y + layer as f32 * sponge.edge)
+        .filter(|y| (y - pad.position.y).abs() <= half_extents.y);
+    assert_eq!(held.count(), 1, "the upper layer of nodes, and the middles of the cells below it");
 }
 
 #[test]

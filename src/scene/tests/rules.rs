@@ -100,7 +100,7 @@ fn bodies_of_the_wrong_kind_are_refused() {
     assert!(message.contains("a plane has no mass"), "{message}");
     let message = broken(|scene| scene.bodies[0].grip = true);
     assert!(message.starts_with("`bodies[0].grip` = true"), "{message}");
-    let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0 };
+    let motion = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0, ease: 0.0 };
     let message = broken(|scene| scene.bodies[0].motions.push(motion));
     assert!(message.contains("only a body of `kind` kinematic follows motions"), "{message}");
     let message = broken(|scene| {
@@ -110,9 +110,22 @@ fn bodies_of_the_wrong_kind_are_refused() {
     assert!(message.starts_with("`bodies[0].linear_velocity` = [1, 0, 0]"), "{message}");
     let message = broken(|scene| {
         scene.bodies[0].kind = BodyKind::Kinematic;
-        scene.bodies[0].motions.push(Motion::Linear { velocity: Vec3::X, start: 1.0, end: 1.0 });
+        scene.bodies[0].motions.push(Motion::Linear { velocity: Vec3::X, start: 1.0, end: 1.0, ease: 0.0 });
     });
     assert!(message.contains("must be before `end` = 1"), "{message}");
+    let eased = |ease| {
+        move |scene: &mut Scene| {
+            scene.bodies[0].kind = BodyKind::Kinematic;
+            scene.bodies[0].motions.push(Motion::Linear { velocity: Vec3::X, start: 1.0, end: 3.0, ease });
+        }
+    };
+    let message = broken(eased(1.5));
+    assert!(message.starts_with("`bodies[0].motions[0].ease` = 1.5"), "{message}");
+    assert!(message.contains("at most half of the time from `start` to `end`: 1"), "{message}");
+    assert!(broken(eased(-0.1)).contains("ease"));
+    let mut scene = full();
+    eased(1.0)(&mut scene);
+    assert_eq!(scene.problems(), []);
 }
 
 #[test]

@@ -16,8 +16,8 @@ fn scenes() -> Vec<Scene> {
     }
     let hull = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
     let motions = vec![
-        Motion::Linear { velocity: Vec3::new(0.1, 1.0 / 3.0, -1e-7), start: 0.3, end: 0.7 },
-        Motion::Turn { axis: Vec3::X, pivot: Vec3::ZERO, rate: -2.0, start: 0.0, end: 1.0 },
+        Motion::Linear { velocity: Vec3::new(0.1, 1.0 / 3.0, -1e-7), start: 0.3, end: 0.7, ease: 0.0 },
+        Motion::Turn { axis: Vec3::X, pivot: Vec3::ZERO, rate: -2.0, start: 0.0, end: 1.0, ease: 0.25 },
     ];
     let capsule = ShapeKind::Capsule { half_height: 0.01, radius: 0.003 };
     let rich = rich
@@ -44,7 +44,7 @@ fn a_written_scene_reads_back_equal() {
             scene
         );
     }
-    assert_eq!(scenes().len(), 15);
+    assert_eq!(scenes().len(), presets().len() + 4);
 }
 
 #[test]

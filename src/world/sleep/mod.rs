@@ -118,10 +118,10 @@ impl Sleep {
         // Rounded outwards: the body must not move outside of it.
         let (start, end) = ((target.start as f32).next_down(), (target.end as f32).next_up());
         let (velocity, turn) = (target.velocity().as_vec3(), target.angular_velocity().as_vec3());
-        self.motions.push((body, Motion::Linear { velocity, start, end }));
+        self.motions.push((body, Motion::Linear { velocity, start, end, ease: 0.0 }));
         if turn != Vec3::ZERO {
             let (axis, rate) = (turn, turn.length());
-            self.motions.push((body, Motion::Turn { axis, pivot: target.from, rate, start, end }));
+            self.motions.push((body, Motion::Turn { axis, pivot: target.from, rate, start, end, ease: 0.0 }));
         }
     }
 

@@ -96,7 +96,8 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
     let (reach, room) = (Vec3::Y * PLATE as f32, Vec3::Y * (ROOM * GAP) as f32);
     let plate = |name: &str, y: f64, way: f64| {
         let half_extents = Vec3::new(half.x + GAP as f32, 0.5 * PLATE as f32, half.z + GAP as f32);
-        let motion = Motion::Linear { velocity: Vec3::X * (SPEED * way) as f32, start: 0.0, end: 1.0 };
+        let motion =
+            Motion::Linear { velocity: Vec3::X * (SPEED * way) as f32, start: 0.0, end: 1.0, ease: 0.0 };
         let shape = ShapeKind::Cuboid { half_extents };
         let body = Body::kinematic(name, shape, Vec3::Y * y as f32, vec![motion]);
         Body { no_slip: !setting.fault, ..body }

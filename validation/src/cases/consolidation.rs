@@ -155,6 +155,7 @@ impl Vessel {
             velocity: Vec3::NEG_Y * self.layer.speed as f32,
             start,
             end: start + self.layer.moves as f32,
+            ease: 0.0,
         };
         (0..=self.cells.z)
             .map(|index| {

@@ -107,8 +107,12 @@ fn scene(setting: &Setting, spacing: f64, step: f64) -> Scene {
     let reach = Vec3::Y * PLATE as f32;
     let plate = |name: &str, y: f64, way: f64| {
         let half_extents = Vec3::new(half.x + GAP as f32, 0.5 * PLATE as f32, half.z + GAP as f32);
-        let motion =
-            Motion::Linear { velocity: Vec3::X * (SPEED * way) as f32, start: REST as f32, end: 1.0 };
+        let motion = Motion::Linear {
+            velocity: Vec3::X * (SPEED * way) as f32,
+            start: REST as f32,
+            end: 1.0,
+            ease: 0.0,
+        };
         let shape = ShapeKind::Cuboid { half_extents };
         let body = Body::kinematic(name, shape, Vec3::Y * y as f32, vec![motion]);
         Body { no_slip: true, ..body }

@@ -93,7 +93,8 @@ fn scene(setting: &Setting, cells: u32) -> Result<Scene, Failure> {
         if distance(row) <= nearest {
             way.x += fault.take().unwrap_or(0.0);
         }
-        let motion = Motion::Linear { velocity: (way / MOVES).as_vec3(), start: 0.0, end: MOVES as f32 };
+        let motion =
+            Motion::Linear { velocity: (way / MOVES).as_vec3(), start: 0.0, end: MOVES as f32, ease: 0.0 };
         let shape = ShapeKind::Sphere { radius: 1e-3 };
         let ball = Body::kinematic(&format!("ball{index}"), shape, position, vec![motion]);
         scene = scene.with_body(Body { grip: true, ..ball });

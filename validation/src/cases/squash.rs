@@ -67,7 +67,7 @@ fn scene(cells: u32) -> Scene {
         let shape =
             ShapeKind::Cuboid { half_extents: DVec3::new(2.0 * half, thickness, 2.0 * half).as_vec3() };
         let velocity = Vec3::Y * (-sign * way / MOVES) as f32;
-        let motion = Motion::Linear { velocity, start: 0.0, end: MOVES as f32 };
+        let motion = Motion::Linear { velocity, start: 0.0, end: MOVES as f32, ease: 0.0 };
         let place = Vec3::Y * (sign * (half + thickness)) as f32;
         Body { friction: 0.0, ..Body::kinematic(name, shape, place, vec![motion]) }
     };

@@ -96,6 +96,7 @@ fn scene(setting: &Setting, permeability: f64) -> Scene {
         velocity: Vec3::Y * velocity as f32,
         start,
         end,
+        ease: 0.0,
     };
     let plate = Body::kinematic(
         "plate",

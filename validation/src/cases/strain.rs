@@ -99,7 +99,7 @@ fn run(setting: &Setting, kind: Kind) -> Result<Vec<Figure>, Failure> {
 fn scene(bar: &Bar, setting: &Setting, kind: Kind) -> Result<Scene, Failure> {
     let size = bar.size();
     let (start, end) = (0.0, MOVES as f32);
-    let along = |way: f64| Motion::Linear { velocity: Vec3::X * (way / MOVES) as f32, start, end };
+    let along = |way: f64| Motion::Linear { velocity: Vec3::X * (way / MOVES) as f32, start, end, ease: 0.0 };
     let motion = match kind {
         Kind::Uniaxial => along(STRAIN * size.x),
         Kind::Confined => along(-STRAIN * size.x),
@@ -109,6 +109,7 @@ fn scene(bar: &Bar, setting: &Setting, kind: Kind) -> Result<Scene, Failure> {
             rate: (TURN / MOVES) as f32,
             start,
             end,
+            ease: 0.0,
         },
     };
     let mut scene = bar.scene("bar", setting)?.with_body(bar.grip("right", size.x, vec![motion]));
