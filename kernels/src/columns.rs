@@ -89,12 +89,21 @@ columns! {
         /// Mean velocity of the neighbours along the lines to them, relative to the particle, see `divergence::approach`.
         FluidApproach = approach: rows("m/s"), Scratch, needs Divergence;
         /// Inverse of the second moment of the neighbourhood of a particle, along the axes: xx, yy, zz; w: density over that at
-        /// rest, with walls and bodies.
+        /// rest, with walls, bodies and the material of sponges. Before `divergence::moments` the second moment of the material.
         FluidRenormalisation = renormalisation: rows("1"; DENSITY 3 "1"), Scratch, needs Divergence;
         /// The same between the axes: yz, zx, xy.
         FluidRenormalisationBetween = renormalisation_between: rows("1"), Scratch, needs Divergence;
-        /// First moment of the neighbourhood of a particle.
-        FluidMoment = moment: rows("1/m"), Scratch, needs Divergence;
+        /// First moment of the neighbourhood of a particle; before `divergence::moments` that of the material of sponges; w: share of the
+        /// material in the volume \[1\].
+        FluidMoment = moment: rows("1/m"; MATERIAL 3 "1"), Scratch, needs Divergence;
+        /// Change of the velocity of a particle in a sponge over that without drag, with nodes at rest and with nodes that respond \[1\];
+        /// what the response of the nodes adds to the diagonal of the system, over the squared norm of the renormalisation \[1/m^2\].
+        FluidMobility = mobility: rows(; MOBILITY 0 "1", WITH_NODES 1 "1", DIAGONAL 2 "1/m^2"), Scratch, needs Sponge;
+        /// Impulse of the pressure that the drag hands on to the nodes, over the interior value; w: mass of the particle that moves
+        /// with them, over the same \[kg\].
+        FluidHeld = held: rows("N s"; MASS 3 "kg"), Scratch, needs Sponge;
+        /// Velocity by the pressure of the present round, without the drag.
+        FluidUndragged = undragged: rows("m/s"), Scratch, needs Sponge;
         /// Compression that sponges absorb by their compliance to the pressure change, over the square of the step, see
         /// `couple::solid_yield`. Empty without sponges.
         FluidSolidYield = solid_yield: values("1/s^2"), Scratch, needs Incompressible;
@@ -201,6 +210,18 @@ columns! {
         ControlFluidWeights = fluid_weights: ListValues("1"), Scratch on host;
         /// Expected position of the node at the end of the step; w: volume of its material, without pores \[m^3\].
         ControlSolid = solid: rows("m"; VOLUME 3 "m^3"), Scratch, needs Fluid;
+        /// Expected velocity of the node at the end of the step, but for changes of the pressure; w: volume of its material, without
+        /// pores \[m^3\].
+        ControlExpected = expected: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
+        /// Change of the velocity of the node per impulse \[1/kg\], and the part of the impulse that moves water; w: volume of its
+        /// material \[m^3\].
+        ControlCompliance = compliance: rows(; COMPLIANCE 0 "1/kg", DRAWN 1 "1", VOLUME 3 "m^3"), Scratch, needs Fluid;
+        /// Force of the pressure of the present round on the material of the node.
+        ControlForce = force: rows("N"), Scratch, needs Fluid;
+        /// Impulse of the pressure of the last step on the node, by itself and by the water that drag holds.
+        ControlImpulse = impulse: rows("N s"), Scratch, needs Fluid;
+        /// Velocity of the node by the pressure of the present round; w: volume of its material \[m^3\].
+        ControlSolved = solved: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Water-filled pore volume over pore volume.
         ControlSaturation = saturation: values("1"), Scratch, needs Fluid;
         /// Control pressure times volume: negative for suction.

@@ -76,7 +76,7 @@ kernels! {
     divergence {
         images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick,
     } shared {
-        closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect, symmetric, walls,
+        closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect, pub(crate) symmetric, pub(crate) walls,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
     /// descent or by Neo-Hookean constraints, and contact of its nodes.
@@ -91,8 +91,9 @@ kernels! {
         controls, saturation, wetting, pores, interior, suction, zero_distance, control_velocity, drag,
         velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction,
         drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
+        solid_expect, solid_moments, solid_diagonal, solid_response, solid_velocity, solid_kick,
     } shared {
-        pub(crate) compliance, pub(crate) impulses, #[cfg(feature = "gpu")] pub weights,
+        pub(crate) compliance, pub(crate) impulses, pub(crate) solid_mirrors, #[cfg(feature = "gpu")] pub weights,
     }
 }
 

@@ -1,5 +1,6 @@
 // #include body, surface, mirror, visit_images
-// First pass of `divergence::images`: the number of images of every particle, and of those of a page of particles.
+// First pass of `divergence::images`: the number of images of every particle, and of those of a page of particles. Moments
+// begin at zero.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -8,6 +9,9 @@
 @group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> image_line_counts: array<u32>;
 @group(0) @binding(6) var<storage, read_write> image_line_sums: array<atomic<u32>>;
+@group(0) @binding(7) var<storage, read_write> fluid_moment: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_renormalisation: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_renormalisation_between: array<vec4<f32>>;
 
 fn take_image(k: u32, position: vec3<f32>, base: Mirrored, body: u32, walls: u32) {}
 
@@ -24,4 +28,7 @@ fn main(
     let count = visit_images(fluid_position[row].xyz);
     image_line_counts[row] = count;
     atomicAdd(&image_line_sums[row / PAGE_CELLS], count);
+    fluid_moment[row] = vec4<f32>(0.0);
+    fluid_renormalisation[row] = vec4<f32>(0.0);
+    fluid_renormalisation_between[row] = vec4<f32>(0.0);
 }

@@ -32,11 +32,15 @@ fn inverse_of(second_along: vec3<f32>, second_between: vec3<f32>) -> Inverse {
     return Inverse(minors * (scale / determinant), others * (scale / determinant));
 }
 
-fn target_of(density: f32, moment: vec3<f32>) -> f32 {
+fn target_of(density: f32, moment: vec3<f32>, material: f32) -> f32 {
     let share = sqrt(dot(moment, moment)) / params.surface_moment - SURFACE_BEGIN;
     let lack = max(share * (1.0 / (1.0 - SURFACE_BEGIN)), 0.0) * params.surface_lack;
     let error = density + lack - 1.0;
-    let size = clamp(abs(error) - DEAD_ZONE, 0.0, MAXIMUM_ERROR) * (1.0 / CORRECTION_STEPS);
+    let is_in_pores = material > MINIMUM_MATERIAL;
+    let dead_zone = select(DEAD_ZONE, DEAD_ZONE_IN_PORES, is_in_pores);
+    let slow = min(clock.step / CORRECTION_TIME_IN_PORES, 1.0 / CORRECTION_STEPS);
+    let part = select(1.0 / CORRECTION_STEPS, slow, is_in_pores);
+    let size = clamp(abs(error) - dead_zone, 0.0, MAXIMUM_ERROR) * part;
     return select(-size, size, error > 0.0);
 }
 
@@ -88,6 +92,13 @@ fn main(
         squares_between += push.yzx * push.zxy;
         shapes += there.w * shape(closeness(params.smoothing, dot(offset, offset)));
     }
+    let volume = params.particle_mass / params.rest_density;
+    // Beginning with the material of sponges.
+    let material = fluid_moment[row];
+    first += material.xyz;
+    along += fluid_renormalisation[row].xyz;
+    between += fluid_renormalisation_between[row].xyz;
+    let density = shapes * (params.smoothing.value * volume) + material.w;
     let inverse = inverse_of(along, between);
     // The square of the inverse, contracted with those.
     let a = inverse.along;
@@ -98,11 +109,9 @@ fn main(
     let on = vec3<f32>(dot(x, x), dot(y, y), dot(z, z));
     let off = vec3<f32>(dot(y, z), dot(z, x), dot(x, y));
     let all = dot(on, squares) + 2.0 * dot(off, squares_between);
-    let volume = params.particle_mass / params.rest_density;
-    let density = shapes * (params.smoothing.value * volume);
     fluid_renormalisation[row] = vec4<f32>(inverse.along, density);
     // Beside it what `diagonal.wgsl` begins with.
     fluid_renormalisation_between[row] = vec4<f32>(inverse.between, all);
-    fluid_moment[row] = vec4<f32>(first, 0.0);
-    fluid_factors[row] = vec4<f32>(-symmetric_times(inverse.along, inverse.between, first), target_of(density, first));
+    fluid_moment[row] = vec4<f32>(first, material.w);
+    fluid_factors[row] = vec4<f32>(-symmetric_times(inverse.along, inverse.between, first), target_of(density, first, material.w));
 }

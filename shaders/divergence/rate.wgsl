@@ -24,7 +24,8 @@ fn main(
     }
     let rows = params.fluid_rows;
     let point = fluid_position[row].xyz;
-    let own = fluid_correction[row].xyz;
+    let moved = fluid_correction[row];
+    let own = moved.xyz;
     var on = vec3<f32>(0.0);
     var off = vec3<f32>(0.0);
     let end = fluid_neighbors[row];
@@ -40,5 +41,6 @@ fn main(
     }
     let along = fluid_renormalisation[row].xyz;
     let between = fluid_renormalisation_between[row].xyz;
-    fluid_rate[row] = dot(on, along) + dot(off, between);
+    // Beside the velocity is the part of the material of sponges.
+    fluid_rate[row] = dot(on, along) + dot(off, between) + moved.w;
 }

@@ -26,6 +26,9 @@ fn main(
     }
     let own = fluid_position[row];
     let moment = fluid_moment[row].xyz;
+    if (fluid_moment[row].w > MINIMUM_MATERIAL) {
+        return;
+    }
     let share = max(1.0 - sqrt(dot(moment, moment)) / (SHIFT_END * params.surface_moment), 0.0);
     var shift = (-SHIFT * params.spacing * params.spacing * share) * moment;
     var last = NO_BODY;

@@ -188,12 +188,14 @@ pub(super) fn inside(
 }
 
 fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
-    if fluid.solver == Some(FluidSolver::Divergence) && !scene.sponges.is_empty() {
-        let rule = "is for scenes without `sponges`; `dfsph` has both";
+    let is_paper = !scene.sponges.is_empty() && scene.coupling() == Coupling::Paper;
+    if scene.fluid_solver() == Some(FluidSolver::Divergence) && is_paper {
+        let rule =
+            "has no `fluid.coupling` = \"paper\" (the default unless every sponge has `solver` = \"vbd\")";
         problems.push(Problem::rule("fluid.solver", "\"divergence\"", rule));
     }
     if fluid.coupling == Some(Coupling::Porous) && !scene.allows_porous() {
-        let rule = "needs `fluid.solver` = \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
+        let rule = "needs `fluid.solver` = \"divergence\", \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
         problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));
     }
     // Corners are decimals, which f32 rounds: a thousandth of the spacing covers that.

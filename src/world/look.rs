@@ -12,6 +12,31 @@ use sorb_kernels::{
 use super::World;
 use crate::schedule::{PlanLine, Verdict};
 
+/// The moments of a solve for the divergence, in a scene with porous sponges and in others.
+static MOMENTS_WITH_SPONGES: &[&Kernel] = &[
+    &couple::controls::KERNEL,
+    &couple::saturation::KERNEL,
+    &couple::pores::KERNEL,
+    &couple::interior::KERNEL,
+    &pbd::gravity::KERNEL,
+    &divergence::images::KERNEL,
+    &couple::solid_expect::KERNEL,
+    &couple::solid_moments::KERNEL,
+    &divergence::moments::KERNEL,
+];
+static MOMENTS: &[&Kernel] = &[&divergence::images::KERNEL, &divergence::moments::KERNEL];
+
+/// The boundary volume fraction, likewise.
+static BOUNDARY_WITH_SPONGES: &[&Kernel] = &[
+    &sph::predict::KERNEL,
+    &sph::boundary::KERNEL,
+    &couple::controls::KERNEL,
+    &pbd::gravity::KERNEL,
+    &couple::solid_pressure::KERNEL,
+    &couple::solid_share::KERNEL,
+];
+static BOUNDARY: &[&Kernel] = &[&sph::predict::KERNEL, &sph::boundary::KERNEL];
+
 impl World {
     /// Runs the phases that measures depend on, so that they are valid at time zero as well.
     pub(super) fn look(&mut self) {
@@ -47,17 +72,12 @@ impl World {
         let params = Params { step: 0.0, asleep: Asleep::default(), ..self.params.clone() };
         let phases = [&grid::sort_fluid::KERNEL, &grid::fluid_neighbors::KERNEL, &sph::density::KERNEL];
         let around = match params.fluid.divergence() {
-            Some(_) => &[&divergence::images::KERNEL, &divergence::moments::KERNEL][..],
-            None => &[&sph::predict::KERNEL, &sph::boundary::KERNEL],
+            Some(_) if self.runs(&couple::solid_moments::KERNEL) => MOMENTS_WITH_SPONGES,
+            Some(_) => MOMENTS,
+            None if self.runs(&couple::solid_share::KERNEL) => BOUNDARY_WITH_SPONGES,
+            None => BOUNDARY,
         };
-        let solid = [
-            &couple::controls::KERNEL,
-            &pbd::gravity::KERNEL,
-            &couple::solid_pressure::KERNEL,
-            &couple::solid_share::KERNEL,
-        ];
-        let solid = if self.runs(&couple::solid_share::KERNEL) { &solid[..] } else { &[] };
-        let phases = phases.iter().chain(around).chain(solid);
+        let phases = phases.iter().chain(around);
         self.cpu.enter(|| phases.for_each(|kernel| (kernel.cpu)(&self.cpu, &params, &mut columns)));
         columns
     }

@@ -39,6 +39,25 @@ pub(super) fn weighted<S: Simd>(
     sum
 }
 
+/// Mean of a row of the controls of eight particles, weighed with `V_a W_ia`, and 1 / chi; both are zero where there is no drag.
+#[inline(always)]
+pub(super) fn mean_inside<S: Simd>(
+    simd: S,
+    rows: &[[f32; 4]],
+    group: &[[u32; LANES]],
+    weights: &[[f32; LANES]],
+) -> (Vec3x8<S>, f32x8<S>) {
+    let (mut sum, mut chi) = (splat(simd, [0.0; 3]), lanes::splat(simd, 0.0));
+    for (entry, weight) in group.iter().zip(weights) {
+        let [x, y, z, _] = lanes::gather_rows(simd, rows, entry);
+        let weight = lanes::load(simd, weight, 0);
+        sum = plus(sum, times([x, y, z], weight));
+        chi += weight;
+    }
+    let inverse = weight_inside(simd, chi);
+    (times(sum, inverse), inverse)
+}
+
 /// Sum over the particles of eight controls of `V_a W_ia` times the drag row.
 #[inline(always)]
 pub(super) fn received<S: Simd>(

@@ -25,7 +25,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Sponge, Incompressible, Porous],
+    needs: [Fluid, Sponge, Density, Porous],
     reads: [
         FluidPosition, FluidControls, FluidAcceleration, ControlNode, ControlPosition, NodePosition,
         NodeVelocity, NodeAcceleration, NodeSponge, NodeVolume,

@@ -3,6 +3,8 @@
 //! A particle has an image in every body nearer than 1.6 spacings (`mirror`). It and those have images by all combinations of the walls
 //! nearer than the support radius: edges and corners are products. Images give density, pressure and velocities beside a wall what water
 //! on both sides of it would.
+//!
+//! The moments of the neighbourhoods begin at zero; `couple::solid_moments` adds the material of sponges.
 
 use super::{image_rows::Images, near::Seekers};
 use crate::{
@@ -19,9 +21,9 @@ use crate::{
 declare! {
     needs: [Fluid, Divergence],
     reads: [FluidPosition, FluidNeighbors, FluidCells, BodyStates],
-    writes: [FluidImages],
+    writes: [FluidImages, FluidMoment, FluidRenormalisation, FluidRenormalisationBetween],
     oracle: crate::oracle::divergence::images,
-    bound: 4e-6,
+    bound: 1e-5,
     twin_writes: [FluidExtremes],
     twin: [
         pass("divergence::images_count", Fluid),
@@ -43,7 +45,12 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let count = columns.rows.fluid;
     let bodies = &columns.bodies.states.0;
-    let Fluid { position, neighbors, cells, images, .. } = &mut columns.fluid;
+    let fluid = &mut columns.fluid;
+    for moment in [&mut fluid.moment, &mut fluid.renormalisation, &mut fluid.renormalisation_between] {
+        moment.clear();
+        moment.resize(fluid.position.len(), [0.0; 4]);
+    }
+    let Fluid { position, neighbors, cells, images, .. } = fluid;
 
     images.find(cpu, params, (position, count), bodies);
 

@@ -17,7 +17,7 @@ use crate::{
 
 use super::{
     image_rows::{Images, NO_BODY},
-    rate::SPARSE,
+    rate::{MINIMUM_MATERIAL, SPARSE},
     reflect::vector,
 };
 use glam::Vec3;
@@ -67,6 +67,10 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             velocity[row] = [w[0], w[1], w[2], pressure_rows[at][lane::fluid::pressure_rows::PRESSURE]];
             let is_active = renormalisation[at][lane::fluid::renormalisation::DENSITY] >= SPARSE;
             if !is_active {
+                continue;
+            }
+            // Drag keeps particles in pores where they are.
+            if moment[at][lane::fluid::moment::MATERIAL] > MINIMUM_MATERIAL {
                 continue;
             }
             let z = vector(&moment[at]);

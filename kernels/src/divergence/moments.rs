@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! c_ij = J_j V (-dW/dr) / r,   e_ij = x_j - x_i
-//! f_i = V sum_j J_j W_ij,   z_i = sum_j c_ij e_ij,   M_i = sum_j c_ij e_ij e_ij^T      images included
+//! f_i = V sum_j J_j W_ij,   z_i = sum_j c_ij e_ij,   M_i = sum_j c_ij e_ij e_ij^T      images included, and the material of sponges
 //! L_i = M_i^-1                                                                       renormalisation [RL96; BL99]
 //! D_i = |-L_i z_i + sum_g R_g^T c_ig L_i e_ig|^2 + sum_j |c_ij L_i e_ij|^2           diagonal; g the own images of i
 //! e_i = f_i - 1 + k max(0, (|z_i| / z_1 - 1/4) / (3/4))                              error of the density
@@ -19,7 +19,7 @@
 //!
 //! The sum of `|c L e|^2` is the product of `L^2` and the sum of `c^2 e e^T`: one pass over the neighbours gives all.
 //!
-//! An error is put right within five steps. If all of a pool would be thrown by that, the target is scaled down (`pressure_solve`).
+//! An error is put right within five steps; in pores slowly, because the pressure that moves water there is in proportion to the drag. If all of a pool would be thrown by that, the target is scaled down (`pressure_solve`).
 
 use glam::Vec3;
 
@@ -37,20 +37,23 @@ use crate::{
 
 use super::{
     image_rows::{ImageRows, Images, NO_BODY, OfParticles},
-    rate::SPARSE,
+    rate::{MINIMUM_MATERIAL, SPARSE},
     reflect::mirrored_renormalisation,
     symmetric::Symmetric,
 };
 
 declare! {
     needs: [Fluid, Divergence],
-    reads: [FluidPosition, FluidVelocity, FluidNeighbors, FluidImages],
+    reads: [
+        FluidPosition, FluidVelocity, FluidNeighbors, FluidImages, FluidMoment, FluidRenormalisation, FluidRenormalisationBetween,
+    ],
     writes: [
         FluidPairs, FluidRenormalisation, FluidRenormalisationBetween, FluidMoment, FluidFactors, FluidPressureRows,
         FluidImageRenormalisation, FluidImageRenormalisationBetween, FluidPressureSolve,
     ],
     oracle: crate::oracle::divergence::moments,
-    bound: 1e-5,
+    // The mean target is a small difference of large sums.
+    bound: 5e-5,
     twin: [
         pass(NAME, Fluid),
         pass("divergence::diagonal", Fluid),
@@ -70,6 +73,10 @@ declare! {
         const MAXIMUM_ERROR: f32 = 0.25;
         /// Steps in which it is.
         const CORRECTION_STEPS: f32 = 5.0;
+        /// Error of the density that is none in a sponge.
+        const DEAD_ZONE_IN_PORES: f32 = 5.0e-3;
+        /// Time in which a larger one is put right there \[s\].
+        const CORRECTION_TIME_IN_PORES: f32 = 0.02;
     },
 }
 
@@ -206,15 +213,22 @@ impl Task<'_> {
                 let u = kernel.closeness(dot(offset, offset));
                 sums.add(lanes::load_array(simd, c), offset, kernel.shape(u) * ratio);
             }
+            // The moments begin with those of the material of sponges.
+            let [zx, zy, zz, material] = lanes::load_rows(simd, moment, row);
+            let [sxx, syy, szz, _] = lanes::load_rows(simd, along, row);
+            let [syz, szx, sxy, _] = lanes::load_rows(simd, between, row);
+            sums.first = plus(sums.first, [zx, zy, zz]);
+            sums.second.along = plus(sums.second.along, [sxx, syy, szz]);
+            sums.second.between = plus(sums.second.between, [syz, szx, sxy]);
+            let density = sums.shape * (kernel.value_scale() * fluid.rest_volume()) + material;
             let inverse = renormalisation(simd, sums.second, self.divergence.lattice_moment);
-            let density = sums.shape * (kernel.value_scale() * fluid.rest_volume());
-            let target = self.target(simd, density, sums.first);
+            let target = self.target(simd, (density, material), sums.first);
             let [bx, by, bz] = negative(inverse.times(sums.first));
             let diagonal = self.diagonal((simd, space), first + row, ([bx, by, bz], inverse), sums.squares);
             let ([xx, yy, zz], [yz, zx, xy]) = (inverse.along, inverse.between);
             lanes::store_rows(along, row, [xx, yy, zz, density]);
             lanes::store_rows(between, row, [yz, zx, xy, zero]);
-            lanes::store_rows(moment, row, [sums.first[0], sums.first[1], sums.first[2], zero]);
+            lanes::store_rows(moment, row, [sums.first[0], sums.first[1], sums.first[2], material]);
             lanes::store_rows(factors, row, [bx, by, bz, target]);
             let [_, _, _, before] = lanes::load_rows(simd, self.velocity, first + row);
             let before = select(density.simd_ge(lanes::splat(simd, SPARSE)), before, zero);
@@ -272,16 +286,23 @@ impl Task<'_> {
 
     /// The divergence that the error of the density asks for, times the step.
     #[inline(always)]
-    fn target<S: Simd>(&self, simd: S, density: f32x8<S>, moment: Vec3x8<S>) -> f32x8<S> {
+    fn target<S: Simd>(
+        &self,
+        simd: S,
+        (density, material): (f32x8<S>, f32x8<S>),
+        moment: Vec3x8<S>,
+    ) -> f32x8<S> {
         let Divergence { surface_moment, surface_lack, .. } = *self.divergence;
-        let one = lanes::splat(simd, 1.0);
-        let share = dot(moment, moment).sqrt() * (1.0 / surface_moment) - SURFACE_BEGIN;
-        let lack = lanes::positive(simd, share * (1.0 / (1.0 - SURFACE_BEGIN))) * surface_lack;
-        let error = density + lack - one;
-        let size = error.max(-error) - DEAD_ZONE;
-        let size = lanes::positive(simd, size).min(lanes::splat(simd, MAXIMUM_ERROR));
-        let size = size * (1.0 / CORRECTION_STEPS);
-        select(error.simd_gt(lanes::splat(simd, 0.0)), size, -size)
+        let splat = |value| lanes::splat(simd, value);
+        let at_surface = dot(moment, moment).sqrt() * (1.0 / surface_moment) - SURFACE_BEGIN;
+        let lack = lanes::positive(simd, at_surface * (1.0 / (1.0 - SURFACE_BEGIN))) * surface_lack;
+        let error = density + lack - splat(1.0);
+        let is_in_pores = material.simd_gt(splat(MINIMUM_MATERIAL));
+        let dead_zone = select(is_in_pores, splat(DEAD_ZONE_IN_PORES), splat(DEAD_ZONE));
+        let size = lanes::positive(simd, error.max(-error) - dead_zone).min(splat(MAXIMUM_ERROR));
+        let slow = (self.params.step / CORRECTION_TIME_IN_PORES).min(1.0 / CORRECTION_STEPS);
+        let size = size * select(is_in_pores, splat(slow), splat(1.0 / CORRECTION_STEPS));
+        select(error.simd_gt(splat(0.0)), size, -size)
     }
 }
 

@@ -17,6 +17,8 @@ use super::{image_rows::ImageRows, symmetric::Symmetric};
 constants! {
     /// Density over that at rest below which a particle has no pressure.
     pub(super) const SPARSE: f32 = 0.75;
+    /// Share of material from which on a particle is in a sponge.
+    pub(super) const MINIMUM_MATERIAL: f32 = 0.02;
 }
 
 /// A field on particles and images.

@@ -4,7 +4,8 @@
 //! r_i = h t_i - h div w_i
 //! ```
 //!
-//! with the velocities w by the pressure of the round, and their images in bodies that move with it. A particle with less than three
+//! with the velocities w by the pressure of the round, and their images in bodies that move with it. The material of sponges has its part
+//! beside w (`couple::solid_velocity`). A particle with less than three
 //! quarters of a neighbourhood has no pressure, and nothing remains. The length is that of Barzilai and Borwein \[BB88\] in the
 //! norm of the diagonal, see `pressure_solve`.
 
@@ -64,8 +65,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         with_space!(cpu, params, simd, space => {
             for row in (0..rows.len()).step_by(LANES) {
                 let rate = field.rate((simd, space), (first, row));
+                let [_, _, _, of_solid] = lanes::load_rows(simd, &fluid.correction, first + row);
                 let [_, _, _, target] = lanes::load_rows(simd, &fluid.factors, first + row);
-                lanes::store(&mut left, row, target * scale + rate * params.step);
+                lanes::store(&mut left, row, target * scale + (rate + of_solid) * params.step);
             }
         });
         let used = count.saturating_sub(first).min(rows.len());

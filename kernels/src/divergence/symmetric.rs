@@ -7,24 +7,24 @@ use crate::{
 
 /// Eight symmetric matrices of three rows.
 #[derive(Clone, Copy)]
-pub(super) struct Symmetric<S: Simd> {
+pub(crate) struct Symmetric<S: Simd> {
     /// xx, yy, zz
-    pub(super) along: Vec3x8<S>,
+    pub(crate) along: Vec3x8<S>,
     /// yz, zx, xy
-    pub(super) between: Vec3x8<S>,
+    pub(crate) between: Vec3x8<S>,
 }
 
 impl<S: Simd> Symmetric<S> {
     /// The same number everywhere.
     #[inline(always)]
-    pub(super) fn splat(simd: S, value: f32) -> Self {
+    pub(crate) fn splat(simd: S, value: f32) -> Self {
         let value = lanes::splat(simd, value);
         Self { along: [value; 3], between: [value; 3] }
     }
 
     /// Adds `a b^T` of parallel vectors.
     #[inline(always)]
-    pub(super) fn add_square(&mut self, a: Vec3x8<S>, b: Vec3x8<S>) {
+    pub(crate) fn add_square(&mut self, a: Vec3x8<S>, b: Vec3x8<S>) {
         self.along[0] += a[0] * b[0];
         self.along[1] += a[1] * b[1];
         self.along[2] += a[2] * b[2];
@@ -35,7 +35,7 @@ impl<S: Simd> Symmetric<S> {
 
     /// Adds `a b^T`, with both elements between two axes in one.
     #[inline(always)]
-    pub(super) fn add_twice(&mut self, a: Vec3x8<S>, b: Vec3x8<S>) {
+    pub(crate) fn add_twice(&mut self, a: Vec3x8<S>, b: Vec3x8<S>) {
         self.along[0] += a[0] * b[0];
         self.along[1] += a[1] * b[1];
         self.along[2] += a[2] * b[2];
@@ -46,14 +46,14 @@ impl<S: Simd> Symmetric<S> {
 
     /// Product with a number.
     #[inline(always)]
-    pub(super) fn scaled(self, scale: f32x8<S>) -> Self {
+    pub(crate) fn scaled(self, scale: f32x8<S>) -> Self {
         let ([a, b, c], [d, e, f]) = (self.along, self.between);
         Self { along: [a * scale, b * scale, c * scale], between: [d * scale, e * scale, f * scale] }
     }
 
     /// The product with itself.
     #[inline(always)]
-    pub(super) fn squared(self) -> Self {
+    pub(crate) fn squared(self) -> Self {
         let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
         let (x, y, z) = ([xx, xy, zx], [xy, yy, yz], [zx, yz, zz]);
         Self { along: [dot(x, x), dot(y, y), dot(z, z)], between: [dot(y, z), dot(z, x), dot(x, y)] }
@@ -61,21 +61,21 @@ impl<S: Simd> Symmetric<S> {
 
     /// Product with a vector.
     #[inline(always)]
-    pub(super) fn times(self, v: Vec3x8<S>) -> Vec3x8<S> {
+    pub(crate) fn times(self, v: Vec3x8<S>) -> Vec3x8<S> {
         let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
         [dot([xx, xy, zx], v), dot([xy, yy, yz], v), dot([zx, yz, zz], v)]
     }
 
     /// Sum of the products of all elements.
     #[inline(always)]
-    pub(super) fn contracted(self, other: Self) -> f32x8<S> {
+    pub(crate) fn contracted(self, other: Self) -> f32x8<S> {
         let between = dot(self.between, other.between);
         dot(self.along, other.along) + between + between
     }
 
     /// The inverse.
     #[inline(always)]
-    pub(super) fn inverse(self, simd: S) -> Self {
+    pub(crate) fn inverse(self, simd: S) -> Self {
         let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
         let along = [yy * zz - yz * yz, zz * xx - zx * zx, xx * yy - xy * xy];
         let between = [zx * xy - xx * yz, xy * yz - yy * zx, yz * zx - zz * xy];

@@ -2,10 +2,13 @@
 
 use glam::Vec3;
 
-use crate::params::Params;
+use crate::{layout::constants, params::Params};
 
-/// Number of ways in which walls mirror: along every axis by none, by the lower, or by the upper one.
-pub(super) const MIRRORS: usize = 27;
+constants! {
+    /// Number of ways in which walls mirror: along every axis by none, by the lower, or by the upper one.
+    pub(crate) const MIRRORS: usize = 27;
+}
+
 /// Rank of an image that is not there.
 const NONE: u8 = u8::MAX;
 
@@ -60,8 +63,13 @@ pub(super) fn count(near: NearWalls) -> u32 {
 /// mirrored pressures the transpose of the divergence.
 #[inline(always)]
 pub(super) fn near_walls(params: &Params, point: Vec3) -> NearWalls {
+    walls_within(params, point, params.fluid.smoothing.support_radius)
+}
+
+/// The walls within a distance of a point.
+#[inline(always)]
+pub(crate) fn walls_within(params: &Params, point: Vec3, reach: f32) -> NearWalls {
     let Some((low, high)) = params.walls else { return 0 };
-    let reach = params.fluid.smoothing.support_radius;
     let mut near = 0;
     for axis in 0..3 {
         near |= u8::from((point[axis] - low[axis]).abs() < reach) << (2 * axis);
@@ -73,7 +81,7 @@ pub(super) fn near_walls(params: &Params, point: Vec3) -> NearWalls {
 /// Calls `visit` with the places of all images of a point near the walls, in the order of their ranks, and with the axes whose walls
 /// mirror them, a bit each. The first is the point itself.
 #[inline(always)]
-pub(super) fn visit(params: &Params, point: Vec3, near: NearWalls, mut visit: impl FnMut(Vec3, u32)) {
+pub(crate) fn visit(params: &Params, point: Vec3, near: NearWalls, mut visit: impl FnMut(Vec3, u32)) {
     let (low, high) = params.walls.unwrap_or_default();
     for mirrors in (0..MIRRORS).filter(|mirrors| rank(near, *mirrors).is_some()) {
         let (mut place, mut axes) = (point, 0);

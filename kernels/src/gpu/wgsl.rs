@@ -35,6 +35,7 @@ const CONSTANTS: &[&[Constant]] = &[
     divergence::image_rows::CONSTANTS,
     divergence::mirror::CONSTANTS,
     divergence::rate::CONSTANTS,
+    divergence::walls::CONSTANTS,
     groups::CONSTANTS,
     pack::CONSTANTS,
     params::CONSTANTS,

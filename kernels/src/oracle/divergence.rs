@@ -39,7 +39,7 @@ fn volume(params: &Params) -> f64 {
     f64::from(params.fluid.particle_mass) / f64::from(params.fluid.rest_density)
 }
 
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
+pub(super) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
@@ -70,7 +70,10 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
     }
     let mut sums = [0.0; 3];
     for i in 0..count {
-        let (mut first, mut second, mut density) = (DVec3::ZERO, DMat3::ZERO, 0.0);
+        // Beginning with the material of sponges.
+        let (mut first, mut second) = (vector(fluid.moment[i]), renormalisation(fluid, i));
+        let material = f64::from(fluid.moment[i][lane::fluid::moment::MATERIAL]);
+        let mut density = material;
         let pairs = pairs_of(params, &x, &images, i);
         for (offset, c, other) in &pairs {
             let ratio = if let Other::Image(image) = other { images[*image].volume } else { 1.0 };
@@ -94,12 +97,14 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let diagonal = (own.length_squared() + squares).max(1e-3 / (spacing * spacing));
         let share = (first.length() / f64::from(divergence.surface_moment) - 0.25) / 0.75;
         let error = density + share.max(0.0) * f64::from(divergence.surface_lack) - 1.0;
-        let target = error.signum() * (error.abs() - 1e-3).clamp(0.0, 0.25) / 5.0;
+        let slow = (f64::from(params.step) / 0.02).min(0.2);
+        let (dead_zone, part) = if material > 0.02 { (5e-3, slow) } else { (1e-3, 0.2) };
+        let target = error.signum() * (error.abs() - dead_zone).clamp(0.0, 0.25) * part;
         let diagonals = DVec3::new(inverse.x_axis.x, inverse.y_axis.y, inverse.z_axis.z);
         fluid.renormalisation[i] = row(diagonals, density);
         fluid.renormalisation_between[i] =
             row(DVec3::new(inverse.y_axis.z, inverse.z_axis.x, inverse.x_axis.y), 0.0);
-        fluid.moment[i] = row(first, 0.0);
+        fluid.moment[i] = row(first, material);
         fluid.factors[i] = row(-(inverse * first), target);
         let before = fluid.velocity[i][lane::fluid::velocity::PRESSURE];
         let before = if density < 0.75 { 0.0 } else { before };
@@ -123,7 +128,7 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
 }
 
 /// Renormalisation of a particle.
-fn renormalisation(fluid: &Fluid, i: usize) -> DMat3 {
+pub(super) fn renormalisation(fluid: &Fluid, i: usize) -> DMat3 {
     let [along, between] = [fluid.renormalisation[i], fluid.renormalisation_between[i]].map(vector);
     DMat3::from_cols(
         DVec3::new(along.x, between.z, between.y),
@@ -273,10 +278,14 @@ pub(crate) fn acceleration(params: &Params, columns: &mut Columns) {
         return;
     }
     let count = columns.rows.fluid;
+    let of_material = super::solid::first_moments(params, columns);
     let (fluid, store) = (&mut columns.fluid, &mut columns.bodies);
     let images = seen(&fluid.images);
     let pressure = |i: usize| f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE]);
-    let (a, wrenches) = transposed(params, fluid, &store.states.0, (&images, count), |i, _| pressure(i));
+    let (mut a, wrenches) = transposed(params, fluid, &store.states.0, (&images, count), |i, _| pressure(i));
+    for (i, a) in a.iter_mut().enumerate() {
+        *a -= renormalisation(fluid, i) * of_material[i] * pressure(i);
+    }
     let forces = forces(params, fluid, (&images, count), |j, _| pressure(j));
     let step = f64::from(params.step);
     let moved = |(a, v): (&DVec3, &[f32; 4])| row(vector(*v) + step * *a, 0.0);
@@ -326,7 +335,8 @@ pub(crate) fn residual(params: &Params, columns: &mut Columns) {
     let (h, scale) = (f64::from(params.step), f64::from(fluid.pressure_solve.target_scale()));
     let mut sums = [0.0; 6];
     for (i, rate) in rates.into_iter().enumerate() {
-        let left = f64::from(fluid.factors[i][lane::fluid::factors::TARGET]) * scale + h * rate;
+        let of_solid = f64::from(fluid.correction[i][3]);
+        let left = f64::from(fluid.factors[i][lane::fluid::factors::TARGET]) * scale + h * (rate + of_solid);
         let left = if is_sparse(fluid, i) { 0.0 } else { left };
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;
@@ -350,7 +360,7 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
     for i in 0..columns.rows.fluid {
         let w = vector(fluid.correction[i]);
         fluid.velocity[i] = row(w, f64::from(fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE]));
-        if is_sparse(fluid, i) {
+        if is_sparse(fluid, i) || fluid.moment[i][lane::fluid::moment::MATERIAL] > 0.02 {
             continue;
         }
         let (x, z) = (vector(fluid.position[i]), vector(fluid.moment[i]));

@@ -159,6 +159,10 @@ fn images_of(params: &Params, bodies: &[Body], x: DVec3) -> Vec<Image> {
 pub(crate) fn images(params: &Params, columns: &mut Columns) {
     let (count, rows) = (columns.rows.fluid, columns.fluid.position.len());
     let x = vectors(&columns.fluid.position, count);
+    let fluid = &mut columns.fluid;
+    for moment in [&mut fluid.moment, &mut fluid.renormalisation, &mut fluid.renormalisation_between] {
+        *moment = vec![[0.0; 4]; rows];
+    }
     let bodies = &columns.bodies.states.0;
     let mut images = std::mem::take(&mut columns.fluid.images);
     let found = x

@@ -6,16 +6,19 @@ use crate::{
     params::{Params, SpongeParams},
 };
 
+/// How wet a node is.
+pub(super) fn wetness(nodes: &Nodes, node: usize) -> f64 {
+    nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[0]))
+}
+
 /// Length of the material of a node at rest over that of dry material.
 pub(super) fn size(sponge: &SpongeParams, nodes: &Nodes, node: usize) -> f64 {
-    let wetness = nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[0]));
-    1.0 + f64::from(sponge.wetting.swelling) * wetness
+    1.0 + f64::from(sponge.wetting.swelling) * wetness(nodes, node)
 }
 
 /// The edge of a tet at rest and its stiffness, over those of dry material.
 pub(super) fn of_tet(sponge: &SpongeParams, nodes: &Nodes, tet: [usize; 4]) -> (f64, f64) {
-    let wetness = |node: usize| nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[0]));
-    let mean = tet.map(wetness).iter().sum::<f64>() / 4.0;
+    let mean = tet.map(|node| wetness(nodes, node)).iter().sum::<f64>() / 4.0;
     let wetting = &sponge.wetting;
     (1.0 + f64::from(wetting.swelling) * mean, 1.0 - f64::from(wetting.softening) * mean)
 }

@@ -18,9 +18,17 @@ pub(super) static SEARCH: Block = Block {
     ],
 };
 
-/// Images of the particles in walls and bodies, and the moments of neighbourhoods with them.
-pub(super) static IMAGES: Block =
-    Block { name: "images", phases: &[Run(&divergence::images::KERNEL), Run(&divergence::moments::KERNEL)] };
+/// Images of the particles in walls and bodies, the material of sponges, and the moments of neighbourhoods with both.
+pub(super) static IMAGES: Block = Block {
+    name: "images",
+    phases: &[
+        Run(&divergence::images::KERNEL),
+        Run(&couple::solid_expect::KERNEL),
+        Run(&couple::solid_moments::KERNEL),
+        Run(&divergence::moments::KERNEL),
+        Run(&couple::solid_diagonal::KERNEL),
+    ],
+};
 
 /// Nodes as control particles of the fluid, pairs of nodes that may touch, and the saturation around the nodes.
 pub(super) static CONTROLS: Block = Block {
@@ -133,9 +141,12 @@ static DIVERGENCE: &[Phase] = &[
         phases: &[
             Run(&divergence::update::KERNEL),
             Run(&divergence::acceleration::KERNEL),
+            Run(&couple::solid_response::KERNEL),
+            Run(&couple::solid_velocity::KERNEL),
             Run(&divergence::residual::KERNEL),
         ],
     },
+    Run(&couple::solid_kick::KERNEL),
     Run(&divergence::kick::KERNEL),
 ];
 

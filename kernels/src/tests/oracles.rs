@@ -110,7 +110,8 @@ pub(super) fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool 
                 Column::FluidControlWeights => &mut columns.fluid.control_weights,
                 _ => &mut columns.controls.fluid_weights,
             };
-            chunks.iter_mut().flatten().flatten().for_each(|value| *value *= factor);
+            // Of every other entry: some kernels only know weights over their sum.
+            chunks.iter_mut().flatten().step_by(2).flatten().for_each(|value| *value *= factor);
         }
         Column::FluidExtremes => {
             columns.fluid.extremes.0.iter_mut().for_each(|chunk| chunk.acceleration_squared *= factor);

@@ -19,7 +19,7 @@ use crate::{
 
 /// The kernels of a step that have work.
 fn kernels_of(scene: &Scene) -> Vec<&'static Kernel> {
-    let [order, ..] = orders(scene.options.porous);
+    let [order, ..] = orders(scene.options);
     let all = order.into_iter().map(|name| kernel_named(name).expect("a name of the table"));
     all.filter(|kernel| scene.has_work(kernel)).collect()
 }

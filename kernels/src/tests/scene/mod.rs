@@ -51,24 +51,28 @@ impl Scene {
     /// The scene just before a kernel, in the second step: all columns have their shape. At its second place if it
     /// continues what it began at the first. Sponges are solved in the way that the kernel is for.
     pub(in crate::tests) fn before(&self, name: &str, cpu: &Cpu) -> Self {
+        self.before_place(name, cpu, usize::from(continues(name)))
+    }
+
+    /// The same at a place of the step where the kernel runs.
+    pub(in crate::tests) fn before_place(&self, name: &str, cpu: &Cpu, place: usize) -> Self {
         let mut scene = self.clone();
         for need in kernel_named(name).map_or(&[][..], |kernel| kernel.needs) {
             if let Need::Solver(solver) = need {
                 scene.params.sponges.iter_mut().for_each(|sponge| sponge.solve_by(*solver));
             }
         }
-        let orders = orders(self.options.porous);
+        let orders = orders(self.options);
         let order = orders.iter().find(|order| order.contains(&name)).expect("a step has every kernel");
         scene.run(cpu, order);
         let mut places = (0..order.len()).filter(|place| order[*place] == name);
-        let place = if continues(name) { places.nth(1) } else { places.next() };
-        scene.run(cpu, &order[..place.expect("this order has it")]);
+        scene.run(cpu, &order[..places.nth(place).expect("this order has it")]);
         scene
     }
 
     /// Runs the kernels of a step that have work.
     pub(in crate::tests) fn step(&mut self, cpu: &Cpu) {
-        let [order, ..] = orders(self.options.porous);
+        let [order, ..] = orders(self.options);
         self.run(cpu, &order);
     }
 

@@ -79,14 +79,13 @@ impl Options {
         let cohesion = kernel.needs.contains(&Need::Cohesion);
         let reads = kernel.reads.contains(&Column::NodeWetting);
         let wetting = self.wetting && (reads || porous) || kernel.needs.contains(&Need::Wetting);
-        let porous = porous || wetting;
+        let porous = porous || wetting || divergence && self.sponges;
         let implicit_viscosity = kernel.needs.contains(&Need::ImplicitViscosity);
         let of_touch = |column: &Column| matches!(column, Column::NodeTouch | Column::NodePairs);
         let touch = kernel.reads.iter().chain(kernel.writes).any(of_touch);
         Self {
             incompressible: porous || solves,
             divergence,
-            sponges: self.sponges && !divergence,
             porous,
             cohesion,
             implicit_viscosity,

@@ -1,12 +1,13 @@
 //! The kernels of a step, in its order.
 
+use super::Options;
 use crate::{
     KERNELS,
     step::{POROUS_STEP, Phase, STEP, Times},
 };
 
-/// The kernels of a step in its orders, by name: first the one of scenes with or without porous sponges, then the others.
-pub(in crate::tests) fn orders(porous: bool) -> [Vec<&'static str>; 4] {
+/// The kernels of a step in its orders, by name: first that of the scene, then the others.
+pub(in crate::tests) fn orders(options: Options) -> [Vec<&'static str>; 5] {
     let of = |phases, way| {
         let mut names = Vec::new();
         add(&mut names, phases, way);
@@ -16,10 +17,13 @@ pub(in crate::tests) fn orders(porous: bool) -> [Vec<&'static str>; 4] {
         of(STEP, Way::Solve),
         of(STEP, Way::Projection),
         of(STEP, Way::Divergence),
+        of(POROUS_STEP, Way::Divergence),
         of(POROUS_STEP, Way::Solve),
     ];
-    if porous {
-        orders.reverse();
+    match (options.porous, options.divergence) {
+        (true, true) => orders.rotate_left(3),
+        (true, false) => orders.reverse(),
+        (false, _) => {}
     }
     orders
 }
@@ -78,7 +82,7 @@ pub(super) fn continues(name: &str) -> bool {
 
 #[test]
 fn a_step_has_every_kernel() {
-    let all = orders(false).concat();
+    let all = orders(super::FULL).concat();
     for kernel in KERNELS {
         assert!(all.contains(&kernel.name), "{}", kernel.name);
     }

@@ -1,0 +1,32 @@
+// #include sponges
+// Velocities that are expected of the nodes, and the volume of their material; `solid_expect.rs` has the formula.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<uniform> sponges: Sponges;
+@group(0) @binding(3) var<storage, read> node_velocity: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> node_acceleration: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(6) var<storage, read> node_volume: array<f32>;
+@group(0) @binding(7) var<storage, read> control_node: array<u32>;
+@group(0) @binding(8) var<storage, read_write> control_expected: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> control_impulse: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.node_rows) {
+        return;
+    }
+    let node = control_node[row];
+    let v = node_velocity[node];
+    let solid = 1.0 - sponges.all[node_sponge[node]].porosity;
+    let velocity = v.xyz + (clock.step * v.w) * node_acceleration[node].xyz;
+    control_expected[row] = vec4<f32>(velocity, solid * node_volume[node]);
+    // Nothing is known before the first round.
+    control_impulse[row] = vec4<f32>(0.0);
+}
