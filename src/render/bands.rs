@@ -22,6 +22,18 @@ pub(super) fn each_band<T: Send>(
     each(jobs, |(index, band): (usize, &mut [T])| work(index * rows, band));
 }
 
+/// Runs `work(row, columns)` on every row of a buffer of `width` columns, `rows` of them at a time.
+pub(super) fn each_row<T: Send>(
+    buffer: &mut [T],
+    width: usize,
+    rows: usize,
+    work: impl Fn(usize, &mut [T]) + Sync + Send,
+) {
+    each_band(buffer, width, rows, |first, band| {
+        band.chunks_mut(width).enumerate().for_each(|(row, columns)| work(first + row, columns));
+    });
+}
+
 /// Results of `work` for 0 to `count` less one, in this order.
 pub(super) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     #[cfg(feature = "threads")]

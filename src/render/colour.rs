@@ -51,7 +51,7 @@ pub(super) fn displayed(light: Vec3) -> Vec3 {
         let root = (light * (1.0 / BRIGHTEST)).clamp(0.0, 1.0).sqrt();
         curve[index(root * (TONES - 1) as f32 + 0.5).min(TONES - 1)]
     };
-    Vec3::from(light.to_array().map(channel))
+    Vec3::new(channel(light.x), channel(light.y), channel(light.z))
 }
 
 /// Colours of a map at 0, 1/8, ... 1, as displayed: viridis, which grows lighter evenly.

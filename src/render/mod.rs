@@ -12,6 +12,7 @@ mod error;
 mod film;
 mod image;
 mod legend;
+mod number;
 mod rays;
 mod section;
 mod shapes;

@@ -5,9 +5,6 @@
 use super::room::{AMBIENT, KEY, key_direction};
 use glam::{Vec3, Vec4};
 
-/// Texels along a side of the maps.
-pub(super) const SIDE: usize = 288;
-
 /// The floor with its maps.
 #[derive(Debug)]
 pub(super) struct Ground {
@@ -17,6 +14,8 @@ pub(super) struct Ground {
     pub(super) is_seen: bool,
     /// Corner of the maps (m).
     pub(super) corner: Vec3,
+    /// Texels along a side of the maps.
+    pub(super) side: usize,
     /// Side of a texel (m).
     pub(super) texel: f32,
     /// Way along the light from the floor to the first solid (m); negative infinity for none.
@@ -29,17 +28,18 @@ pub(super) struct Ground {
 
 impl Ground {
     /// Maps without anything on them, around a box of things (m).
-    pub(super) fn new(height: f32, is_seen: bool, low: Vec3, high: Vec3) -> Self {
+    pub(super) fn new((height, is_seen): (f32, bool), side: usize, (low, high): (Vec3, Vec3)) -> Self {
         let size = high - low;
         let half = 0.5 * size.x.max(size.z) + 0.33 * size.y;
         // Shadows fall away from the light.
         let centre = (low + high) * 0.5 + Vec3::new(0.16, 0.0, -0.13) * size.y;
-        let count = SIDE * SIDE;
+        let count = side * side;
         Self {
             height,
             is_seen,
             corner: Vec3::new(centre.x - half, height, centre.z - half),
-            texel: 2.0 * half / SIDE as f32,
+            side,
+            texel: 2.0 * half / side as f32,
             solid: vec![f32::NEG_INFINITY; count],
             water: vec![f32::NEG_INFINITY; count],
             arriving: Vec::new(),
@@ -54,12 +54,12 @@ impl Ground {
     /// The first of the four texels around a point of the floor, and the place between them; nothing outside of the maps.
     pub(super) fn texels(&self, point: Vec3) -> Option<(usize, f32, f32)> {
         let at = (point - self.corner) / self.texel - 0.5;
-        let last = SIDE as f32 - 1.0;
+        let last = self.side as f32 - 1.0;
         if !(at.x >= 0.0 && at.z >= 0.0 && at.x < last && at.z < last) {
             return None;
         }
         let (x, y) = (at.x as usize, at.z as usize);
-        Some((y * SIDE + x, at.x - x as f32, at.z - y as f32))
+        Some((y * self.side + x, at.x - x as f32, at.z - y as f32))
     }
 
     /// Light on the floor at a point, and how wet it is.
@@ -70,7 +70,7 @@ impl Ground {
             return (KEY * key_direction().y + AMBIENT).extend(0.0);
         };
         let row = |k: usize| map[k] * (1.0 - fx) + map[k + 1] * fx;
-        row(k) * (1.0 - fy) + row(k + SIDE) * fy
+        row(k) * (1.0 - fy) + row(k + self.side) * fy
     }
 
     /// Share of the key light that solids let through to a point, and the length of its way in the water (m).
@@ -78,7 +78,7 @@ impl Ground {
         let light = key_direction();
         let rise = (point.y - self.height) / light.y;
         let at = (point - light * rise - self.corner) / self.texel - 1.5;
-        let last = SIDE as f32 - 5.0;
+        let last = self.side as f32 - 5.0;
         if !(at.x >= 0.0 && at.z >= 0.0 && at.x <= last && at.z <= last) {
             return (1.0, 0.0);
         }
@@ -88,7 +88,7 @@ impl Ground {
         let edge = rise + 2.6 * self.texel;
         let (mut lit, mut wet) = (0.0, 0.0);
         for (j, along) in along.into_iter().enumerate() {
-            let row = (y + j) * SIDE + x;
+            let row = (y + j) * self.side + x;
             for (i, across) in across.into_iter().enumerate() {
                 let weight = across * along;
                 if self.solid[row + i] < edge {

@@ -7,7 +7,10 @@ use super::room::{self, FAR, KEY, hemisphere, key_direction};
 use super::setting::{Coat, Matter, Setting};
 use super::skin::{facet, skin};
 use super::tree::Hit;
-use crate::render::colour::{colour_map, smooth, unit};
+use crate::render::{
+    colour::{colour_map, smooth, unit},
+    number::whole,
+};
 use glam::Vec3;
 
 const FLOOR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
@@ -124,15 +127,14 @@ impl Setting<'_> {
         if clear <= 0.0 {
             return 1.0;
         }
-        let (u, v) = (point.x / pitch, point.z / pitch);
-        let (i, j) = (u.floor() as i32, v.floor() as i32);
+        let ((i, u), (j, v)) = (whole(point.x / pitch), whole(point.z / pitch));
         let [i, j] = [i.cast_unsigned(), j.cast_unsigned()];
         if clear > 0.2 {
             signature.tile(i.wrapping_mul(73_856_093) ^ j.wrapping_mul(19_349_663));
         }
         let check = if i.wrapping_add(j) & 1 == 0 { 1.10 } else { 0.90 };
         let shade = 0.97 + 0.06 * unit(i.wrapping_mul(7919) ^ j.wrapping_mul(104_729));
-        let joint = |t: f32| (t - t.round()).abs() * pitch;
+        let joint = |t: f32| t.min(1.0 - t) * pitch;
         let half = 0.0175 * pitch;
         let blur = (0.5 * width).max(0.01 * pitch);
         let line = 1.0 - smooth(half, half + 2.0 * blur, joint(u).min(joint(v)));

@@ -28,10 +28,14 @@ use super::{Camera, Image, Picture, View};
 use glam::Vec3;
 use ground::Ground;
 use optics::Medium;
-use pixels::STRIDE;
+use pixels::{Effort, STRIDE};
 use screen::Screen;
 use setting::{Coat, Setting};
 use tree::{Ball, Tree};
+
+/// Texels along a side of the maps of light on the floor; those of the fast view.
+const TEXELS: usize = 240;
+const FEW_TEXELS: usize = 144;
 
 /// Draws the picture.
 pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> Image {
@@ -40,7 +44,8 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
     let (setting, watched) = prepare(&stage);
     let raster = &stage.raster;
     let screen = (picture.view == View::Fast).then(|| Screen::new(&stage));
-    let pixels = pixels::pixels((columns, rows), &watched, |x, y| {
+    let effort = if screen.is_some() { Effort::LITTLE } else { Effort::FULL };
+    let pixels = pixels::pixels((columns, rows), &watched, effort, |x, y| {
         let (right, up) = raster.slopes(x - 0.5, y - 0.5);
         let direction = (raster.forward + raster.right * right + raster.up * up).normalize();
         let (light, signature) = match (&screen, picture.view) {
@@ -63,6 +68,7 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
     let (low, high) = stage.around;
     let ground = stage.ground();
     let height = ground.map_or(low.y, |(height, _)| height);
+    let side = if view == View::Fast { FEW_TEXELS } else { TEXELS };
     let which = |clear: bool| {
         let floor = ground.and_then(|(_, body)| body);
         let indices = 0..stage.solids.len();
@@ -79,7 +85,7 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
         beads: beads::beads(stage),
         coat: if view == View::Saturation { Coat::Map } else { Coat::Skin },
         medium: Medium { absorption: stage.picture.absorption, scatter: stage.picture.scatter },
-        ground: Ground::new(height, ground.is_some(), low, high),
+        ground: Ground::new((height, ground.is_some()), side, (low, high)),
         opaque: which(false),
         clear: which(true),
         pitch: stage.pitch(),

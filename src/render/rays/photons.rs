@@ -2,7 +2,7 @@
 //!
 //! A photon is aimed at every texel of the floor, so that open floor is exactly as bright as without anything in the way.
 
-use super::ground::{Ground, SIDE};
+use super::ground::Ground;
 use super::optics::{INDEX, reflect, refract};
 use super::room::{AMBIENT, KEY, LAMP, key_direction};
 use super::setting::{Event, Face, Matter, Setting, boxed};
@@ -30,8 +30,9 @@ const OPEN: Landing = Landing { floor: None, solid: f32::NEG_INFINITY, water: f3
 impl Setting<'_> {
     /// Fills the maps of the ground.
     pub(super) fn light_up(&mut self) {
+        let side = self.ground.side;
         let landings = self.landings();
-        let mut light = vec![Vec3::ZERO; SIDE * SIDE];
+        let mut light = vec![Vec3::ZERO; side * side];
         for (index, landing) in landings.into_iter().enumerate() {
             self.ground.solid[index] = landing.solid;
             self.ground.water[index] = landing.water;
@@ -39,16 +40,16 @@ impl Setting<'_> {
             if let Some((k, fx, fy)) = self.ground.texels(place) {
                 light[k] += share * ((1.0 - fx) * (1.0 - fy));
                 light[k + 1] += share * (fx * (1.0 - fy));
-                light[k + SIDE] += share * ((1.0 - fx) * fy);
-                light[k + SIDE + 1] += share * (fx * fy);
+                light[k + side] += share * ((1.0 - fx) * fy);
+                light[k + side + 1] += share * (fx * fy);
             }
         }
-        even_out(&mut light);
+        even_out(&mut light, side);
         let (contact, wetness) = bands::both(|| self.contact(), || self.wetness());
         let height = key_direction().y;
         let arriving = |index: usize| {
-            let (x, y) = (index % SIDE, index / SIDE);
-            let at_border = x < 3 || y < 3 || x + 3 >= SIDE || y + 3 >= SIDE;
+            let (x, y) = (index % side, index / side);
+            let at_border = x < 3 || y < 3 || x + 3 >= side || y + 3 >= side;
             let key = if at_border { Vec3::ONE } else { light[index].min(Vec3::splat(BRIGHTEST)) };
             let way = if at_border { 0.0 } else { mean_water(&self.ground, index) };
             let under = self.stage.container.is_some_and(|(low, high)| {
@@ -59,13 +60,13 @@ impl Setting<'_> {
                 self.medium.left(way * if under { 0.8 } else { 0.35 }) / (1.0 + contact[index].min(1.6));
             (KEY * height * key + AMBIENT * around).extend(wetness[index].min(1.0))
         };
-        let rows = bands::map(SIDE, |y| (y * SIDE..(y + 1) * SIDE).map(arriving).collect::<Vec<_>>());
+        let rows = bands::map(side, |y| (y * side..(y + 1) * side).map(arriving).collect::<Vec<_>>());
         self.ground.arriving = rows.into_iter().flatten().collect();
     }
 
     /// What happens to the photon of every texel.
     fn landings(&self) -> Vec<Landing> {
-        let stage = self.stage;
+        let (stage, side) = (self.stage, self.ground.side);
         // Only what can hold the light up: water, sponges and bodies.
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let mut grow = |centre: Vec3, reach: f32| {
@@ -81,8 +82,8 @@ impl Setting<'_> {
         let reach = (high.y.max(self.ground.height) - self.ground.height + 0.01 * self.size) / light.y;
         let across = Vec3::Y.cross(light).normalize();
         let along = light.cross(across);
-        let rows = bands::map(SIDE, |y| {
-            let row = (0..SIDE).map(|x| {
+        let rows = bands::map(side, |y| {
+            let row = (0..side).map(|x| {
                 // Nine directions over the window, one for each texel of a block of 3 by 3.
                 let [i, j] = [x, y].map(|place| (place % 3) as f32 - 1.0);
                 let towards = (light + (across * i + along * j) * (0.8 * LAMP)).normalize();
@@ -163,7 +164,7 @@ impl Setting<'_> {
     /// How much ambient light things near the floor take away.
     fn contact(&self) -> Vec<f32> {
         let (stage, height) = (self.stage, self.ground.height);
-        let mut map = vec![0.0; SIDE * SIDE];
+        let mut map = vec![0.0; self.ground.side * self.ground.side];
         let reach = 0.1 * self.size;
         let mut seen = vec![false; stage.sponge.positions.len()];
         for node in stage.sponge.triangles.iter().flat_map(|(_, corners)| *corners) {
@@ -184,7 +185,7 @@ impl Setting<'_> {
 
     /// How wet the floor is below the lowest water.
     fn wetness(&self) -> Vec<f32> {
-        let mut map = vec![0.0; SIDE * SIDE];
+        let mut map = vec![0.0; self.ground.side * self.ground.side];
         let spacing = 2.0 * self.stage.radius;
         for (index, place) in &self.stage.particles {
             let is_free = self.stage.interior(*index) < 0.6;
@@ -198,10 +199,11 @@ impl Setting<'_> {
 
 /// Adds a round hill to a map.
 fn splat(ground: &Ground, map: &mut [f32], place: Vec3, radius: f32, height: f32) {
+    let side = ground.side;
     let (at, reach) = ((place - ground.corner) / ground.texel, radius / ground.texel);
     let range = |centre: f32| {
-        let first = ((centre - reach).max(0.0) as usize).min(SIDE);
-        first..((centre + reach).max(0.0) as usize + 1).min(SIDE)
+        let first = ((centre - reach).max(0.0) as usize).min(side);
+        first..((centre + reach).max(0.0) as usize + 1).min(side)
     };
     let scale = 1.0 / (reach * reach);
     for y in range(at.z) {
@@ -209,27 +211,28 @@ fn splat(ground: &Ground, map: &mut [f32], place: Vec3, radius: f32, height: f32
             let (dx, dy) = (x as f32 + 0.5 - at.x, y as f32 + 0.5 - at.z);
             let share = 1.0 - (dx * dx + dy * dy) * scale;
             if share > 0.0 {
-                map[y * SIDE + x] += height * share * share;
+                map[y * side + x] += height * share * share;
             }
         }
     }
 }
 
 /// Mean over blocks of 3 by 3, which see all directions over the window; once more, to hide the pattern.
-fn even_out(light: &mut [Vec3]) {
+fn even_out(light: &mut [Vec3], side: usize) {
     for _ in 0..2 {
         let mut rows = light.to_vec();
         for k in 1..light.len() - 1 {
             rows[k] = (light[k - 1] + light[k] + light[k + 1]) / 3.0;
         }
-        for k in SIDE..light.len() - SIDE {
-            light[k] = (rows[k - SIDE] + rows[k] + rows[k + SIDE]) / 3.0;
+        for k in side..light.len() - side {
+            light[k] = (rows[k - side] + rows[k] + rows[k + side]) / 3.0;
         }
     }
 }
 
 /// Mean way to the first water over a block of 3 by 3 (m).
 fn mean_water(ground: &Ground, index: usize) -> f32 {
+    let side = ground.side;
     let row = |k: usize| ground.water[k - 1..k + 2].iter().map(|way| way.max(0.0)).sum::<f32>();
-    (row(index - SIDE) + row(index) + row(index + SIDE)) / 9.0
+    (row(index - side) + row(index) + row(index + side)) / 9.0
 }

@@ -8,34 +8,68 @@ use super::path::Signature;
 use crate::render::{bands, colour::smooth};
 use glam::Vec3;
 
-/// Difference of colours, of [`MOST`], that are not mixed.
-const TOLERANCE: u32 = 48;
-/// Difference of neighbours, with equal and with different paths, from which on a pixel gets more rays, and where it takes
-/// them fully: a pixel at the limit must not jump from frame to frame.
-const CONTRAST: (f32, f32) = (0.17, 0.27);
-const PATHS: (f32, f32) = (0.05, 0.09);
-/// Largest value of a channel.
-const MOST: u32 = 1023;
-/// Places of the rays that are added, in pixels.
-const ADDED: [(f32, f32); 3] = [(0.33, 0.17), (-0.17, 0.33), (-0.33, -0.25)];
-/// Pixels from one ray of the first pass to the next.
-pub(super) const STRIDE: usize = 4;
-
-/// Colour of ten bits a channel, and the signature of its path.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sample {
-    colour: u32,
+/// What samples may differ in that are mixed.
+#[derive(Clone, Copy, Debug)]
+struct Likeness {
+    /// Difference of a channel, of [`MOST`].
+    tolerance: u64,
+    /// The bits of the path that must be equal.
     path: u32,
 }
 
+/// How many rays a picture takes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// At every second pixel, and between them.
+    likeness: [Likeness; 2],
+    /// Rays that a pixel at an edge gets: their places in pixels.
+    added: &'static [(f32, f32)],
+}
+
+impl Effort {
+    /// No difference to a ray for every pixel that an eye would see.
+    pub(super) const FULL: Self = Self {
+        likeness: [Likeness { tolerance: 48, path: u32::MAX }, Likeness { tolerance: 64, path: u32::MAX }],
+        added: &[(0.34, 0.17), (-0.34, -0.17)],
+    };
+    /// Pores and joints of tiles are a little blurred.
+    pub(super) const LITTLE: Self = Self {
+        likeness: [Likeness { tolerance: 80, path: u32::MAX }, Likeness { tolerance: 200, path: 0xffff }],
+        added: &[(0.34, 0.25)],
+    };
+}
+
+/// Difference of neighbours, with equal and with different paths, from which on a pixel gets more rays, and where it takes
+/// them fully: a pixel at the limit must not jump from frame to frame.
+const CONTRAST: (f32, f32) = (0.2, 0.32);
+const PATHS: (f32, f32) = (0.07, 0.12);
+/// A smaller difference has no effect, of [`MOST`].
+const LEAST: u64 = (PATHS.0 * MOST as f32) as u64;
+/// Largest value of a channel.
+const MOST: u32 = 1023;
+/// Pixels from one ray of the first pass to the next.
+pub(super) const STRIDE: usize = 4;
+
+/// Colour of a place and the signature of its path.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sample {
+    /// Red, green and blue, 0 to [`MOST`], in 16 bits each: one instruction compares all of them.
+    colour: u64,
+    path: u32,
+}
+
+/// One in each channel, and the bit above its value.
+const ONES: u64 = 0x0001_0001_0001;
+const GUARDS: u64 = ONES << 15;
+
 impl Sample {
     fn new(colour: Vec3, path: u32) -> Self {
-        let [r, g, b] = colour.to_array().map(|channel| (channel * MOST as f32 + 0.5) as u32);
-        Self { colour: r | g << 10 | b << 20, path }
+        let [r, g, b] = colour.to_array().map(|channel| (channel * MOST as f32 + 0.5) as u64);
+        Self { colour: r | g << 16 | b << 32, path }
     }
 
     fn channels(self) -> [u32; 3] {
-        [self.colour & MOST, self.colour >> 10 & MOST, self.colour >> 20 & MOST]
+        [0, 16, 32].map(|shift| (self.colour >> shift) as u32 & MOST)
     }
 
     fn colour(self) -> Vec3 {
@@ -43,10 +77,24 @@ impl Sample {
         Vec3::new(r as f32, g as f32, b as f32) / MOST as f32
     }
 
+    /// The colour in eight bits a channel.
+    fn bytes(self) -> [u8; 3] {
+        self.channels().map(|channel| ((channel * 1021 + 2048) >> 12) as u8)
+    }
+
     /// Largest difference of a channel, 0 to [`MOST`].
     fn difference(self, other: Self) -> u32 {
         let ([a, b, c], [d, e, f]) = (self.channels(), other.channels());
         a.abs_diff(d).max(b.abs_diff(e)).max(c.abs_diff(f))
+    }
+
+    /// Whether every channel differs by less than a limit.
+    #[inline]
+    fn is_like(self, other: Self, limit: u64) -> bool {
+        // The guard of a channel is set from a difference of one less than the limit below zero on, and again cleared where the
+        // difference reaches the limit.
+        let above = (self.colour | GUARDS) - other.colour + ONES * (limit - 1);
+        above & !(above - ONES * (2 * limit - 1)) & GUARDS == GUARDS
     }
 }
 
@@ -57,6 +105,7 @@ impl Sample {
 pub(super) fn pixels(
     (width, height): (usize, usize),
     watched: &[bool],
+    effort: Effort,
     ray: impl Fn(f32, f32) -> (Vec3, Signature) + Sync,
 ) -> Vec<u8> {
     let shoot = |x: usize, y: usize| {
@@ -67,105 +116,97 @@ pub(super) fn pixels(
     let blocks = columns;
     let is_watched = |x: usize, y: usize| watched[y / STRIDE * blocks + x / STRIDE];
     let mut samples = vec![Sample::default(); columns * rows];
-    bands::each_band(&mut samples, columns, 1, |y, row| {
+    bands::each_row(&mut samples, columns, 1, |y, row| {
         row.iter_mut().enumerate().for_each(|(x, sample)| *sample = shoot(x * STRIDE, y * STRIDE));
     });
     let mut stride = STRIDE;
-    while stride > 1 {
+    for likeness in effort.likeness {
         stride /= 2;
         let finer = (width.div_ceil(stride), height.div_ceil(stride));
         let mut fine = vec![Sample::default(); finer.0 * finer.1];
-        let coarse = |x: usize, y: usize| samples[y.min(rows - 1) * columns + x.min(columns - 1)];
-        bands::each_band(&mut fine, finer.0, 4, |first, band| {
-            for (index, sample) in band.iter_mut().enumerate() {
-                let (x, y) = (index % finer.0, first + index / finer.0);
-                let (i, j) = (x / 2, y / 2);
-                *sample = if x % 2 == 0 && y % 2 == 0 {
-                    coarse(i, j)
-                } else {
-                    let four = [
-                        coarse(i, j),
-                        coarse(i + x % 2, j),
-                        coarse(i, j + y % 2),
-                        coarse(i + x % 2, j + y % 2),
-                    ];
-                    let (x, y) = (x * stride, y * stride);
-                    mixed(four).filter(|_| !is_watched(x, y)).unwrap_or_else(|| shoot(x, y))
+        bands::each_row(&mut fine, finer.0, 4, |y, row| {
+            let coarse = |j: usize| &samples[j.min(rows - 1) * columns..][..columns];
+            let (above, below) = (coarse(y / 2), coarse(y / 2 + y % 2));
+            for (x, sample) in row.iter_mut().enumerate() {
+                let (left, right) = (x / 2, (x / 2 + 1).min(columns - 1));
+                let mean = match (x % 2, y % 2) {
+                    (0, 0) => {
+                        *sample = above[left];
+                        continue;
+                    }
+                    (0, _) => mixed(above[left], below[left], likeness),
+                    (_, 0) => mixed(above[left], above[right], likeness),
+                    _ => mixed_of_four([above[left], above[right], below[left], below[right]], likeness),
                 };
+                let (x, y) = (x * stride, y * stride);
+                *sample = mean.filter(|_| !is_watched(x, y)).unwrap_or_else(|| shoot(x, y));
             }
         });
         samples = fine;
         (columns, rows) = finer;
     }
     let mut bytes = vec![0; width * height * 3];
-    bands::each_band(&mut bytes, width * 3, 4, |first, band| {
-        for (index, pixel) in band.as_chunks_mut::<3>().0.iter_mut().enumerate() {
-            let (x, y) = (index % width, first + index / width);
-            let colour = refined(&samples, (width, height), (x, y), &ray);
-            *pixel = colour.to_array().map(|channel| (channel * 255.0 + 0.5) as u8);
+    bands::each_row(&mut bytes, width * 3, 4, |y, row| {
+        let at = |y: usize| &samples[y.min(height - 1) * width..][..width];
+        let (above, own, below) = (at(y.saturating_sub(1)), at(y), at(y + 1));
+        let mut edges = vec![false; width];
+        mark(above, own, &mut edges);
+        mark(below, own, &mut edges);
+        mark(&own[..width - 1], &own[1..], &mut edges[1..]);
+        mark(&own[1..], &own[..width - 1], &mut edges[..width - 1]);
+        for (x, (pixel, is_edge)) in row.as_chunks_mut::<3>().0.iter_mut().zip(edges).enumerate() {
+            *pixel = if is_edge {
+                let around = [own[x.saturating_sub(1)], own[(x + 1).min(width - 1)], above[x], below[x]];
+                let colour = refined(own[x], around, effort.added, |dx, dy| {
+                    ray(x as f32 + 0.5 + dx, y as f32 + 0.5 + dy).0
+                });
+                colour.to_array().map(|channel| (channel * 255.0 + 0.5) as u8)
+            } else {
+                own[x].bytes()
+            };
         }
     });
     bytes
 }
 
-/// The mean of samples with equal paths and similar colours.
-fn mixed(four: [Sample; 4]) -> Option<Sample> {
-    let path = four[0].path;
-    if four.iter().any(|sample| sample.path != path) {
-        return None;
+/// Marks samples whose colour differs from that of a neighbour so much that it may have an effect.
+fn mark(neighbours: &[Sample], own: &[Sample], edges: &mut [bool]) {
+    for ((edge, own), neighbour) in edges.iter_mut().zip(own).zip(neighbours) {
+        *edge |= !own.is_like(*neighbour, LEAST);
     }
-    let [a, b, c, d] = four.map(Sample::channels);
-    let mut colour = 0;
-    for (channel, shift) in [0, 10, 20].into_iter().enumerate() {
-        let four = [a[channel], b[channel], c[channel], d[channel]];
-        let least = four[0].min(four[1]).min(four[2]).min(four[3]);
-        let most = four[0].max(four[1]).max(four[2]).max(four[3]);
-        if most - least >= TOLERANCE {
-            return None;
-        }
-        colour |= ((four[0] + four[1] + four[2] + four[3] + 2) / 4) << shift;
+}
+
+/// The mean of two samples with equal paths and similar colours.
+fn mixed(a: Sample, b: Sample, likeness: Likeness) -> Option<Sample> {
+    let colour = ((a.colour + b.colour + ONES) >> 1) & (ONES * u64::from(MOST));
+    likeness.holds(a, b).then_some(Sample { colour, path: a.path })
+}
+
+/// The same of four.
+fn mixed_of_four([a, b, c, d]: [Sample; 4], likeness: Likeness) -> Option<Sample> {
+    let pairs = [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)];
+    let colour = ((a.colour + b.colour + c.colour + d.colour + 2 * ONES) >> 2) & (ONES * u64::from(MOST));
+    pairs.iter().all(|(a, b)| likeness.holds(*a, *b)).then_some(Sample { colour, path: a.path })
+}
+
+impl Likeness {
+    fn holds(self, a: Sample, b: Sample) -> bool {
+        (a.path ^ b.path) & self.path == 0 && a.is_like(b, self.tolerance)
     }
-    Some(Sample { colour, path })
 }
 
 /// Colour of a pixel, with more rays where its neighbours differ.
-fn refined(
-    samples: &[Sample],
-    (width, height): (usize, usize),
-    (x, y): (usize, usize),
-    ray: &(impl Fn(f32, f32) -> (Vec3, Signature) + Sync),
-) -> Vec3 {
-    let index = y * width + x;
-    let own = samples[index];
-    // Less than that has no effect.
-    let least = (PATHS.0 * MOST as f32) as u32;
+fn refined(own: Sample, around: [Sample; 4], added: &[(f32, f32)], ray: impl Fn(f32, f32) -> Vec3) -> Vec3 {
     let mut share = 0.0_f32;
-    let mut compare = |other: Sample| {
-        let difference = own.difference(other);
-        if difference <= least {
-            return;
-        }
-        let difference = difference as f32 / MOST as f32;
+    for other in around {
         let limits = if (other.path ^ own.path) & 0xffff == 0 { CONTRAST } else { PATHS };
+        let difference = own.difference(other) as f32 / MOST as f32;
         share = share.max(smooth(limits.0, limits.1, difference));
-    };
-    if x > 0 {
-        compare(samples[index - 1]);
-    }
-    if x + 1 < width {
-        compare(samples[index + 1]);
-    }
-    if y > 0 {
-        compare(samples[index - width]);
-    }
-    if y + 1 < height {
-        compare(samples[index + width]);
     }
     let colour = own.colour();
     if share <= 0.0 {
         return colour;
     }
-    let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
-    let sum = ADDED.iter().fold(colour, |sum, (dx, dy)| sum + ray(x + dx, y + dy).0);
-    colour.lerp(sum * (1.0 / (ADDED.len() + 1) as f32), share)
+    let sum = added.iter().fold(colour, |sum, (dx, dy)| sum + ray(*dx, *dy));
+    colour.lerp(sum * (1.0 / (added.len() + 1) as f32), share)
 }

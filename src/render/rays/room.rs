@@ -1,6 +1,6 @@
 //! The surroundings: a room with windows, and the light that comes from them.
 
-use crate::render::colour::smooth;
+use crate::render::{colour::smooth, number::whole};
 use glam::Vec3;
 
 /// Light from the brightest window.
@@ -42,7 +42,7 @@ pub(super) fn light(direction: Vec3) -> Vec3 {
     }
     // Two rows of three panes. They end high above the floor, or flat water would mirror nothing but white.
     let pane = |x: f32, pitch: f32, frame: f32| {
-        let cell = x / pitch - (x / pitch).floor() - 0.5;
+        let cell = whole(x / pitch).1 - 0.5;
         smooth(0.0, 0.03, 0.5 * pitch - frame - cell.abs() * pitch)
     };
     let inside = smooth(0.0, 0.15, 1.5 - along.abs())

@@ -10,15 +10,17 @@ use crate::render::{bands, camera::Raster, colour::smooth, stage::Stage};
 use glam::Vec3;
 use std::ops::Range;
 
-/// Radius of a ball over the spacing: those of neighbours must overlap.
-const BALL: f32 = 0.62;
+/// Radius of a ball over the spacing: four of a square must leave no gap.
+const BALL: f32 = 0.78;
 /// Volume of a particle over that of its ball.
-const FILLING: f32 = 1.0;
+const FILLING: f32 = 0.5;
+/// Water that is nearer behind a wall touches it, in spacings.
+const TOUCH: f32 = 0.25;
 /// Rows of a task.
 const BAND: usize = 16;
 /// The filter: reach along a row, in spacings and in samples, and the range of depths that mix, in spacings.
-const REACH: f32 = 1.6;
-const MOST_SAMPLES: f32 = 8.0;
+const REACH: f32 = 2.0;
+const MOST_SAMPLES: f32 = 10.0;
 const RANGE: f32 = 2.5;
 /// What is farther behind counts as this far behind, in spacings.
 const BEHIND: f32 = 0.5;
@@ -57,6 +59,67 @@ struct Disc {
     rows: Range<usize>,
 }
 
+/// Weighted sums of the filter along a piece of a row. Loops without branches, which a compiler turns into vectors.
+#[derive(Debug, Default)]
+struct Sums {
+    here: Vec<f32>,
+    /// Reach of the filter in samples.
+    reach: Vec<f32>,
+    depth: Vec<f32>,
+    water: Vec<f32>,
+    total: Vec<f32>,
+    /// Range of depths that mix, and depth of what is farther behind (m).
+    near: f32,
+    behind: f32,
+}
+
+impl Sums {
+    fn begin(&mut self, here: &[f32], thickness: &[f32], scale: f32, spacing: f32) {
+        for (own, with) in [
+            (&mut self.here, here),
+            (&mut self.reach, here),
+            (&mut self.depth, here),
+            (&mut self.water, thickness),
+            (&mut self.total, here),
+        ] {
+            own.clear();
+            own.extend_from_slice(with);
+        }
+        self.reach.iter_mut().for_each(|reach| *reach = (scale / *reach).clamp(1.0, MOST_SAMPLES));
+        self.total.fill(1.0);
+        (self.near, self.behind) = (RANGE * spacing, BEHIND * spacing);
+    }
+
+    /// Adds the samples at a distance to both sides of a part of the piece.
+    fn add(&mut self, first: usize, depth: [&[f32]; 2], thickness: [&[f32]; 2], tap: f32) {
+        let count = depth[0].len();
+        let part = first..first + count;
+        let (here, reach) = (&self.here[part.clone()], &self.reach[part.clone()]);
+        let sums = (&mut self.depth[part.clone()], &mut self.water[part.clone()], &mut self.total[part]);
+        let ([a, b], [p, q]) = (depth.map(|side| &side[..count]), thickness.map(|side| &side[..count]));
+        for k in 0..count {
+            let (low, high) = (here[k] - self.near, here[k] + self.near);
+            let share = tap / (reach[k] + 1.0);
+            let weight = 1.0 - share * share;
+            // In front of the range is another sheet; a pair keeps the filter even.
+            let is_sheet = a[k] >= low && b[k] >= low && weight > 0.0;
+            let weight = if is_sheet { weight } else { 0.0 };
+            let clamp = |depth: f32| if depth > high { here[k] + self.behind } else { depth };
+            sums.0[k] += weight * (clamp(a[k]) + clamp(b[k]));
+            sums.1[k] += weight * (p[k] + q[k]);
+            sums.2[k] += 2.0 * weight;
+        }
+    }
+
+    fn finish(&self, depth: &mut [f32], thickness: &mut [f32]) {
+        for (k, (depth, thickness)) in depth.iter_mut().zip(thickness).enumerate() {
+            let is_water = self.here[k] < f32::INFINITY;
+            *depth = if is_water { self.depth[k] / self.total[k] } else { f32::INFINITY };
+            *thickness = if is_water { self.water[k] / self.total[k] } else { 0.0 };
+        }
+    }
+}
+
 impl Screen {
     /// The free water as the raster sees it.
     pub(super) fn new(stage: &Stage<'_>) -> Self {
@@ -85,49 +148,51 @@ impl Screen {
             screen.even_out(true);
             screen.even_out(false);
         }
-        let rows = bands::map(height, |y| (0..width).map(|x| screen.slope(x, y)).collect::<Vec<_>>());
-        screen.normal = rows.into_iter().flatten().collect();
+        let mut normal = vec![Vec3::NEG_Z; width * height];
+        bands::each_row(&mut normal, width, BAND, |y, row| {
+            row.iter_mut().enumerate().for_each(|(x, normal)| *normal = screen.slope(x, y));
+        });
+        screen.normal = normal;
         screen
     }
 
     /// One pass of the filter along rows or columns.
     fn even_out(&mut self, sideways: bool) {
         let (width, height) = (self.width, self.height);
-        let (near, behind) = (RANGE * self.spacing, BEHIND * self.spacing);
         let scale = REACH * self.spacing * self.raster.focal;
         let (depth, thickness) = (&self.depth, &self.thickness);
-        let mut result: Vec<(f32, f32)> = vec![(f32::INFINITY, 0.0); width * height];
-        bands::each_band(&mut result, width, BAND, |first, band| {
-            for (index, out) in band.iter_mut().enumerate() {
-                let (x, y) = (index % width, first + index / width);
-                let own = y * width + x;
-                let here = depth[own];
-                if here == f32::INFINITY {
-                    continue;
-                }
-                let reach = (scale / here).clamp(1.0, MOST_SAMPLES);
-                let taps = reach as usize;
-                let (at, limit, stride) = if sideways { (x, width, 1) } else { (y, height, width) };
+        let mut result = (vec![f32::INFINITY; width * height], vec![0.0; width * height]);
+        let rows = result.0.chunks_mut(BAND * width).zip(result.1.chunks_mut(BAND * width)).enumerate();
+        bands::each(rows.collect(), |(band, (depths, thicknesses)): (usize, (&mut [f32], &mut [f32]))| {
+            let mut sums = Sums::default();
+            for (row, out) in depths.chunks_mut(width).zip(thicknesses.chunks_mut(width)).enumerate() {
+                let (y, own) = (band * BAND + row, (band * BAND + row) * width);
+                let here = &depth[own..own + width];
+                let Some(first) = here.iter().position(|depth| depth.is_finite()) else { continue };
+                let end = here.iter().rposition(|depth| depth.is_finite()).map_or(first, |last| last + 1);
+                sums.begin(&here[first..end], &thickness[own + first..own + end], scale, self.spacing);
+                let most = sums.reach.iter().fold(1.0_f32, |most, reach| most.max(*reach));
                 // As far to one side as to the other, or a slope would shrink.
-                let taps = taps.min(at).min(limit - 1 - at);
-                let (mut sum, mut water, mut total) = (here, thickness[own], 1.0);
-                for tap in 1..=taps {
-                    let (a, b) = (depth[own - tap * stride], depth[own + tap * stride]);
-                    // In front of the range is another sheet; a pair keeps the filter even.
-                    if a < here - near || b < here - near {
-                        continue;
+                for tap in 1..=most.ceil() as usize {
+                    let (range, step) = if sideways {
+                        (first.max(tap)..end.min(width - tap), tap)
+                    } else if tap <= y && y + tap < height {
+                        (first..end, tap * width)
+                    } else {
+                        break;
+                    };
+                    if range.is_empty() {
+                        break;
                     }
-                    let share = tap as f32 / (reach + 1.0);
-                    let weight = 1.0 - share * share;
-                    let clamp = |depth: f32| if depth > here + near { here + behind } else { depth };
-                    sum += weight * (clamp(a) + clamp(b));
-                    water += weight * (thickness[own - tap * stride] + thickness[own + tap * stride]);
-                    total += 2.0 * weight;
+                    let at = |k: usize| k + range.start..k + range.end;
+                    let pair = [&depth[at(own - step)], &depth[at(own + step)]];
+                    let water = [&thickness[at(own - step)], &thickness[at(own + step)]];
+                    sums.add(range.start - first, pair, water, tap as f32);
                 }
-                *out = (sum / total, water / total);
+                sums.finish(&mut out.0[first..end], &mut out.1[first..end]);
             }
         });
-        (self.depth, self.thickness) = result.into_iter().unzip();
+        (self.depth, self.thickness) = result;
     }
 
     /// Normal of a sample, in the axes of the raster.
@@ -212,26 +277,27 @@ fn disc(raster: &Raster, place: Vec3, radius: f32) -> Option<Disc> {
     (!columns.is_empty() && !rows.is_empty()).then_some(Disc { centre: local, columns, rows })
 }
 
-/// Draws the part of a ball that is in a band of rows.
+/// Draws the part of a ball that is in a band of rows. Its loop over columns is without branches, as those of [`Sums`].
 fn splat(raster: &Raster, disc: &Disc, radius: f32, first: usize, depth: &mut [f32], thickness: &mut [f32]) {
     let end = first + depth.len() / raster.width;
     let c = disc.centre;
+    let (start, step) = (raster.slopes(0.0, 0.0).0, raster.slopes(1.0, 0.0).0 - raster.slopes(0.0, 0.0).0);
     for y in disc.rows.start.max(first)..disc.rows.end.min(end) {
         let (_, dy) = raster.slopes(0.0, y as f32);
         let across = dy * c.z - c.y;
         let row = (y - first) * raster.width;
-        for x in disc.columns.clone() {
-            let (dx, _) = raster.slopes(x as f32, 0.0);
+        let columns = row + disc.columns.start..row + disc.columns.end;
+        let (depth, thickness) = (&mut depth[columns.clone()], &mut thickness[columns]);
+        for (x, (depth, thickness)) in depth.iter_mut().zip(thickness).enumerate() {
+            let dx = start + step * (disc.columns.start + x) as i32 as f32;
             let (p, q) = (dx * c.z - c.x, dx * c.y - dy * c.x);
             let a = 1.0 + dx * dx + dy * dy;
             let square = a * radius * radius - (p * p + across * across + q * q);
-            if square > 0.0 {
-                let (root, inverse) = (square.sqrt(), 1.0 / a);
-                let near = (dx * c.x + dy * c.y + c.z - root) * inverse;
-                let (depth, thickness) = (&mut depth[row + x], &mut thickness[row + x]);
-                *depth = depth.min(near);
-                *thickness += 2.0 * root * inverse * a.sqrt() * FILLING;
-            }
+            let root = if square > 0.0 { square } else { 0.0 }.sqrt();
+            let near = (dx * c.x + dy * c.y + c.z - root) / a;
+            let near = if square > 0.0 { near } else { f32::INFINITY };
+            *depth = if near < *depth { near } else { *depth };
+            *thickness += (2.0 * FILLING) * root / a.sqrt();
         }
     }
 }
@@ -250,17 +316,17 @@ impl Setting<'_> {
             let mut distance = depth / direction.dot(raster.forward).max(1e-3);
             let mut normal = normal;
             if let Some((low, high)) = self.stage.container {
-                // Balls reach through walls: there the wall is the surface.
+                // The wall is the surface of water that touches it: balls there reach through it, or nearly so.
                 let (enter, leave) = boxed(low, high, origin, direction)?;
                 if distance > leave {
                     return None;
                 }
-                if distance < enter {
+                if distance < enter + TOUCH * screen.spacing {
                     (distance, normal) = (enter, self.face(origin + direction * enter));
                 }
             }
-            let solid = self.solid(origin, direction, f32::INFINITY).map_or(f32::INFINITY, |hit| hit.0);
-            let thickness = thickness.min(solid - distance);
+            let solid = self.solid(origin, direction, distance + thickness);
+            let thickness = solid.map_or(thickness, |(solid, _)| solid - distance);
             (thickness > 0.0).then_some((distance, thickness, normal))
         });
         let Some((distance, thickness, normal)) = found else { return self.radiance(origin, direction) };

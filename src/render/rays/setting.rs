@@ -7,6 +7,7 @@ use super::tree::{Hit, Tree, Triangle};
 use crate::render::{
     Look,
     colour::smooth,
+    number::{greater, lesser},
     shapes::{Solid, Span},
     stage::Stage,
     water::Field,
@@ -114,9 +115,13 @@ impl Event {
 
 /// Where a ray enters and leaves a box, if it does so in front of its start.
 pub(super) fn boxed(low: Vec3, high: Vec3, origin: Vec3, direction: Vec3) -> Option<(f32, f32)> {
-    let inverse = direction.recip();
-    let (a, b) = ((low - origin) * inverse, (high - origin) * inverse);
-    let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
+    let (mut enter, mut leave) = (f32::NEG_INFINITY, f32::INFINITY);
+    for axis in 0..3 {
+        let inverse = 1.0 / direction[axis];
+        let (a, b) = ((low[axis] - origin[axis]) * inverse, (high[axis] - origin[axis]) * inverse);
+        enter = greater(lesser(a, b), enter);
+        leave = lesser(greater(a, b), leave);
+    }
     (enter < leave && leave > 0.0).then_some((enter, leave))
 }
 

@@ -1,11 +1,13 @@
 //! A tree of boxes over triangles of sponges, or over balls.
 
 use super::setting::NEAR;
+use crate::render::number::{greater, lesser};
 use glam::Vec3;
+use std::ops::Range;
 
 /// Most triangles of a leaf.
 const LEAF: usize = 4;
-/// Deepest place that waits for its turn; the tree is balanced, so that 2^32 triangles fit.
+/// Most parts that wait for their turn; the tree is balanced, so that 2^32 triangles fit.
 const DEPTH: usize = 64;
 
 /// Something that rays meet.
@@ -36,14 +38,26 @@ pub(super) struct Hit<P> {
     pub(super) place: P,
 }
 
+/// Children of a node: their boxes are compared with a ray at once.
+const WIDTH: usize = 4;
+
+/// A part of the tree.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    /// First shape of a leaf, or a node.
+    first: u32,
+    /// Shapes of a leaf; 0 for a node.
+    count: u32,
+}
+
+/// Up to four parts with their boxes, axis by axis.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    low: Vec3,
-    high: Vec3,
-    /// First shape of a leaf, or the second child; the first child follows its parent.
-    first: u32,
-    /// Shapes of a leaf, 0 for a branch.
-    count: u32,
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+    parts: [Part; WIDTH],
+    /// Number of parts.
+    width: usize,
 }
 
 /// The tree.
@@ -60,87 +74,125 @@ impl<S: Shape> Tree<S> {
         let mut tree = Self { nodes: Vec::new(), shapes };
         let count = tree.shapes.len();
         if count > 0 {
-            tree.build(0, count);
+            tree.build(0..count);
         }
         tree
     }
 
-    fn build(&mut self, first: usize, end: usize) -> usize {
+    /// Box around some shapes (m).
+    fn bounds(&self, shapes: &Range<usize>) -> (Vec3, Vec3) {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for (_, shape) in &self.shapes[first..end] {
+        for (_, shape) in &self.shapes[shapes.clone()] {
             let (a, b) = shape.bounds();
             low = low.min(a);
             high = high.max(b);
         }
-        let own = self.nodes.len();
-        self.nodes.push(Node { low, high, first: first as u32, count: (end - first) as u32 });
-        if end - first > LEAF {
-            let axis = (high - low).max_position();
-            let middle = (first + end) / 2;
-            let centre = |shape: &S| {
-                let (a, b) = shape.bounds();
-                a[axis] + b[axis]
+        (low, high)
+    }
+
+    /// Sorts shapes into two halves along the longest side of their box.
+    fn halves(&mut self, shapes: &Range<usize>) -> [Range<usize>; 2] {
+        let (low, high) = self.bounds(shapes);
+        let axis = (high - low).max_position();
+        let middle = usize::midpoint(shapes.start, shapes.end);
+        let centre = |shape: &S| {
+            let (a, b) = shape.bounds();
+            a[axis] + b[axis]
+        };
+        self.shapes[shapes.clone()]
+            .select_nth_unstable_by(middle - shapes.start, |a, b| centre(&a.1).total_cmp(&centre(&b.1)));
+        [shapes.start..middle, middle..shapes.end]
+    }
+
+    fn build(&mut self, shapes: Range<usize>) -> u32 {
+        let mut ranges = vec![shapes];
+        while ranges.len() < WIDTH && ranges.iter().any(|range| range.len() > LEAF) {
+            let cut = |range: Range<usize>| {
+                if range.len() > LEAF { self.halves(&range).to_vec() } else { vec![range] }
             };
-            self.shapes[first..end]
-                .select_nth_unstable_by(middle - first, |a, b| centre(&a.1).total_cmp(&centre(&b.1)));
-            self.build(first, middle);
-            let second = self.build(middle, end);
-            self.nodes[own].count = 0;
-            self.nodes[own].first = second as u32;
+            ranges = ranges.into_iter().flat_map(cut).collect();
         }
-        own
+        let own = self.nodes.len();
+        let mut node = Node {
+            low: [[0.0; WIDTH]; 3],
+            high: [[0.0; WIDTH]; 3],
+            parts: [Part { first: 0, count: 0 }; WIDTH],
+            width: ranges.len(),
+        };
+        self.nodes.push(node);
+        for (lane, range) in ranges.into_iter().enumerate() {
+            let (low, high) = self.bounds(&range);
+            for axis in 0..3 {
+                (node.low[axis][lane], node.high[axis][lane]) = (low[axis], high[axis]);
+            }
+            node.parts[lane] = if range.len() > LEAF {
+                Part { first: self.build(range), count: 0 }
+            } else {
+                Part { first: range.start as u32, count: range.len() as u32 }
+            };
+        }
+        self.nodes[own] = node;
+        own as u32
     }
 
     /// The nearest shape on a ray that is nearer than a distance.
     pub(super) fn hit(&self, origin: Vec3, direction: Vec3, mut nearest: f32) -> Option<Hit<S::Place>> {
-        let inverse = direction.recip();
-        let enter = |node: &Node, nearest: f32| {
-            let (a, b) = ((node.low - origin) * inverse, (node.high - origin) * inverse);
-            let (near, far) = (a.min(b).max_element().max(0.0), a.max(b).min_element());
-            if near <= far && near < nearest { near } else { f32::INFINITY }
-        };
-        let root = self.nodes.first()?;
-        if enter(root, nearest) == f32::INFINITY {
+        if self.nodes.is_empty() {
             return None;
         }
-        let mut waiting = [(0_u32, 0.0_f32); DEPTH];
-        let (mut count, mut at, mut best) = (0, 0, None);
-        loop {
-            let node = self.nodes[at];
-            if node.count > 0 {
-                let leaf = node.first as usize..(node.first + node.count) as usize;
+        let (origins, inverse) = (origin.to_array(), direction.recip().to_array());
+        let mut waiting = [(Part { first: 0, count: 0 }, 0.0_f32); DEPTH];
+        let (mut count, mut best) = (1, None);
+        while count > 0 {
+            count -= 1;
+            let (part, enter) = waiting[count];
+            if enter >= nearest {
+                continue;
+            }
+            if part.count > 0 {
+                let leaf = part.first as usize..(part.first + part.count) as usize;
                 for (index, shape) in &self.shapes[leaf] {
                     if let Some((distance, place)) = shape.meet(origin, direction, nearest) {
                         nearest = distance;
                         best = Some(Hit { distance, index: *index, place });
                     }
                 }
-            } else {
-                let (mut near, mut far) = (at + 1, node.first as usize);
-                let (mut a, mut b) = (enter(&self.nodes[near], nearest), enter(&self.nodes[far], nearest));
-                if b < a {
-                    ((near, a), (far, b)) = ((far, b), (near, a));
-                }
-                if a < f32::INFINITY {
-                    if b < f32::INFINITY && count < DEPTH {
-                        waiting[count] = (far as u32, b);
-                        count += 1;
-                    }
-                    at = near;
-                    continue;
-                }
+                continue;
             }
-            loop {
-                if count == 0 {
-                    return best;
-                }
-                count -= 1;
-                if waiting[count].1 < nearest {
-                    at = waiting[count].0 as usize;
-                    break;
+            let node = &self.nodes[part.first as usize];
+            let (near, far) = node.spans(origins, inverse);
+            let bottom = count;
+            for lane in 0..node.width {
+                if near[lane] <= far[lane] && near[lane] < nearest && count < DEPTH {
+                    // The nearest is on top.
+                    let mut place = count;
+                    while place > bottom && waiting[place - 1].1 < near[lane] {
+                        waiting[place] = waiting[place - 1];
+                        place -= 1;
+                    }
+                    waiting[place] = (node.parts[lane], near[lane]);
+                    count += 1;
                 }
             }
         }
+        best
+    }
+}
+
+impl Node {
+    /// Where a ray enters and leaves the boxes. Alone, it becomes vectors.
+    #[inline(never)]
+    fn spans(&self, origin: [f32; 3], inverse: [f32; 3]) -> ([f32; WIDTH], [f32; WIDTH]) {
+        let (mut near, mut far) = ([0.0; WIDTH], [f32::INFINITY; WIDTH]);
+        for axis in 0..3 {
+            for lane in 0..WIDTH {
+                let a = (self.low[axis][lane] - origin[axis]) * inverse[axis];
+                let b = (self.high[axis][lane] - origin[axis]) * inverse[axis];
+                near[lane] = greater(lesser(a, b), near[lane]);
+                far[lane] = lesser(greater(a, b), far[lane]);
+            }
+        }
+        (near, far)
     }
 }
 

@@ -1,18 +1,23 @@
 //! Points by the cells of a regular grid, for the search of neighbours.
 
 use glam::Vec3;
+use std::ops::Range;
 
 /// Most cells of points that are far apart; they are longer then.
 const MOST: f32 = 8e6;
 
-/// Rows of points, cell by cell.
+/// Points that are looked at together.
+pub(super) const LANES: usize = 4;
+
+/// Points, cell by cell.
 pub(super) struct Cells {
     low: Vec3,
     inverse: f32,
     sides: [usize; 3],
-    /// First place of every cell in `rows`, and the end of the last one.
+    /// First place of every cell in the columns, and the end of the last one.
     start: Vec<u32>,
-    rows: Vec<u32>,
+    /// Coordinates of the points from cell to cell (m), with [`LANES`] more that are nowhere.
+    columns: [Vec<f32>; 3],
 }
 
 impl Cells {
@@ -39,17 +44,45 @@ impl Cells {
             start[cell] += start[cell - 1];
         }
         let mut next = start.clone();
-        let mut rows = vec![0; points.len()];
-        for (row, cell) in cells.into_iter().enumerate() {
-            rows[next[cell] as usize] = row as u32;
+        let mut columns = [(); 3].map(|()| vec![f32::INFINITY; points.len() + LANES]);
+        for (point, cell) in points.iter().zip(cells) {
+            let place = next[cell] as usize;
             next[cell] += 1;
+            for (column, value) in columns.iter_mut().zip(point.to_array()) {
+                column[place] = value;
+            }
         }
-        Self { low, inverse, sides, start, rows }
+        Self { low, inverse, sides, start, columns }
     }
 
-    /// Calls `visit` with the rows of all points within two cells of a point, in a fixed order.
-    pub(super) fn around(&self, point: Vec3, mut visit: impl FnMut(&[u32])) {
-        let cell = ((point - self.low) * self.inverse).to_array().map(|length| length as isize);
+    /// The coordinates of the points at some places and [`LANES`] more.
+    pub(super) fn coordinates(&self, places: Range<usize>) -> [&[f32]; 3] {
+        [0, 1, 2].map(|axis| &self.columns[axis][places.start..places.end + LANES])
+    }
+
+    fn cell(&self, point: Vec3) -> [isize; 3] {
+        ((point - self.low) * self.inverse).to_array().map(|length| length as isize)
+    }
+
+    /// Whether no cell within two cells of a point is empty, and all of them have at least so many points.
+    pub(super) fn are_full(&self, point: Vec3, least: f32) -> bool {
+        let cell = self.cell(point);
+        if (0..3).any(|axis| cell[axis] < 2 || cell[axis] + 2 >= self.sides[axis] as isize) {
+            return false;
+        }
+        let mut count = 0;
+        let mut full = true;
+        self.around(point, |places, cells| {
+            count += places.len();
+            full &= self.start[cells].windows(2).all(|pair| pair[0] < pair[1]);
+        });
+        full && count as f32 >= least
+    }
+
+    /// Calls `visit` with the places of all points within two cells of a point, in a fixed order, and with the bounds of
+    /// their cells in `start`.
+    pub(super) fn around(&self, point: Vec3, mut visit: impl FnMut(Range<usize>, Range<usize>)) {
+        let cell = self.cell(point);
         let range = |axis: usize| {
             let last = self.sides[axis] as isize - 1;
             ((cell[axis] - 2).clamp(0, last) as usize, (cell[axis] + 2).clamp(0, last) as usize)
@@ -59,9 +92,7 @@ impl Cells {
             for y in y0..=y1 {
                 let row = (z * self.sides[1] + y) * self.sides[0];
                 let (first, end) = (self.start[row + x0] as usize, self.start[row + x1 + 1] as usize);
-                if first < end {
-                    visit(&self.rows[first..end]);
-                }
+                visit(first..end, row + x0..row + x1 + 2);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use super::bricks::{BRICK, Bricks, Content};
 use super::grid::Grid;
+use crate::render::number::{greater, lesser};
 use glam::Vec3;
 
 /// Longest change of the value over a spacing, inverted: how far a ray may step from a value, in spacings.
@@ -14,12 +15,20 @@ const ROUNDS: usize = 3;
 pub(in crate::render) struct Field {
     pub(super) grid: Grid,
     pub(super) values: Vec<f32>,
-    pub(super) bricks: Bricks,
+    bricks: Bricks,
     /// Distance of particles (m).
     pub(in crate::render) spacing: f32,
+    /// The last place with eight nodes around it, in cells.
+    last: [f32; 3],
 }
 
 impl Field {
+    /// The field of values on the nodes of a grid.
+    pub(super) fn new(grid: Grid, values: Vec<f32>, spacing: f32) -> Self {
+        let bricks = Bricks::new(&grid, &values);
+        Self { grid, values, bricks, spacing, last: grid.sides.map(|nodes| nodes as f32 - 2.01) }
+    }
+
     /// Side of the shortest cell (m).
     pub(in crate::render) fn cell(&self) -> f32 {
         self.grid.cell.min_element()
@@ -33,12 +42,13 @@ impl Field {
     /// The same for a place in cells.
     #[inline]
     fn nodes(&self, place: Vec3) -> (usize, Vec3) {
-        let [nx, ny, nz] = self.grid.sides;
-        let last = Vec3::new(nx as f32 - 2.01, ny as f32 - 2.01, nz as f32 - 2.01);
-        let place = place.max(Vec3::ONE).min(last);
-        let (x, y, z) = (place.x as i32, place.y as i32, place.z as i32);
-        let whole = Vec3::new(x as f32, y as f32, z as f32);
-        ((z as usize * ny + y as usize) * nx + x as usize, place - whole)
+        let [nx, ny, _] = self.grid.sides;
+        let inside = |axis: usize| lesser(greater(place[axis], 1.0), self.last[axis]);
+        let place = [inside(0), inside(1), inside(2)];
+        let whole = place.map(|place| place as i32);
+        let rest = |axis: usize| place[axis] - whole[axis] as f32;
+        let [x, y, z] = whole.map(|whole| whole as usize);
+        ((z * ny + y) * nx + x, Vec3::new(rest(0), rest(1), rest(2)))
     }
 
     /// The value at a point, linear between nodes.
@@ -51,7 +61,10 @@ impl Field {
     fn between(&self, (at, f): (usize, Vec3)) -> f32 {
         let (nx, layer) = (self.grid.sides[0], self.grid.layer());
         let nodes = &self.values[at..at + layer + nx + 2];
-        let row = |i: usize| nodes[i] + (nodes[i + 1] - nodes[i]) * f.x;
+        let row = |i: usize| {
+            let pair = &nodes[i..i + 2];
+            pair[0] + (pair[1] - pair[0]) * f.x
+        };
         let (a, b, c, d) = (row(0), row(nx), row(layer), row(layer + nx));
         let (near, far) = (a + (b - a) * f.y, c + (d - c) * f.y);
         near + (far - near) * f.z
@@ -86,21 +99,27 @@ impl Field {
         inside: bool,
     ) -> Option<f32> {
         let scale = self.grid.inverse / BRICK as f32;
-        let start = (origin - self.grid.origin) * scale;
-        let slope = direction * scale;
-        let inverse = slope.to_array().map(|s| if s.abs() < 1e-12 { 1e-12_f32.copysign(s) } else { s });
-        let inverse = Vec3::from(inverse).recip();
-        let [nx, ny, nz] = self.grid.sides.map(|nodes| (nodes as f32 - 1.0) / BRICK as f32);
-        let (a, b) = (-start * inverse, (Vec3::new(nx, ny, nz) - start) * inverse);
-        let mut t = a.min(b).max_element().max(from);
-        let to = a.max(b).min_element().min(to);
+        let start = ((origin - self.grid.origin) * scale).to_array();
+        let slope = (direction * scale).to_array();
+        let inverse = slope.map(|s| 1.0 / if s.abs() < 1e-12 { 1e-12_f32.copysign(s) } else { s });
+        let (mut t, mut to) = (from, to);
+        for axis in 0..3 {
+            let side = (self.grid.sides[axis] as f32 - 1.0) / BRICK as f32;
+            let (a, b) = (-start[axis] * inverse[axis], (side - start[axis]) * inverse[axis]);
+            t = greater(t, lesser(a, b));
+            to = lesser(to, greater(a, b));
+        }
         let own = if inside { Content::Water } else { Content::Air };
         let nudge = 0.0135 * self.cell();
+        // The value where the last brick was left.
+        let mut here = None;
         while t < to {
             // Places are not negative, but for rounding.
-            let brick = (start + slope * t).to_array().map(|place| place.max(0.0) as i32);
-            let place: [usize; 3] =
-                std::array::from_fn(|axis| (brick[axis] as usize).min(self.bricks.sides[axis] - 1));
+            let brick = |axis: usize| {
+                let place = greater(start[axis] + slope[axis] * t, 0.0) as i32;
+                (place as usize).min(self.bricks.sides[axis] - 1)
+            };
+            let place = [brick(0), brick(1), brick(2)];
             let (content, skip) = self.bricks.at(place);
             let skip = f32::from(skip);
             let leave = |axis: usize| {
@@ -108,48 +127,66 @@ impl Field {
                 let far = if inverse[axis] > 0.0 { low + skip } else { low + 1.0 - skip };
                 (far - start[axis]) * inverse[axis]
             };
-            let exit = leave(0).min(leave(1)).min(leave(2)).max(t) + nudge;
+            let exit = greater(lesser(lesser(leave(0), leave(1)), leave(2)), t) + nudge;
             if content == own {
-                t = exit;
+                (t, here) = (exit, None);
                 continue;
             }
             if content != Content::Surface {
                 return Some(t);
             }
-            match self.cross(origin, direction, (t, exit.min(to)), inside) {
-                Some(found) => return Some(found),
-                None => t = exit.min(to),
+            let end = lesser(exit, to);
+            match self.cross(origin, direction, (t, end, here), inside) {
+                Ok(found) => return Some(found),
+                Err(value) => (t, here) = (end, Some(value)),
             }
         }
         None
     }
 
-    /// The first change of sign between two distances, in steps that follow the value.
-    fn cross(&self, origin: Vec3, direction: Vec3, (mut t, end): (f32, f32), inside: bool) -> Option<f32> {
+    /// The first change of sign between two distances, in steps that follow the value; else the value at the end. The value at
+    /// the start may be known.
+    fn cross(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        (from, end, known): (f32, f32, Option<f32>),
+        inside: bool,
+    ) -> Result<f32, f32> {
         let side = if inside { 1.0 } else { -1.0 };
         let (start, slope) = ((origin - self.grid.origin) * self.grid.inverse, direction * self.grid.inverse);
         let value = |t: f32| self.between(self.nodes(start + slope * t)) * side;
         let least = 0.9 * self.cell();
+        let (mut before, mut t) = (from, from);
         // Rays start within rounding of the surface.
-        let mut here = value(t).max(1e-6);
-        while t < end {
-            let next = (t + (here * SAFE * self.spacing).max(least)).min(end);
-            let there = value(next);
-            if there < 0.0 {
-                let (mut a, mut b, mut va, mut vb) = (t, next, here, there);
-                for _ in 0..ROUNDS {
-                    let middle = a + (b - a) * (va / (va - vb)).clamp(0.05, 0.95);
-                    let v = value(middle);
-                    if v < 0.0 {
-                        (b, vb) = (middle, v);
-                    } else {
-                        (a, va) = (middle, v);
-                    }
-                }
-                return Some(a + (b - a) * (va / (va - vb)));
-            }
-            (t, here) = (next, there);
+        let mut here = known.unwrap_or_default();
+        if known.is_some() {
+            t = lesser(t + greater(here * SAFE * self.spacing, least), end);
         }
-        None
+        loop {
+            let there = value(t);
+            if t > from && there < 0.0 {
+                return Ok(narrow((before, here), (t, there), value));
+            }
+            (before, here) = (t, greater(there, 1e-6));
+            if t >= end {
+                return Err(here);
+            }
+            t = lesser(t + greater(here * SAFE * self.spacing, least), end);
+        }
     }
+}
+
+/// The zero between a place with a value above it and one with a value below it: regula falsi.
+fn narrow((mut a, mut va): (f32, f32), (mut b, mut vb): (f32, f32), value: impl Fn(f32) -> f32) -> f32 {
+    for _ in 0..ROUNDS {
+        let middle = a + (b - a) * (va / (va - vb)).clamp(0.05, 0.95);
+        let v = value(middle);
+        if v < 0.0 {
+            (b, vb) = (middle, v);
+        } else {
+            (a, va) = (middle, v);
+        }
+    }
+    a + (b - a) * (va / (va - vb))
 }

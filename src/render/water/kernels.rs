@@ -1,6 +1,9 @@
 //! An anisotropic kernel for every free particle \[YT13\]: flat along a surface, long in a jet, a ball where a drop is alone.
 
-use super::{cells::Cells, walls::Walls};
+use super::{
+    cells::{Cells, LANES},
+    walls::Walls,
+};
 use crate::render::{bands, colour::smooth};
 use glam::{Mat3, Vec3};
 
@@ -12,6 +15,8 @@ const RADIUS: f32 = 3.0;
 const ALONE: f32 = 1.05;
 /// Sum of the weights of a full neighbourhood, over `REACH` cubed.
 const FULL: f32 = 0.957;
+/// Points at rest in the block of cells that is searched: five by five by five cells of half a reach.
+const BLOCK: f32 = 2.5 * REACH * 2.5 * REACH * 2.5 * REACH;
 /// Added to the covariance, over its mean eigenvalue: bounds how flat a kernel gets, to about 7 to 1.
 const ROUNDING: f32 = 0.25;
 /// Share of the way from the particle to the mean of its neighbours.
@@ -49,7 +54,7 @@ pub(super) fn kernels(positions: &[Vec3], interior: &[f32], spacing: f32, walls:
         rows.map(|row| {
             // The water of sponges shows as their wetness.
             let free = 1.0 - smooth(0.55, 0.85, interior.get(row).copied().unwrap_or(0.0));
-            (free > 0.0).then(|| kernel(row, &points, &cells, spacing, free))
+            (free > 0.0).then(|| kernel(positions[row], &cells, spacing, free))
         })
         .collect::<Vec<_>>()
     });
@@ -65,48 +70,57 @@ struct Neighbourhood {
     covariance: Mat3,
 }
 
-fn neighbourhood(row: usize, points: &[Vec3], cells: &Cells, reach: f32) -> Neighbourhood {
-    let (point, scale) = (points[row], 1.0 / (reach * reach));
-    let (mut total, mut mean) = (0.0_f32, Vec3::ZERO);
-    let [mut xx, mut xy, mut xz, mut yy, mut yz, mut zz] = [0.0_f32; 6];
-    cells.around(point, |rows| {
-        for other in rows {
-            let r = points[*other as usize] - point;
-            let share = 1.0 - r.length_squared() * scale;
-            if share > 0.0 {
+fn neighbourhood(point: Vec3, cells: &Cells, reach: f32) -> Neighbourhood {
+    let scale = 1.0 / (reach * reach);
+    // Weight, mean and covariance: xx, xy, xz, yy, yz, zz.
+    let mut sums = [[0.0_f32; LANES]; 10];
+    cells.around(point, |places, _| {
+        let count = places.len();
+        let columns = cells.coordinates(places);
+        for first in (0..count).step_by(LANES) {
+            let [x, y, z] = columns.map(|column| column[first..].first_chunk::<LANES>());
+            let (Some(x), Some(y), Some(z)) = (x, y, z) else { break };
+            for lane in 0..LANES {
+                let (x, y, z) = (x[lane] - point.x, y[lane] - point.y, z[lane] - point.z);
+                let share = 1.0 - (x * x + y * y + z * z) * scale;
+                let is_near = share > 0.0 && first + lane < count;
+                let share = if is_near { share } else { 0.0 };
                 let weight = share * share;
-                total += weight;
-                mean += r * weight;
-                let weighted = r * weight;
-                xx += weighted.x * r.x;
-                xy += weighted.x * r.y;
-                xz += weighted.x * r.z;
-                yy += weighted.y * r.y;
-                yz += weighted.y * r.z;
-                zz += weighted.z * r.z;
+                // Places that are nowhere are infinite.
+                let [x, y, z] = [x, y, z].map(|r| if is_near { r } else { 0.0 });
+                let (wx, wy, wz) = (weight * x, weight * y, weight * z);
+                let terms = [weight, wx, wy, wz, wx * x, wx * y, wx * z, wy * y, wy * z, wz * z];
+                for (sum, term) in sums.iter_mut().zip(terms) {
+                    sum[lane] += term;
+                }
             }
         }
     });
+    let [total, x, y, z, xx, xy, xz, yy, yz, zz] = sums.map(|[a, b, c, d]| (a + b) + (c + d));
     let inverse = 1.0 / total.max(1e-6);
-    let m = mean * inverse;
+    let m = Vec3::new(x, y, z) * inverse;
     let [xx, xy, xz] = [xx * inverse - m.x * m.x, xy * inverse - m.x * m.y, xz * inverse - m.x * m.z];
     let [yy, yz, zz] = [yy * inverse - m.y * m.y, yz * inverse - m.y * m.z, zz * inverse - m.z * m.z];
     let covariance = Mat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
     Neighbourhood { total, mean: m, covariance }
 }
 
-fn kernel(row: usize, points: &[Vec3], cells: &Cells, spacing: f32, free: f32) -> Kernel {
+fn kernel(point: Vec3, cells: &Cells, spacing: f32, free: f32) -> Kernel {
+    let deep = |company: f32| ball(point, 1.35 * spacing, 5.0 * free, company);
+    if cells.are_full(point, 0.88 * BLOCK) {
+        return deep(1.0);
+    }
     let reach = REACH * spacing;
-    let Neighbourhood { total, mean, covariance } = neighbourhood(row, points, cells, reach);
+    let Neighbourhood { total, mean, covariance } = neighbourhood(point, cells, reach);
     let full = FULL * REACH * REACH * REACH;
     let company = smooth(0.0, 1.0, (total - 1.0) / (0.35 * (full - 1.0)));
     if total > 0.88 * full && mean.length() < 0.012 * reach {
         // Deep in the bulk only the sign matters: a narrow kernel that leaves no gaps.
-        return ball(points[row], 1.35 * spacing, 5.0 * free, company);
+        return deep(company);
     }
     let radius = (ALONE + (RADIUS - ALONE) * company) * spacing;
     let mass = free * NORM * (spacing / radius) * (spacing / radius) * (spacing / radius);
-    let centre = points[row] + mean * (SHIFT * company);
+    let centre = point + mean * (SHIFT * company);
     let trace = (covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z) / 3.0;
     let floor = ROUNDING * trace + (1.0 - company) * spacing * spacing;
     let bounded = covariance + Mat3::from_diagonal(Vec3::splat(floor));

@@ -16,7 +16,6 @@ mod walls;
 pub(super) use field::Field;
 
 use super::{shapes::Solid, sponge::Surface};
-use bricks::Bricks;
 use glam::Vec3;
 use grid::Grid;
 use kernels::Kernel;
@@ -60,14 +59,13 @@ pub(super) fn field(input: &Input<'_>) -> Option<(Field, Vec<Drop>)> {
     let grid = Grid::around(&kernels, input.spacing, &walls);
     let surfels = closure::surfels(input.sponge, input.spacing);
     let values = density::density(&grid, &kernels, &surfels, input.bodies, input.spacing);
-    let bricks = Bricks::new(&grid, &values);
     let alone = |kernel: &&Kernel| kernel.company < 0.5;
     let drops = kernels
         .iter()
         .filter(alone)
         .map(|kernel| Drop { centre: kernel.centre, radius: 0.6 * kernel.extent.max_element() });
     let drops = drops.collect();
-    Some((Field { grid, values, bricks, spacing: input.spacing }, drops))
+    Some((Field::new(grid, values, input.spacing), drops))
 }
 
 /// Rows of the particles that are not lost: in an open scene, those near to most of the others.
