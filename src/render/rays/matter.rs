@@ -132,7 +132,10 @@ impl Setting<'_> {
         if clear > 0.2 {
             signature.tile(i.wrapping_mul(73_856_093) ^ j.wrapping_mul(19_349_663));
         }
-        let check = if i.wrapping_add(j) & 1 == 0 { 1.10 } else { 0.90 };
+        // From light to dark within a pixel, or a tile would jump from sample to sample.
+        let firm = |t: f32| smooth(0.0, width / pitch, t.min(1.0 - t));
+        let sign = if i.wrapping_add(j) & 1 == 0 { 0.1 } else { -0.1 };
+        let check = 1.0 + sign * firm(u) * firm(v);
         let shade = 0.97 + 0.06 * unit(i.wrapping_mul(7919) ^ j.wrapping_mul(104_729));
         let joint = |t: f32| t.min(1.0 - t) * pitch;
         let half = 0.0175 * pitch;

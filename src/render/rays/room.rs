@@ -43,11 +43,11 @@ pub(super) fn light(direction: Vec3) -> Vec3 {
     // Two rows of three panes. They end high above the floor, or flat water would mirror nothing but white.
     let pane = |x: f32, pitch: f32, frame: f32| {
         let cell = whole(x / pitch).1 - 0.5;
-        smooth(0.0, 0.03, 0.5 * pitch - frame - cell.abs() * pitch)
+        smooth(-0.03, 0.07, 0.5 * pitch - frame - cell.abs() * pitch)
     };
     let inside = smooth(0.0, 0.15, 1.5 - along.abs())
         * smooth(0.0, 0.35, place.y - 0.74)
-        * smooth(0.0, 0.08, 1.84 - place.y);
+        * smooth(0.0, 0.2, 1.86 - place.y);
     let glow = inside * pane(along + 0.48, 0.96, 0.04) * pane(place.y - 0.86, 0.48, 0.03);
     wall * (1.0 - 0.5 * inside) + Vec3::new(2.0, 2.2, 2.4) * (glow * (0.7 + 0.3 * place.y))
 }

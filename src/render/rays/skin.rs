@@ -82,14 +82,17 @@ pub(super) fn skin(
     let wet = facet.wetness().max(film);
     let normal = facet.mix(&sponge.normals).normalize_or_zero();
     let place = facet.mix(&sponge.rest);
-    let value = foam.distance(place);
+    let start = foam.distance(place);
+    let detail = 1.0 - smooth(0.4e-3, 1.6e-3, pixel);
     let (mut depth, mut bent) = (0.0, normal);
     // Away from pores there is nothing to march through and nothing to bend.
-    if value < 0.5 {
+    if start < 0.5 {
         let to_rest = facet.to_rest();
         let inward = (to_rest * direction).normalize_or_zero();
-        let (way, value) = descend(foam, place, inward, value);
-        depth = (way * (-direction.dot(normal)).max(0.15)).min(DEPTH);
+        let (way, value) = descend(foam, place, inward, start);
+        // A rim is at least as wide as a pixel, or it would jump from sample to sample.
+        let rim = smooth(0.0, (1e3 * pixel).max(0.05), -start);
+        depth = (way * (-direction.dot(normal)).max(0.15)).min(DEPTH) * rim;
         let end = place + inward * way;
         let here = foam.distance(end);
         let slope =
@@ -97,10 +100,9 @@ pub(super) fn skin(
         let wall = to_rest.transpose() * (slope * (-1.0 / (STENCIL * 1e3)));
         // The wall of a pore faces into it, near to it only.
         let rim = 1.0 - smooth(0.0, 0.5, value);
-        let detail = 0.9 * (1.0 - smooth(0.4e-3, 1.6e-3, pixel));
-        bent = (normal + (wall - normal * wall.dot(normal)) * (0.8 * rim * detail)).normalize_or(normal);
+        bent = (normal + (wall - normal * wall.dot(normal)) * (0.72 * rim * detail)).normalize_or(normal);
     }
-    let fine = 0.92 + 0.16 * foam.distance(place * 4.3).clamp(-0.5, 0.5);
+    let fine = 0.92 + 0.16 * detail * foam.distance(place * 4.3).clamp(-0.5, 0.5);
     let base = DRY.lerp(SOAKED, smooth(0.03, 0.75, wet)) * fine;
     // Light from the bottom of a pore has the colour of its walls.
     let open = libm::expf(-depth / 1.5e-3);
