@@ -3,6 +3,7 @@
 use super::beads::Beads;
 use super::ground::Ground;
 use super::optics::Medium;
+use super::skin::{facet, is_notched};
 use super::tree::{Hit, Tree, Triangle};
 use crate::render::{
     Look,
@@ -20,6 +21,9 @@ const FILM_ON_SPONGE: (f32, f32) = (1.1, 2.4);
 const FILM_ON_FLOOR: (f32, f32) = (0.2, 0.5);
 /// A narrower gap between water and a solid is water, in spacings.
 const GAP: f32 = 1.0;
+/// Cosine of rays to the outer surface of a sponge that may pass through a pore, and the longest way of them in it (m).
+const GRAZING: f32 = 0.5;
+const NOTCH: f32 = 0.006;
 /// Nearer things belong to the place where a ray starts (m).
 pub(super) const NEAR: f32 = 1e-6;
 
@@ -153,12 +157,31 @@ impl<'a> Setting<'a> {
                 best = Some((span.enter, Matter::Body(*index, span.normal)));
             }
         }
-        if let Some(hit) = self.tree.hit(origin, direction, nearest) {
+        if let Some(hit) = self.sponge_on(origin, direction, nearest) {
             nearest = hit.distance;
             best = Some((nearest, Matter::Sponge(hit)));
         }
         let bead = self.beads.as_ref().and_then(|beads| beads.tree.hit(origin, direction, nearest));
         bead.map(|hit| (hit.distance, Matter::Bead(hit))).or(best)
+    }
+
+    /// The nearest place of a sponge on a ray that is nearer than a distance. A ray that grazes a pore may pass.
+    pub(super) fn sponge_on(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<Hit<[f32; 2]>> {
+        let hit = self.tree.hit(origin, direction, nearest)?;
+        let sponge = &self.stage.sponge;
+        if self.coat != Coat::Skin || -direction.dot(facet(sponge, &hit).1) > GRAZING {
+            return Some(hit);
+        }
+        // Where it leaves the sponge, if that is near, is where a ray of the other direction would enter.
+        let behind = origin + direction * (hit.distance + NOTCH);
+        let Some(entry) = self.tree.hit(behind, -direction, NOTCH) else { return Some(hit) };
+        let exit = NOTCH - entry.distance;
+        if !is_notched(sponge, &hit, direction, exit) {
+            return Some(hit);
+        }
+        let passed = hit.distance + exit + 10.0 * NEAR;
+        let next = self.tree.hit(origin + direction * passed, direction, nearest - passed)?;
+        Some(Hit { distance: next.distance + passed, ..next })
     }
 
     /// Outward normal of the wall of the container that a point is nearest to.

@@ -1,6 +1,6 @@
 //! What a ray sees of a sponge below its outer surface: pores, their shade, wetness.
 
-use super::foam::Foam;
+use super::foam::{Foam, foam};
 use super::tree::Hit;
 use crate::render::{colour::smooth, sponge::Surface};
 use glam::{Mat3, Vec3};
@@ -63,6 +63,22 @@ pub(super) fn facet(sponge: &Surface, hit: &Hit<[f32; 2]>) -> (f32, Vec3) {
     let corners = sponge.triangles[hit.index as usize].1;
     let facet = Facet { sponge, corners, weights: [1.0 - u - v, u, v] };
     (facet.wetness(), facet.mix(&sponge.normals).normalize_or_zero())
+}
+
+/// Whether a ray that meets the outer surface in a pore leaves the sponge again, after a distance (m), before it meets a wall: pores
+/// cut the outline.
+pub(super) fn is_notched(sponge: &Surface, hit: &Hit<[f32; 2]>, direction: Vec3, exit: f32) -> bool {
+    let [u, v] = hit.place;
+    let corners = sponge.triangles[hit.index as usize].1;
+    let facet = Facet { sponge, corners, weights: [1.0 - u - v, u, v] };
+    let (foam, place) = (foam(), facet.mix(&sponge.rest));
+    let start = foam.distance(place);
+    if start >= 0.0 {
+        return false;
+    }
+    let inward = facet.to_rest() * direction;
+    let (way, _) = descend(foam, place, inward.normalize_or_zero(), start);
+    way >= exit * inward.length()
 }
 
 /// The skin of a sponge where a ray meets it.

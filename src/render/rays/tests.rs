@@ -1,4 +1,4 @@
-//! Optics against formulas, and the tree against all shapes.
+//! Optics against formulas, the tree against all shapes, and pores at edges.
 
 use super::optics::{INDEX, Medium, reflect, refract, schlick};
 use super::tree::{Ball, Shape, Tree, Triangle};
@@ -74,4 +74,47 @@ fn displayed_colours_grow_with_the_light_and_maps_have_two_ends() {
     assert_eq!(colour_map(-1.0), colour_map(0.0));
     assert_eq!(colour_map(f32::NAN), colour_map(0.0));
     assert!(colour_map(1.0).distance(colour_map(0.0)) > 0.5);
+}
+
+#[cfg(feature = "serde")]
+mod pores {
+    use super::direction;
+    use crate::render::{Camera, Picture, View, rays::prepare, stage::Stage};
+    use glam::Vec3;
+
+    /// Rays that meet the mesh of a sponge, and those of them that pass the place where they do.
+    fn through_pores(view: View) -> (usize, usize) {
+        let scene = crate::scene::preset("dry").unwrap_or_else(|error| panic!("{error}"));
+        let world = crate::World::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+        let picture = Picture {
+            nodes: world.node_positions(),
+            rest: &world.lattice().position,
+            triangles: &world.lattice().triangles,
+            view,
+            ..Picture::default()
+        };
+        let camera = Camera::framing(Vec3::ZERO, Vec3::splat(0.08));
+        let stage = Stage::new(&picture, &camera, 64, 36);
+        let (setting, _) = prepare(&stage);
+        let (mut met, mut passed) = (0, 0);
+        for key in 0..4000 {
+            let origin = Vec3::new(0.0, 0.04, 0.0) + direction(90_000 + 7 * key).normalize() * 0.2;
+            let towards =
+                (Vec3::new(0.0, 0.04, 0.0) + direction(20_000 + 5 * key) * 0.09 - origin).normalize();
+            let Some(hit) = setting.tree.hit(origin, towards, f32::INFINITY) else { continue };
+            met += 1;
+            let nearest = setting.sponge_on(origin, towards, f32::INFINITY).map(|hit| hit.distance);
+            passed += usize::from(nearest != Some(hit.distance));
+        }
+        (met, passed)
+    }
+
+    #[test]
+    fn pores_cut_the_outline_of_a_sponge() {
+        let (met, passed) = through_pores(View::Realistic);
+        assert!(met > 2000 && passed > met / 1000 && passed < met / 20, "{passed} of {met}");
+        // Negative control: a map of the saturation has no pores.
+        let (met, passed) = through_pores(View::Saturation);
+        assert!(met > 2000 && passed == 0, "{passed} of {met}");
+    }
 }
