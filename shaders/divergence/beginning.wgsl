@@ -1,6 +1,6 @@
 // #include sums
 // Third pass of `divergence::moments`: the pressure to begin with.
-// Sums of the squared speeds, of the squared pressures and of the targets, for `begin_solve.wgsl`.
+// Sums of the squared speeds, and outside of pores of the squared pressures and of the targets, for `begin_solve.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -9,6 +9,7 @@
 @group(0) @binding(4) var<storage, read> fluid_factors: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> solve_sums: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> fluid_moment: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -24,7 +25,9 @@ fn main(
     var sums = vec4<f32>(0.0);
     if (row < rows) {
         let own = fluid_velocity[row];
-        sums = vec4<f32>(dot(own.xyz, own.xyz), own.w * own.w, fluid_factors[row].w, 0.0);
+        let outside = vec2<f32>(own.w * own.w, fluid_factors[row].w);
+        let counted = select(outside, vec2<f32>(0.0), fluid_moment[row].w > MINIMUM_MATERIAL);
+        sums = vec4<f32>(dot(own.xyz, own.xyz), counted, 0.0);
         fluid_pressure_rows[row].x = select(0.0, own.w, fluid_renormalisation[row].w >= SPARSE);
     }
     let all = group_row(lane, sums, false);

@@ -11,6 +11,7 @@
 @group(0) @binding(5) var<storage, read> fluid_pressure_solve: Solve;
 @group(0) @binding(6) var<storage, read_write> fluid_pressure_rows: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> solve_sums: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> fluid_moment: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -26,7 +27,8 @@ fn main(
     var sums = vec4<f32>(0.0);
     var others = vec4<f32>(0.0);
     if (row < rows) {
-        let rest = fluid_factors[row].w * fluid_pressure_solve.target_scale + fluid_rate[row] * clock.step;
+        let scale = select(fluid_pressure_solve.target_scale, 1.0, fluid_moment[row].w > MINIMUM_MATERIAL);
+        let rest = fluid_factors[row].w * scale + fluid_rate[row] * clock.step;
         let left = select(rest, 0.0, fluid_renormalisation[row].w < SPARSE);
         let before = fluid_pressure_rows[row];
         let response = before.w - left;

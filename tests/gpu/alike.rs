@@ -169,6 +169,9 @@ cases! {
     solved_dam_break: "dam_break_paper", 0.5, DFSPH, 1, 1e-4;
     divergence: "water", 0.5, DIVERGENCE, 1, 1e-4;
     divergence_and_bodies: "water", 0.5, DIVERGENCE_AND_BODIES, 1, 1e-4;
+    divergence_and_a_sponge: "standing", 0.5, DIVERGENCE, 1, 1e-4;
+    divergence_and_a_ball_on_a_sponge: "ball_drop", 0.5, DIVERGENCE, 1, 1e-4;
+    a_second_of_divergence_and_a_sponge: "standing", 0.3, DIVERGENCE, 60, 1e-2;
     a_second_of_solved_water: "water", 0.4, &[], 60, 1e-1;
     a_second_of_honey: "water", 0.4, HONEY, 60, 1e-2;
     a_second_of_standing: "standing", 0.3, &[], 60, 1e-2;

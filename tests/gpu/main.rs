@@ -18,7 +18,7 @@ use sorb::{Bound, Measures, Offload, Options, World, WorldError, gpu::Gpu, scene
 /// Pressure by a solve.
 const DFSPH: &[&str] = &["fluid.solver=\"dfsph\""];
 
-/// Pressure by a solve for the divergence of the velocities, in a scene without sponges.
+/// Pressure by a solve for the divergence of the velocities.
 const DIVERGENCE: &[&str] = &["fluid.solver=\"divergence\""];
 
 /// The same with a ball that falls into the water, and a box under it.

@@ -24,7 +24,7 @@
 use glam::Vec3;
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     kernel::declare,
@@ -119,7 +119,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let used = count.saturating_sub(first).min(along.len());
         [&mut *along, between, moment, factors].into_iter().for_each(|rows| rows[used..].fill([0.0; 4]));
         pressure[used..].fill([0.0, 0.0, 1.0, 0.0]);
-        beginning.0[0] = Beginning::of(&velocity[first..first + used], factors);
+        let is_in_pores = moment.iter().map(|row| row[lane::fluid::moment::MATERIAL] > MINIMUM_MATERIAL);
+        beginning.0[0] = Beginning::of(&velocity[first..first + used], factors, is_in_pores);
         mirror(images, first, [along, between], mirrored);
     });
     pressure_solve.begin_divergence(count, params);

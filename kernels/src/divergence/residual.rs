@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with the velocities w by the pressure of the round, and their images in bodies that move with it. The material of sponges has its part
-//! beside w (`couple::solid_velocity`). A particle with less than three
+//! beside w (`couple::solid_velocity`). Outside of pores the target t is scaled (`pressure_solve`). A particle with less than three
 //! quarters of a neighbourhood has no pressure, and nothing remains. The length is that of Barzilai and Borwein \[BB88\] in the
 //! norm of the diagonal, see `pressure_solve`.
 
@@ -13,14 +13,14 @@ use crate::{
     columns::{Columns, lane},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES},
+    lanes::{self, LANES, select},
     params::Params,
     periodic::with_space,
     sph::pressure_solve::Sums,
 };
 
 use super::{
-    rate::{Field, SPARSE},
+    rate::{Field, MINIMUM_MATERIAL, SPARSE},
     reflect::{reflect, twists},
 };
 
@@ -28,7 +28,7 @@ declare! {
     needs: [Fluid, Divergence],
     reads: [
         FluidPosition, FluidCorrection, FluidNeighbors, FluidPairs, FluidFactors, FluidRenormalisation,
-        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidImages, BodyStates, BodySolved, BodySolvedSpin,
+        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidMoment, FluidImages, BodyStates, BodySolved, BodySolvedSpin,
     ],
     writes: [FluidPressureRows, FluidPressureSolve, FluidImageVectors],
     oracle: crate::oracle::divergence::residual,
@@ -67,7 +67,10 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let rate = field.rate((simd, space), (first, row));
                 let [_, _, _, of_solid] = lanes::load_rows(simd, &fluid.correction, first + row);
                 let [_, _, _, target] = lanes::load_rows(simd, &fluid.factors, first + row);
-                lanes::store(&mut left, row, target * scale + (rate + of_solid) * params.step);
+                let [_, _, _, material] = lanes::load_rows(simd, &fluid.moment, first + row);
+                let is_in_pores = material.simd_gt(lanes::splat(simd, MINIMUM_MATERIAL));
+                let target = select(is_in_pores, target, target * scale);
+                lanes::store(&mut left, row, target + (rate + of_solid) * params.step);
             }
         });
         let used = count.saturating_sub(first).min(rows.len());

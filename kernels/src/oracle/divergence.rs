@@ -110,8 +110,10 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let before = if density < 0.75 { 0.0 } else { before };
         fluid.pressure_rows[i] = [before, 0.0, (diagonal * f64::from(params.step).powi(2)) as f32, 0.0];
         sums[0] += vector(fluid.velocity[i]).length_squared();
-        sums[1] += f64::from(fluid.velocity[i][lane::fluid::velocity::PRESSURE]).powi(2);
-        sums[2] += target;
+        if material <= 0.02 {
+            sums[1] += f64::from(fluid.velocity[i][lane::fluid::velocity::PRESSURE]).powi(2);
+            sums[2] += target;
+        }
     }
     fluid.pressure_solve.begin_divergence_with(sums, count, params);
     let mirrored = |image: &Seen| {
@@ -336,7 +338,9 @@ pub(crate) fn residual(params: &Params, columns: &mut Columns) {
     let mut sums = [0.0; 6];
     for (i, rate) in rates.into_iter().enumerate() {
         let of_solid = f64::from(fluid.correction[i][3]);
-        let left = f64::from(fluid.factors[i][lane::fluid::factors::TARGET]) * scale + h * (rate + of_solid);
+        let is_in_pores = fluid.moment[i][lane::fluid::moment::MATERIAL] > 0.02;
+        let target = f64::from(fluid.factors[i][lane::fluid::factors::TARGET]);
+        let left = if is_in_pores { target } else { target * scale } + h * (rate + of_solid);
         let left = if is_sparse(fluid, i) { 0.0 } else { left };
         let [pressure, step, diagonal, before] = fluid.pressure_rows[i].map(f64::from);
         let response = before - left;

@@ -71,20 +71,26 @@ pub struct Sums {
 pub(crate) struct Beginning {
     /// Squared speed \[m^2/s^2\].
     speed: f32,
-    /// Square of the kinematic pressure of the last step \[m^4/s^4\].
+    /// Square of the kinematic pressure of the last step outside of pores \[m^4/s^4\].
     pressure: f32,
-    /// Divergence that errors of the density ask for, times the step.
+    /// Divergence that errors of the density ask for there, times the step.
     target: f32,
 }
 
 impl Beginning {
-    /// Of velocities with the pressure beside them, and factors with the target beside them.
-    pub(crate) fn of(velocity: &[[f32; 4]], factors: &[[f32; 4]]) -> Self {
+    /// Of velocities with the pressure beside them, and factors with the target beside them, of particles in pores or not.
+    pub(crate) fn of(
+        velocity: &[[f32; 4]],
+        factors: &[[f32; 4]],
+        is_in_pores: impl Iterator<Item = bool>,
+    ) -> Self {
         let mut sums = Self::default();
-        for ([x, y, z, pressure], factors) in velocity.iter().zip(factors) {
+        for (([x, y, z, pressure], factors), is_in_pores) in velocity.iter().zip(factors).zip(is_in_pores) {
             sums.speed += x * x + y * y + z * z;
-            sums.pressure += pressure * pressure;
-            sums.target += factors[lane::fluid::factors::TARGET];
+            if !is_in_pores {
+                sums.pressure += pressure * pressure;
+                sums.target += factors[lane::fluid::factors::TARGET];
+            }
         }
         sums
     }

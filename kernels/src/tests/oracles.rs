@@ -72,6 +72,8 @@ pub(super) fn fault_in(kernel: &Kernel, column: Column) -> f32 {
         _ if kernel.name == "sph::sweep" => 1.05,
         // The target is a small part of what remains.
         Column::FluidFactors if kernel.name == "divergence::residual" => 1.05,
+        // It only asks which particles are in pores.
+        Column::FluidMoment if kernel.name == "divergence::residual" => 0.01,
         // It only asks which particles are at a surface.
         Column::FluidRenormalisation if kernel.name == "divergence::kick" => 0.5,
         // Drag, its moments about the nodes, and contact are a small part of what a sponge lacks, and wetness is a part of
