@@ -155,7 +155,8 @@ pub enum FluidSolver {
     #[default]
     Dfsph,
     /// By a pressure solve that keeps the velocities free of divergence, with gradients that are exact for particles in any order
-    /// (docs/pressure-solve.md): water flows without friction of its own, and bodies sink and float by their weight. Not with sponges.
+    /// (docs/pressure-solve.md): water flows without friction of its own, and bodies sink and float by their weight.
+    /// Sponges are porous media with it: not with `coupling` = "paper".
     Divergence,
     /// Position based fluids \[MM13\]: particles are moved to the rest density in a fixed number of iterations. Fixed cost
     /// and always stable, but compressible, depending on `projections` and on the step.

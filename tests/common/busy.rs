@@ -31,7 +31,7 @@ pub(crate) fn as_in_the_paper(scene: &mut Scene) {
     }
 }
 
-/// The solve for the divergence, which has no sponges yet, around bodies that float and sink.
+/// The solve for the divergence alone, around bodies that float and sink.
 fn without_sponges(scene: &mut Scene) {
     scene.sponges.clear();
     if let Some(fluid) = &mut scene.fluid {
@@ -45,7 +45,7 @@ fn without_sponges(scene: &mut Scene) {
 }
 
 /// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based
-/// fluids, `_divergence` the solve for the divergence.
+/// fluids, `_divergence` the solve for the divergence: in `life` without sponges.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
     let (name, projected) = name.strip_suffix("_pbf").map_or((name, false), |name| (name, true));
@@ -115,8 +115,10 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
         }
         _ => {}
     }
-    if divergence {
-        without_sponges(&mut scene);
+    match &mut scene.fluid {
+        _ if divergence && name == "life" => without_sponges(&mut scene),
+        Some(fluid) if divergence => fluid.solver = Some(FluidSolver::Divergence),
+        _ => {}
     }
     scene
 }

@@ -28,7 +28,8 @@ declare! {
     needs: [Fluid, Divergence],
     reads: [
         FluidPosition, FluidCorrection, FluidNeighbors, FluidPairs, FluidFactors, FluidRenormalisation,
-        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidMoment, FluidImages, BodyStates, BodySolved, BodySolvedSpin,
+        FluidRenormalisationBetween, FluidPressureRows, FluidPressureSolve, FluidMoment, FluidImages, BodyStates, BodySolved,
+        BodySolvedSpin,
     ],
     writes: [FluidPressureRows, FluidPressureSolve, FluidImageVectors],
     oracle: crate::oracle::divergence::residual,

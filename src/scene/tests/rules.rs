@@ -304,3 +304,19 @@ fn sponges_do_not_repeat() {
     let open = Scene::default().repeating([true; 3]);
     assert_eq!(open.periodic(), [false; 3], "an open scene has no length that could repeat");
 }
+
+#[test]
+fn the_divergence_step_has_sponges_as_porous_media_only() {
+    let mut scene = full();
+    scene.sponges.iter_mut().for_each(|sponge| sponge.solver = Solver::Vbd);
+    (fluid(&mut scene).solver, fluid(&mut scene).coupling) = (Some(FluidSolver::Divergence), None);
+    assert_eq!(scene.problems(), []);
+    let mut of_the_paper = scene.clone();
+    fluid(&mut of_the_paper).coupling = Some(Coupling::Paper);
+    let mut by_strain = scene;
+    by_strain.sponges[0].solver = Solver::Sbd;
+    for scene in [of_the_paper, by_strain] {
+        let message = only(&scene).to_string();
+        assert!(message.contains("`fluid.solver`") && message.contains("\"paper\""), "{message}");
+    }
+}
