@@ -76,7 +76,8 @@ kernels! {
     divergence {
         images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick,
     } shared {
-        closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect, pub(crate) symmetric, pub(crate) walls,
+        closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect,
+        pub(crate) symmetric, pub(crate) walls,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
     /// descent or by Neo-Hookean constraints, and contact of its nodes.
