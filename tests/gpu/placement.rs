@@ -4,7 +4,7 @@ use sorb::{
     Offload, Options, World,
     glam::{UVec3, Vec3},
     internal::KERNELS,
-    scene::{Scene, Solver, Sponge},
+    scene::{Domain, Scene, Solver, Sponge},
     schedule::{Place, Verdict},
 };
 
@@ -40,6 +40,9 @@ fn everything(name: &str, keys: &[&str]) -> Scene {
     let mut scene = busy::scene(name, resolution);
     if let Some(fluid) = &mut scene.fluid {
         fluid.surface_tension = 0.072;
+    }
+    if let (true, Domain::Box { minimum, maximum, .. }) = (paper, &mut scene.domain) {
+        (minimum.x, maximum.x) = (-0.15, 0.15);
     }
     let beside = [(-0.12, "left", Solver::Vbd), (0.06, "right", Solver::XpbdNeoHookean)];
     for (x, name, solver) in beside.into_iter().filter(|_| paper) {
