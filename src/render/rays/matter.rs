@@ -5,7 +5,7 @@ use super::optics::{reflect, schlick};
 use super::path::Signature;
 use super::room::{self, FAR, KEY, hemisphere, key_direction};
 use super::setting::{Coat, Matter, Setting};
-use super::skin::{facet, skin};
+use super::skin::{covered, facet, skin};
 use super::tree::Hit;
 use crate::render::{
     colour::{colour_map, smooth, unit},
@@ -14,6 +14,11 @@ use crate::render::{
 use glam::Vec3;
 
 const FLOOR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
+
+/// How far the surface of a film follows pores.
+const FILM_RELIEF: f32 = 0.35;
+/// Brightness of the window in a film.
+const FILM_GLEAM: f32 = 0.6;
 
 /// How a ray arrives at a solid.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +68,7 @@ impl Setting<'_> {
 
     fn sponge(&self, hit: &Hit<[f32; 2]>, arrival: &Arrival) -> Vec3 {
         let width = arrival.way * self.pixel;
-        let film = f32::from(u8::from(arrival.film));
+        let film = covered(&self.stage.sponge, hit, &self.films).max(f32::from(u8::from(arrival.film)));
         let skin = skin(&self.stage.sponge, foam(), hit, arrival.direction, width, film);
         let (lit, wet) = self.ground.shadow(arrival.point);
         // The material scatters, so that light reaches around it.
@@ -76,7 +81,16 @@ impl Setting<'_> {
         // A film in the open cells glints a little; it is too rough to mirror.
         let glint = 0.24 * lit * smooth(0.4, 0.9, skin.wet) * skin.open;
         let glint = glint * skin.normal.dot(half).max(0.0).powi(28);
-        skin.albedo * (key + around * self.medium.left(0.8 * wet)) + KEY * glint
+        let inner = skin.albedo * (key + around * self.medium.left(0.8 * wet));
+        if arrival.wet {
+            return inner;
+        }
+        // A film over the cells is smooth, and fills pores in part.
+        let sheet = (skin.outer + skin.normal * FILM_RELIEF).normalize_or(skin.outer);
+        let share = film * schlick(0.02, -arrival.direction.dot(sheet));
+        let mirrored = room::light(reflect(arrival.direction, sheet));
+        let gleam = FILM_GLEAM * film * lit * sheet.dot(half).max(0.0).powi(120);
+        inner * (1.0 - share) + mirrored * share + KEY * (glint + gleam)
     }
 
     /// A matt colour in the light that arrives.

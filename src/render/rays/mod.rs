@@ -23,7 +23,7 @@ mod tree;
 use super::camera::Raster;
 use super::colour::displayed;
 use super::stage::Stage;
-use super::water::{self, Drop, Field};
+use super::water::{self, Field, Water};
 use super::{Camera, Image, Picture, View};
 use glam::Vec3;
 use ground::Ground;
@@ -61,9 +61,13 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
 /// The passes before the first ray.
 fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
     let view = stage.picture.view;
-    let (field, drops) = match view {
+    let water = match view {
         View::Realistic | View::Superimposed => water(stage),
-        _ => (None, Vec::new()),
+        _ => None,
+    };
+    let (field, drops, films) = match water {
+        Some(Water { field, drops, films }) => (Some(field), drops, films),
+        None => (None, Vec::new(), Vec::new()),
     };
     let (low, high) = stage.around;
     let ground = stage.ground();
@@ -81,6 +85,7 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
         stage,
         nudge: 0.06 * field.as_ref().map_or(stage.radius.max(1e-4), Field::cell),
         field,
+        films,
         tree: Tree::new(triangles.iter().map(|(_, corners)| corners.map(|node| sponge.positions[node]))),
         beads: beads::beads(stage),
         coat: if view == View::Saturation { Coat::Map } else { Coat::Skin },
@@ -100,8 +105,8 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
     (setting, watched)
 }
 
-/// The free water and its drops.
-fn water(stage: &Stage<'_>) -> (Option<Field>, Vec<Drop>) {
+/// The free water.
+fn water(stage: &Stage<'_>) -> Option<Water> {
     let positions: Vec<Vec3> = stage.particles.iter().map(|(_, place)| *place).collect();
     let interior: Vec<f32> = stage.particles.iter().map(|(index, _)| stage.interior(*index)).collect();
     let input = water::Input {
@@ -112,7 +117,7 @@ fn water(stage: &Stage<'_>) -> (Option<Field>, Vec<Drop>) {
         sponge: &stage.sponge,
         bodies: &stage.solids,
     };
-    water::field(&input).map_or((None, Vec::new()), |(field, drops)| (Some(field), drops))
+    water::water(&input)
 }
 
 /// The blocks of pixels that small balls are in: middles and radii (m).

@@ -16,7 +16,7 @@ use crate::render::{
 use glam::Vec3;
 
 /// Thickness of water over a sponge that is wetness alone, and from which on it is water alone, in spacings.
-const FILM_ON_SPONGE: (f32, f32) = (1.1, 2.4);
+const FILM_ON_SPONGE: (f32, f32) = (0.2, 1.2);
 /// The same over the floor.
 const FILM_ON_FLOOR: (f32, f32) = (0.2, 0.5);
 /// A narrower gap between water and a solid is water, in spacings.
@@ -32,6 +32,8 @@ pub(super) struct Setting<'a> {
     pub(super) stage: &'a Stage<'a>,
     /// The water; nothing without free water.
     pub(super) field: Option<Field>,
+    /// How much water covers each node of the sponges, 0 to 1; empty for none.
+    pub(super) films: Vec<f32>,
     /// The sponges.
     pub(super) tree: Tree<Triangle>,
     /// Balls of a view that shows particles or nodes, with their colours.

@@ -16,6 +16,8 @@ const SOAKED: Vec3 = Vec3::new(0.46, 0.25, 0.055);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Skin {
     pub(super) normal: Vec3,
+    /// Normal of the outer surface, without pores.
+    pub(super) outer: Vec3,
     pub(super) albedo: Vec3,
     /// Share of the light that reaches the place in its pore, 0 to 1.
     pub(super) open: f32,
@@ -63,6 +65,14 @@ pub(super) fn facet(sponge: &Surface, hit: &Hit<[f32; 2]>) -> (f32, Vec3) {
     let corners = sponge.triangles[hit.index as usize].1;
     let facet = Facet { sponge, corners, weights: [1.0 - u - v, u, v] };
     (facet.wetness(), facet.mix(&sponge.normals).normalize_or_zero())
+}
+
+/// Share of a place of a sponge that free water covers, from the shares of the nodes; 0 without any.
+pub(super) fn covered(sponge: &Surface, hit: &Hit<[f32; 2]>, films: &[f32]) -> f32 {
+    let [u, v] = hit.place;
+    let [a, b, c] =
+        sponge.triangles[hit.index as usize].1.map(|node| films.get(node).copied().unwrap_or(0.0));
+    a * (1.0 - u - v) + b * u + c * v
 }
 
 /// Whether a ray that meets the outer surface in a pore leaves the sponge again, after a distance (m), before it meets a wall: pores
@@ -123,7 +133,7 @@ pub(super) fn skin(
     // Light from the bottom of a pore has the colour of its walls.
     let open = libm::expf(-depth / 1.5e-3);
     let albedo = base * Vec3::new(1.0, 0.72 + 0.28 * open, 0.5 + 0.5 * open);
-    Skin { normal: bent, albedo, open, wet }
+    Skin { normal: bent, outer: normal, albedo, open, wet }
 }
 
 /// Length of the way to the wall of a pore (m), and the distance from it there (mm).

@@ -94,6 +94,13 @@ impl<'a> Distances<'a> {
         self.sponge.is_empty() && self.bodies.is_empty()
     }
 
+    /// Writes the distances from sponges of all nodes.
+    pub(super) fn copy_to(&self, distances: &mut [f32]) {
+        if !self.sponge.is_empty() {
+            distances.copy_from_slice(&self.sponge);
+        }
+    }
+
     /// Free share around a node of the slab, 0 to 1.
     pub(super) fn free(&self, node: usize, place: Vec3) -> f32 {
         let mut free = self.sponge.get(node).map_or(1.0, |distance| share(*distance / self.reach));

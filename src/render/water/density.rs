@@ -14,7 +14,8 @@ pub(super) const THIN: f32 = 0.02;
 /// Smallest free share that a density is divided by.
 const LEAST_FREE: f32 = 0.12;
 
-/// Density less [`LEVEL`] on all nodes: positive in the water, -0.5 in air.
+/// Density less [`LEVEL`] on all nodes: positive in the water, -0.5 in air. With the distances of the nodes from sponges (m), infinite
+/// where there is no water or no sponge near; empty without a sponge.
 ///
 /// A slab of layers is filled by one task, from kernels in their order, so that the result does not depend on threads.
 pub(super) fn density(
@@ -23,7 +24,7 @@ pub(super) fn density(
     surfels: &[Surfel],
     bodies: &[Solid<'_>],
     spacing: f32,
-) -> Vec<f32> {
+) -> (Vec<f32>, Vec<f32>) {
     let by_slab = |near: &dyn Fn(usize) -> std::ops::Range<usize>, count: usize| {
         let mut lists = vec![Vec::new(); grid.slabs()];
         for index in 0..count {
@@ -36,8 +37,11 @@ pub(super) fn density(
     let own = by_slab(&|i| grid.slabs_near(kernels[i].centre, kernels[i].extent.z), kernels.len());
     let around = by_slab(&|i| grid.slabs_near(surfels[i].place(), REACH * spacing), surfels.len());
     let mut values = vec![0.0_f32; grid.layer() * grid.sides[2]];
-    let jobs = values.chunks_mut(SLAB * grid.layer()).enumerate().collect();
-    bands::each(jobs, |(slab, values): (usize, &mut [f32])| {
+    let mut away = vec![f32::INFINITY; if surfels.is_empty() { 0 } else { values.len() }];
+    let mut away_by_slab = away.chunks_mut(SLAB * grid.layer());
+    let jobs = values.chunks_mut(SLAB * grid.layer()).enumerate();
+    let jobs = jobs.map(|(slab, values)| (slab, values, away_by_slab.next())).collect();
+    bands::each(jobs, |(slab, values, away): (usize, &mut [f32], Option<&mut [f32]>)| {
         let layers = slab * SLAB..slab * SLAB + values.len() / grid.layer();
         for kernel in own[slab].iter().map(|index| &kernels[*index as usize]) {
             add(grid, layers.start, kernel, values);
@@ -56,8 +60,11 @@ pub(super) fn density(
             }
             *value = value.min(LARGEST) - LEVEL;
         }
+        if let Some(away) = away {
+            distances.copy_to(away);
+        }
     });
-    values
+    (values, away)
 }
 
 /// Adds a kernel to the nodes of a slab, eight by eight.

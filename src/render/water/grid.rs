@@ -80,6 +80,19 @@ impl Grid {
         self.origin + self.cell * Vec3::new(x as f32, y as f32, z as f32)
     }
 
+    /// The value at a point between nodes, linear; outside of the grid that of its border.
+    pub(super) fn between(&self, values: &[f32], point: Vec3) -> f32 {
+        let [nx, ny, nz] = self.sides;
+        let last = Vec3::new(nx as f32, ny as f32, nz as f32) - 1.001;
+        let place = ((point - self.origin) * self.inverse).clamp(Vec3::ZERO, last);
+        let [x, y, z] = place.to_array().map(|place| place as usize);
+        let f = place - Vec3::new(x as f32, y as f32, z as f32);
+        let row = |at: usize| values[at] + (values[at + 1] - values[at]) * f.x;
+        let plane = |at: usize| row(at) + (row(at + nx) - row(at)) * f.y;
+        let at = (z * ny + y) * nx + x;
+        plane(at) + (plane(at + self.layer()) - plane(at)) * f.z
+    }
+
     /// Calls `visit(y, layer of the slab, first x, end of x)` for rows of a slab in a box; the columns are whole eights.
     pub(super) fn rows(
         &self,

@@ -7,6 +7,7 @@ mod cells;
 mod closure;
 mod density;
 mod field;
+mod film;
 mod grid;
 mod kernels;
 #[cfg(test)]
@@ -45,8 +46,17 @@ pub(super) struct Drop {
     pub(super) radius: f32,
 }
 
-/// The field of the free water with the drops that are alone, or nothing without free water.
-pub(super) fn field(input: &Input<'_>) -> Option<(Field, Vec<Drop>)> {
+/// The free water.
+pub(super) struct Water {
+    pub(super) field: Field,
+    /// Drops that are alone.
+    pub(super) drops: Vec<Drop>,
+    /// How much water covers each node of the sponges, 0 to 1.
+    pub(super) films: Vec<f32>,
+}
+
+/// The free water, or nothing without any.
+pub(super) fn water(input: &Input<'_>) -> Option<Water> {
     let walls = Walls { container: input.container };
     let rows = near(input);
     let positions: Vec<Vec3> = rows.iter().map(|row| walls.inside(input.positions[*row])).collect();
@@ -58,14 +68,16 @@ pub(super) fn field(input: &Input<'_>) -> Option<(Field, Vec<Drop>)> {
     }
     let grid = Grid::around(&kernels, input.spacing, &walls);
     let surfels = closure::surfels(input.sponge, input.spacing);
-    let values = density::density(&grid, &kernels, &surfels, input.bodies, input.spacing);
+    let (values, away) = density::density(&grid, &kernels, &surfels, input.bodies, input.spacing);
+    let films = film::films(&grid, &values, input.sponge, input.spacing);
+    let values = film::sink(&grid, values, &away, input.spacing);
     let alone = |kernel: &&Kernel| kernel.company < 0.5;
     let drops = kernels
         .iter()
         .filter(alone)
         .map(|kernel| Drop { centre: kernel.centre, radius: 0.6 * kernel.extent.max_element() });
     let drops = drops.collect();
-    Some((Field::new(grid, values, input.spacing), drops))
+    Some(Water { field: Field::new(grid, values, input.spacing), drops, films })
 }
 
 /// Rows of the particles that are not lost: in an open scene, those near to most of the others.

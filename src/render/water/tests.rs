@@ -22,7 +22,7 @@ fn block(counts: [i32; 3], spacing: f32) -> Vec<Vec3> {
 fn made(positions: &[Vec3], container: Option<(Vec3, Vec3)>) -> (Field, Vec<Kernel>) {
     let (sponge, spacing) = (empty(), 0.01);
     let input = Input { positions, interior: &[], spacing, container, sponge: &sponge, bodies: &[] };
-    let (field, _) = field(&input).expect("there is water");
+    let Water { field, .. } = water(&input).expect("there is water");
     (field, kernels::kernels(positions, &[], spacing, &Walls { container }))
 }
 
