@@ -3,6 +3,7 @@
 use super::camera::{Camera, Raster};
 use super::shapes::Solid;
 use super::sponge::Surface;
+use super::{View, water};
 use super::{DrawnBody, Picture};
 use glam::Vec3;
 
@@ -12,6 +13,8 @@ pub(super) struct Stage<'a> {
     pub(super) raster: Raster,
     /// Particles with a finite position: index in the list and position.
     pub(super) particles: Vec<(usize, Vec3)>,
+    /// How much of each of them is free water, 0 to 1; 1 for views without a surface.
+    pub(super) free: Vec<f32>,
     pub(super) radius: f32,
     pub(super) solids: Vec<Solid<'a>>,
     pub(super) sponge: Surface,
@@ -35,9 +38,17 @@ impl<'a> Stage<'a> {
             .enumerate()
             .filter(|(_, p)| drawable && p.is_finite())
             .collect();
+        let sponge = Surface::new(picture);
+        let free = if matches!(picture.view, View::Realistic | View::Superimposed | View::Fast) {
+            let positions: Vec<Vec3> = particles.iter().map(|(_, place)| *place).collect();
+            let held = |index: usize| picture.interior.get(index).copied().unwrap_or(0.0);
+            let interior: Vec<f32> = particles.iter().map(|(index, _)| held(*index)).collect();
+            water::free(&positions, &interior, &sponge, 2.0 * radius)
+        } else {
+            vec![1.0; particles.len()]
+        };
         let solid = |(index, body): (usize, &DrawnBody<'a>)| Solid::new(index, body);
         let solids: Vec<Solid<'a>> = picture.bodies.iter().enumerate().filter_map(solid).collect();
-        let sponge = Surface::new(picture);
         let container = picture.container.map(|(a, b)| (a.min(b), a.max(b))).filter(|(a, b)| {
             let side = *b - *a;
             side.is_finite() && side.min_element() > 1e-6
@@ -46,7 +57,7 @@ impl<'a> Stage<'a> {
         let height_scale = container.map_or(40.0 * radius, |(a, b)| b.y - a.y).max(1e-6);
         let raster = Raster::new(camera, width, height);
         let fast = 0.75 * (2.0 * 9.81 * height_scale).sqrt();
-        Self { picture, raster, particles, radius, solids, sponge, container, around, fast }
+        Self { picture, raster, particles, free, radius, solids, sponge, container, around, fast }
     }
 
     /// Height of the floor (m), with the plane that it is if a body is: the floor of the container, or the highest level plane.
@@ -67,11 +78,6 @@ impl<'a> Stage<'a> {
     pub(super) fn pitch(&self) -> f32 {
         let (low, high) = self.around;
         round_pitch((high - low).max_element().max(1e-6) / 14.0)
-    }
-
-    /// Share of a particle that a sponge holds, 0 to 1.
-    pub(super) fn interior(&self, particle: usize) -> f32 {
-        self.picture.interior.get(particle).copied().unwrap_or(0.0)
     }
 
     /// Speed of a particle (m/s).

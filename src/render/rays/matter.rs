@@ -15,8 +15,13 @@ use glam::Vec3;
 
 const FLOOR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
 
+/// Light that a wet floor loses. Rays are widened as they leave water, by the square of its index; what the surface of the water
+/// reflects back to the floor makes up for a part of it.
+const WET_FLOOR: f32 = 0.22;
 /// How far the surface of a film follows pores.
 const FILM_RELIEF: f32 = 0.35;
+/// Largest share of the light that a film mirrors: it is rough at flat angles.
+const FILM_MIRROR: f32 = 0.12;
 /// Brightness of the window in a film.
 const FILM_GLEAM: f32 = 0.6;
 
@@ -87,8 +92,8 @@ impl Setting<'_> {
         }
         // A film over the cells is smooth, and fills pores in part.
         let sheet = (skin.outer + skin.normal * FILM_RELIEF).normalize_or(skin.outer);
-        let share = film * schlick(0.02, -arrival.direction.dot(sheet));
-        let mirrored = room::light(reflect(arrival.direction, sheet));
+        let share = film * schlick(0.02, -arrival.direction.dot(sheet)).min(FILM_MIRROR);
+        let mirrored = room::light(reflect(arrival.direction, sheet)) * near_floor;
         let gleam = FILM_GLEAM * film * lit * sheet.dot(half).max(0.0).powi(120);
         inner * (1.0 - share) + mirrored * share + KEY * (glint + gleam)
     }
@@ -125,8 +130,8 @@ impl Setting<'_> {
         let width = arrival.way * self.pixel / (-direction.y).max(0.05);
         let albedo = FLOOR * (1.0 + (self.tiles(point, width, signature) - 1.0) * (1.0 - fade));
         let arriving = self.ground.arriving(point);
-        let wetness = arriving.w.max(f32::from(u8::from(arrival.film))).min(1.0);
-        let mut light = albedo * (1.0 - 0.16 * wetness) * arriving.truncate();
+        let wetness = arriving.w.max(f32::from(u8::from(arrival.wet))).min(1.0);
+        let mut light = albedo * (1.0 - WET_FLOOR * wetness) * arriving.truncate();
         if wetness > 0.02 && !arrival.wet {
             let gloss = schlick(0.02, -direction.y) * 0.5 * wetness;
             light += room::light(reflect(direction, Vec3::Y)) * gloss;

@@ -108,10 +108,9 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
 /// The free water.
 fn water(stage: &Stage<'_>) -> Option<Water> {
     let positions: Vec<Vec3> = stage.particles.iter().map(|(_, place)| *place).collect();
-    let interior: Vec<f32> = stage.particles.iter().map(|(index, _)| stage.interior(*index)).collect();
     let input = water::Input {
         positions: &positions,
-        interior: &interior,
+        free: &stage.free,
         spacing: 2.0 * stage.radius,
         container: stage.container,
         sponge: &stage.sponge,

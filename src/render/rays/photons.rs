@@ -187,9 +187,8 @@ impl Setting<'_> {
     fn wetness(&self) -> Vec<f32> {
         let mut map = vec![0.0; self.ground.side * self.ground.side];
         let spacing = 2.0 * self.stage.radius;
-        for (index, place) in &self.stage.particles {
-            let is_free = self.stage.interior(*index) < 0.6;
-            if is_free && place.y - self.ground.height < 1.3 * spacing {
+        for ((_, place), free) in self.stage.particles.iter().zip(&self.stage.free) {
+            if *free > 0.5 && place.y - self.ground.height < 1.3 * spacing {
                 splat(&self.ground, &mut map, *place, 1.5 * spacing, 1.2);
             }
         }

@@ -126,8 +126,8 @@ impl Screen {
         let raster = stage.raster.coarser(COARSE);
         let (width, height, spacing) = (raster.width, raster.height, 2.0 * stage.radius);
         let radius = BALL * spacing;
-        let free = stage.particles.iter().filter(|(index, _)| stage.interior(*index) < 0.7);
-        let discs: Vec<Disc> = free.filter_map(|(_, place)| disc(&raster, *place, radius)).collect();
+        let free = stage.particles.iter().zip(&stage.free).filter(|(_, free)| **free > 0.5);
+        let discs: Vec<Disc> = free.filter_map(|((_, place), _)| disc(&raster, *place, radius)).collect();
         let mut bins = vec![Vec::new(); height.div_ceil(BAND)];
         for (index, disc) in discs.iter().enumerate() {
             for bin in &mut bins[disc.rows.start / BAND..=(disc.rows.end - 1) / BAND] {

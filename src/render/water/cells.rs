@@ -18,6 +18,8 @@ pub(super) struct Cells {
     start: Vec<u32>,
     /// Coordinates of the points from cell to cell (m), with [`LANES`] more that are nowhere.
     columns: [Vec<f32>; 3],
+    /// Rows of the points, from cell to cell.
+    rows: Vec<u32>,
 }
 
 impl Cells {
@@ -45,19 +47,26 @@ impl Cells {
         }
         let mut next = start.clone();
         let mut columns = [(); 3].map(|()| vec![f32::INFINITY; points.len() + LANES]);
-        for (point, cell) in points.iter().zip(cells) {
+        let mut rows = vec![0; points.len()];
+        for (row, (point, cell)) in points.iter().zip(cells).enumerate() {
             let place = next[cell] as usize;
             next[cell] += 1;
+            rows[place] = row as u32;
             for (column, value) in columns.iter_mut().zip(point.to_array()) {
                 column[place] = value;
             }
         }
-        Self { low, inverse, sides, start, columns }
+        Self { low, inverse, sides, start, columns, rows }
     }
 
     /// The coordinates of the points at some places and [`LANES`] more.
     pub(super) fn coordinates(&self, places: Range<usize>) -> [&[f32]; 3] {
         [0, 1, 2].map(|axis| &self.columns[axis][places.start..places.end + LANES])
+    }
+
+    /// The rows of the points at some places.
+    pub(super) fn rows(&self, places: Range<usize>) -> &[u32] {
+        &self.rows[places]
     }
 
     fn cell(&self, point: Vec3) -> [isize; 3] {

@@ -24,6 +24,14 @@ impl Surfel {
     pub(super) fn place(&self) -> Vec3 {
         self.centre
     }
+
+    /// Weight of the surfel at a point nearer than `reach`, and the distance of the point from its plane (m).
+    pub(super) fn share(&self, point: Vec3, reach: f32) -> (f32, f32) {
+        let r = point - self.centre;
+        let weight = (1.0 - r.length_squared() / (reach * reach)).max(0.0);
+        let weight = weight * weight;
+        (weight * weight, r.dot(self.normal))
+    }
 }
 
 /// Share of a kernel in front of a plane, with the middle of the kernel at a distance in front of it, in radii: the integral of

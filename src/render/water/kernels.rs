@@ -43,8 +43,8 @@ pub(super) struct Kernel {
 
 /// Kernels of particles and of their mirror images, in the order of the particles. Particles inside of sponges have none.
 ///
-/// `interior` has the share of each particle that a sponge holds, 0 to 1; empty for 0.
-pub(super) fn kernels(positions: &[Vec3], interior: &[f32], spacing: f32, walls: &Walls) -> Vec<Kernel> {
+/// `free` has the share of each particle that is free water, 0 to 1.
+pub(super) fn kernels(positions: &[Vec3], free: &[f32], spacing: f32, walls: &Walls) -> Vec<Kernel> {
     let images = walls.images(positions, REACH * spacing);
     let mut points = positions.to_vec();
     points.extend(images.iter().map(|image| image.position));
@@ -53,7 +53,7 @@ pub(super) fn kernels(positions: &[Vec3], interior: &[f32], spacing: f32, walls:
         let rows = chunk * CHUNK..((chunk + 1) * CHUNK).min(positions.len());
         rows.map(|row| {
             // The water of sponges shows as their wetness.
-            let free = 1.0 - smooth(0.55, 0.85, interior.get(row).copied().unwrap_or(0.0));
+            let free = free[row];
             (free > 0.0).then(|| kernel(positions[row], &cells, spacing, free))
         })
         .collect::<Vec<_>>()

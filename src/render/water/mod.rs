@@ -10,11 +10,13 @@ mod field;
 mod film;
 mod grid;
 mod kernels;
+mod pores;
 #[cfg(test)]
 mod tests;
 mod walls;
 
 pub(super) use field::Field;
+pub(super) use pores::free;
 
 use super::{shapes::Solid, sponge::Surface};
 use glam::Vec3;
@@ -29,8 +31,8 @@ const LOST: f32 = 600.0;
 pub(super) struct Input<'a> {
     /// Finite positions of the particles (m).
     pub(super) positions: &'a [Vec3],
-    /// Share of each particle that a sponge holds, 0 to 1; empty for 0.
-    pub(super) interior: &'a [f32],
+    /// Share of each particle that is free water, 0 to 1.
+    pub(super) free: &'a [f32],
     /// Distance of particles at rest (m).
     pub(super) spacing: f32,
     /// Lowest and highest corner of a container (m).
@@ -60,9 +62,8 @@ pub(super) fn water(input: &Input<'_>) -> Option<Water> {
     let walls = Walls { container: input.container };
     let rows = near(input);
     let positions: Vec<Vec3> = rows.iter().map(|row| walls.inside(input.positions[*row])).collect();
-    let interior: Vec<f32> =
-        rows.iter().map(|row| input.interior.get(*row).copied().unwrap_or(0.0)).collect();
-    let kernels = kernels::kernels(&positions, &interior, input.spacing, &walls);
+    let free: Vec<f32> = rows.iter().map(|row| input.free[*row]).collect();
+    let kernels = kernels::kernels(&positions, &free, input.spacing, &walls);
     if kernels.is_empty() {
         return None;
     }

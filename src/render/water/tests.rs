@@ -21,9 +21,10 @@ fn block(counts: [i32; 3], spacing: f32) -> Vec<Vec3> {
 
 fn made(positions: &[Vec3], container: Option<(Vec3, Vec3)>) -> (Field, Vec<Kernel>) {
     let (sponge, spacing) = (empty(), 0.01);
-    let input = Input { positions, interior: &[], spacing, container, sponge: &sponge, bodies: &[] };
+    let free = vec![1.0; positions.len()];
+    let input = Input { positions, free: &free, spacing, container, sponge: &sponge, bodies: &[] };
     let Water { field, .. } = water(&input).expect("there is water");
-    (field, kernels::kernels(positions, &[], spacing, &Walls { container }))
+    (field, kernels::kernels(positions, &free, spacing, &Walls { container }))
 }
 
 #[test]
