@@ -3,8 +3,8 @@
 use super::camera::{Camera, Raster};
 use super::shapes::Solid;
 use super::sponge::Surface;
-use super::{View, water};
 use super::{DrawnBody, Picture};
+use super::{View, water};
 use glam::Vec3;
 
 /// A picture prepared for drawing.

@@ -11,6 +11,8 @@ use std::ops::Range;
 const EIGHT: usize = 8;
 /// Side of the piece of surface that a surfel stands for, at most (spacings).
 const PIECE: f32 = 2.0;
+/// Distance from the outer surface of a sponge up to which water counts as that of its pores, in spacings: no kernels are there.
+const PORES: f32 = 0.2;
 
 /// A piece of the surface of a sponge.
 #[derive(Clone, Copy, Debug)]
@@ -72,6 +74,7 @@ pub(super) struct Distances<'a> {
     sponge: Vec<f32>,
     bodies: Vec<&'a Solid<'a>>,
     reach: f32,
+    pores: f32,
 }
 
 impl<'a> Distances<'a> {
@@ -94,7 +97,7 @@ impl<'a> Distances<'a> {
         let bodies = bodies.iter().filter(near).collect();
         let sponge =
             if surfels.len() == 0 { Vec::new() } else { nearest(grid, layers, surfels, densities, reach) };
-        Self { sponge, bodies, reach }
+        Self { sponge, bodies, reach, pores: PORES * spacing }
     }
 
     /// Whether nothing is near the slab.
@@ -110,8 +113,13 @@ impl<'a> Distances<'a> {
     }
 
     /// Free share around a node of the slab, 0 to 1.
-    pub(super) fn free(&self, node: usize, place: Vec3) -> f32 {
-        let mut free = self.sponge.get(node).map_or(1.0, |distance| share(*distance / self.reach));
+    ///
+    /// `image` is its mirror image behind the floor: sponges have images there as the water has.
+    pub(super) fn free(&self, (node, image): (usize, Option<usize>), place: Vec3) -> f32 {
+        let of_sponge = |node: usize| {
+            self.sponge.get(node).map_or(1.0, |distance| share((*distance - self.pores) / self.reach))
+        };
+        let mut free = of_sponge(node) * image.map_or(1.0, of_sponge);
         for body in &self.bodies {
             let distance = body.distance(place);
             if distance < self.reach {

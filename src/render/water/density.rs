@@ -56,7 +56,7 @@ pub(super) fn density(
             if *value > THIN {
                 let (x, row) = (node % grid.sides[0], node / grid.sides[0]);
                 let place = grid.node(x, row % grid.sides[1], row / grid.sides[1] + layers.start);
-                *value /= distances.free(node, place).max(LEAST_FREE);
+                *value /= distances.free((node, grid.mirrored(node)), place).max(LEAST_FREE);
             }
             *value = value.min(LARGEST) - LEVEL;
         }

@@ -46,7 +46,8 @@ fn slope(grid: &Grid, distances: &[f32], node: usize) -> Vec3 {
     let strides = [1, grid.sides[0], grid.layer()];
     let along = |axis: usize| {
         let stride = strides[axis];
-        let at = |place: Option<usize>| place.and_then(|place| distances.get(place)).filter(|d| d.is_finite());
+        let at =
+            |place: Option<usize>| place.and_then(|place| distances.get(place)).filter(|d| d.is_finite());
         let difference = match (at(node.checked_sub(stride)), at(node.checked_add(stride))) {
             (Some(before), Some(after)) => 0.5 * (after - before),
             (Some(before), None) => own - before,

@@ -25,6 +25,8 @@ pub(super) struct Grid {
     pub(super) inverse: Vec3,
     /// Nodes along each axis; a multiple of eight along x.
     pub(super) sides: [usize; 3],
+    /// The row of nodes along y that is on the floor of a container, if it is on the grid.
+    floor: Option<usize>,
 }
 
 impl Grid {
@@ -52,12 +54,22 @@ impl Grid {
         let (first, last) = (first - MARGIN, last + MARGIN);
         let mut sides = (last - first).to_array().map(|count| count as usize + 1);
         sides[0] = sides[0].next_multiple_of(8);
-        Self { origin: corner + cell * first, cell, inverse: cell.recip(), sides }
+        let is_floor = walls.container.is_some() && first.y <= 0.0;
+        let floor = is_floor.then_some(-first.y as usize);
+        Self { origin: corner + cell * first, cell, inverse: cell.recip(), sides, floor }
     }
 
     /// Nodes of a layer.
     pub(super) fn layer(&self) -> usize {
         self.sides[0] * self.sides[1]
+    }
+
+    /// The mirror image of a node behind the floor, if it is on the grid.
+    pub(super) fn mirrored(&self, node: usize) -> Option<usize> {
+        let [nx, ny, _] = self.sides;
+        let y = node / nx % ny;
+        let image = (2 * self.floor?).checked_sub(y).filter(|image| *image < ny)?;
+        Some(node - y * nx + image * nx)
     }
 
     /// Number of slabs.
