@@ -17,6 +17,12 @@ const ALONE: f32 = 1.05;
 const FULL: f32 = 0.957;
 /// Points at rest in the block of cells that is searched: five by five by five cells of half a reach.
 const BLOCK: f32 = 2.5 * REACH * 2.5 * REACH * 2.5 * REACH;
+/// Radius of a kernel deep in the bulk, in spacings, and how much more it weighs than one that is alone there.
+const DEEP: f32 = 1.35;
+const PACKED: f32 = 7.85;
+/// Shares of a full neighbourhood, and distances of its mean over `REACH`, from which on and up to which a particle is deep.
+const BULK: (f32, f32) = (0.84, 0.92);
+const EVEN: (f32, f32) = (0.008, 0.016);
 /// Added to the covariance, over its mean eigenvalue: bounds how flat a kernel gets, to about 7 to 1.
 const ROUNDING: f32 = 0.25;
 /// Share of the way from the particle to the mean of its neighbours.
@@ -106,20 +112,24 @@ fn neighbourhood(point: Vec3, cells: &Cells, reach: f32) -> Neighbourhood {
 }
 
 fn kernel(point: Vec3, cells: &Cells, spacing: f32, free: f32) -> Kernel {
-    let deep = |company: f32| ball(point, 1.35 * spacing, 5.0 * free, company);
+    let deep = || ball(point, DEEP * spacing, free * NORM * PACKED / (DEEP * DEEP * DEEP), 1.0);
     if cells.are_full(point, 0.88 * BLOCK) {
-        return deep(1.0);
+        return deep();
     }
     let reach = REACH * spacing;
     let Neighbourhood { total, mean, covariance } = neighbourhood(point, cells, reach);
     let full = FULL * REACH * REACH * REACH;
     let company = smooth(0.0, 1.0, (total - 1.0) / (0.35 * (full - 1.0)));
-    if total > 0.88 * full && mean.length() < 0.012 * reach {
-        // Deep in the bulk only the sign matters: a narrow kernel that leaves no gaps.
-        return deep(company);
+    // Deep in the bulk only the sign matters: a narrow kernel that leaves no gaps. It gets narrow little by little, or the surface
+    // would jump.
+    let depth = smooth(BULK.0, BULK.1, total / full) * (1.0 - smooth(EVEN.0, EVEN.1, mean.length() / reach));
+    if depth >= 1.0 {
+        return deep();
     }
-    let radius = (ALONE + (RADIUS - ALONE) * company) * spacing;
-    let mass = free * NORM * (spacing / radius) * (spacing / radius) * (spacing / radius);
+    let wide = ALONE + (RADIUS - ALONE) * company;
+    let narrow = wide + (DEEP - wide) * depth;
+    let packed = 1.0 + (PACKED - 1.0) * (depth * depth) * (depth * depth);
+    let (radius, mass) = (narrow * spacing, free * NORM * packed / (narrow * narrow * narrow));
     let centre = point + mean * (SHIFT * company);
     let trace = (covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z) / 3.0;
     let floor = ROUNDING * trace + (1.0 - company) * spacing * spacing;

@@ -87,3 +87,56 @@ fn rays_leave_water_where_they_enter_it_from_the_other_side() {
     }
     assert!(field.march(Vec3::new(-0.1, 0.3, 0.05), Vec3::X, (0.0, 1.0), false).is_none());
 }
+
+/// The upper face of a sponge at a height of 0, from corner to corner of `side` times `side` facets of 0.01 m.
+fn face(side: u32) -> Surface {
+    let row = side + 1;
+    let nodes: Vec<[f32; 4]> = (0..row * row)
+        .map(|node| [(node % row) as f32 * 0.01, 0.0, (node / row) as f32 * 0.01, 0.0])
+        .collect();
+    let corners = (0..side * side).flat_map(|facet| {
+        let first = facet / side * row + facet % side;
+        let [a, b, c, d] = [first, first + 1, first + row, first + row + 1];
+        [[a, c, b], [b, c, d]]
+    });
+    let triangles: Vec<[u32; 3]> = corners.collect();
+    Surface::new(&crate::render::Picture { nodes: &nodes, triangles: &triangles, ..Default::default() })
+}
+
+#[test]
+fn a_film_on_a_sponge_covers_it_and_has_no_surface() {
+    let (bare, sponge) = (empty(), face(16));
+    assert!(sponge.normals[8 * 17 + 8].y > 0.99);
+    let height = |layers: i32, sponge: &Surface| {
+        let positions = block([16, layers, 16], 0.01);
+        let free = vec![1.0; positions.len()];
+        let input =
+            Input { positions: &positions, free: &free, spacing: 0.01, container: None, sponge, bodies: &[] };
+        let Water { field, films, .. } = water(&input).expect("there is water");
+        let start = Vec3::new(0.081, 0.09, 0.083);
+        let height = field.march(start, Vec3::NEG_Y, (0.0, 0.09), false).map(|way| 0.09 - way);
+        (height, films.get(8 * 17 + 8).copied())
+    };
+    let (film, cover) = height(1, &sponge);
+    assert!(film.is_none() && cover.is_some_and(|cover| cover > 0.9), "{film:?} {cover:?}");
+    let (deep, _) = height(5, &sponge);
+    assert!(deep.is_some_and(|deep| (deep - 0.05).abs() < 0.005), "{deep:?}");
+    let (between, _) = height(2, &sponge);
+    assert!(between.is_some_and(|between| between > 0.005 && between < 0.02), "{between:?}");
+    // Negative control: the same layer has a surface where no sponge is.
+    let (layer, _) = height(1, &bare);
+    assert!(layer.is_some_and(|layer| layer > 0.005), "{layer:?}");
+}
+
+#[test]
+fn particles_at_a_sponge_are_water_of_its_pores_whatever_share_of_them_it_holds() {
+    let (bare, sponge) = (empty(), face(16));
+    let positions = [0.0, 0.001, 0.012].map(|height| Vec3::new(0.08, height, 0.08));
+    let share = |interior: f32, sponge: &Surface| free(&positions, &[interior; 3], sponge, 0.01);
+    // As at an edge: less than at a face.
+    let [inside, near, apart] = share(0.3, &sponge)[..] else { panic!("three particles") };
+    assert!(inside == 0.0 && near == 0.0 && apart == 1.0, "{inside} {near} {apart}");
+    assert!(share(0.9, &sponge).iter().all(|free| *free == 0.0));
+    // Negative control: the share alone calls them free water.
+    assert!(share(0.3, &bare).iter().all(|free| *free == 1.0));
+}
