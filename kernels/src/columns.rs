@@ -133,6 +133,9 @@ columns! {
         /// Velocity of the node; w: share of the external acceleration that it followed in the last step, 0 to 1, see
         /// `pbd::guess`.
         NodeVelocity = velocity: rows("m/s"; FOLLOWED_SHARE 3 "1"), State;
+        /// Velocity that the node would have by the impulse of the pressure alone in the last step; w: length of that step, 0 before
+        /// the first.
+        NodeDriven = driven: rows("m/s"; STEP 3 "s"), State, needs Divergence;
         /// Volume of sponge that the node stands for, pores included.
         NodeVolume = volume: values("m^3"), Constant;
         /// Index of the node's sponge.
@@ -210,16 +213,17 @@ columns! {
         ControlFluidWeights = fluid_weights: ListValues("1"), Scratch on host;
         /// Expected position of the node at the end of the step; w: volume of its material, without pores \[m^3\].
         ControlSolid = solid: rows("m"; VOLUME 3 "m^3"), Scratch, needs Fluid;
-        /// Expected velocity of the node at the end of the step, but for changes of the pressure; w: volume of its material, without
-        /// pores \[m^3\].
+        /// Velocity of the node before the step; w: volume of its material, without pores \[m^3\].
         ControlExpected = expected: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Change of the velocity of the node per impulse \[1/kg\], and the part of the impulse that moves water; w: volume of its
         /// material \[m^3\].
         ControlCompliance = compliance: rows(; COMPLIANCE 0 "1/kg", DRAWN 1 "1", VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Force of the pressure of the present round on the material of the node.
         ControlForce = force: rows("N"), Scratch, needs Fluid;
-        /// Impulse of the pressure of the last step on the node, by itself and by the water that drag holds.
+        /// Impulse of the pressure of the present round on the node, by itself and by the water that drag holds.
         ControlImpulse = impulse: rows("N s"), Scratch, needs Fluid;
+        /// Impulse by everything but the pressure that the node is expected to receive in the step.
+        ControlKnown = known: rows("N s"), Scratch, needs Fluid;
         /// Velocity of the node by the pressure of the present round; w: volume of its material \[m^3\].
         ControlSolved = solved: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Water-filled pore volume over pore volume.

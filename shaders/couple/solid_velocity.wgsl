@@ -29,42 +29,40 @@ fn main(
     let rows = params.fluid_rows;
     let point = fluid_position[row].xyz;
     var slot = row;
+    let near = walls_near(point);
+    let mirrors = select(1u, MIRRORS, near != 0u);
     var sum = vec3<f32>(0.0);
     var interior = 0.0;
+    var moment = vec3<f32>(0.0);
+    var on = vec3<f32>(0.0);
+    var off = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
         slot += rows;
         let other = fluid_controls[slot];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
-        sum += weight * control_solved[other].xyz;
-        interior += weight;
-    }
-    let mobility = fluid_mobility[row].x;
-    let own = mobility * fluid_correction[row].xyz + ((1.0 - mobility) * weight_inside(interior)) * sum;
-    let near = walls_near(point);
-    let mirrors = select(1u, MIRRORS, near != 0u);
-    var on = vec3<f32>(0.0);
-    var off = vec3<f32>(0.0);
-    slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
-        let there = control_position[other].xyz;
         let node = control_solved[other];
+        sum += weight * node.xyz;
+        interior += weight;
         for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
-            let image = mirrored(near, mirror, there);
+            let image = mirrored(near, mirror, there.xyz);
             if (!image.is_there) {
                 continue;
             }
             let offset = point - image.position;
             let u = closeness(params.solid, dot(offset, offset));
             let apart = (node.w * (u * u * u)) * offset;
-            let v = image.signs * node.xyz - own;
+            let v = image.signs * node.xyz;
+            moment += apart;
             on += v * apart;
             off += v.yzx * apart.zxy + v.zxy * apart.yzx;
         }
     }
+    let mobility = fluid_mobility[row].x;
+    let own = mobility * fluid_correction[row].xyz + ((1.0 - mobility) * weight_inside(interior)) * sum;
+    on -= own * moment;
+    off -= own.yzx * moment.zxy + own.zxy * moment.yzx;
     let rate = dot(on, fluid_renormalisation[row].xyz) + dot(off, fluid_renormalisation_between[row].xyz);
     fluid_correction[row] = vec4<f32>(own, rate * params.solid.gradient);
 }

@@ -1,14 +1,16 @@
-//! Velocities that are expected of the nodes at the end of the step, but for what the pressure changes, and the volume of their material.
+//! What nodes bring into the solve for the pressure: their velocities, the impulses that they are expected to receive from everything but
+//! the pressure, and the volume of their material.
 //!
 //! ```text
-//! u_a = u + h s a,   V_s = (1 - phi) V_a
+//! u_a = u,   K_a = m_a (h / h') (u - u'),   V_s = (1 - phi) V_a
 //! ```
 //!
-//! with the share s of the external acceleration a that the node followed in the last step (`pbd::guess`).
+//! `u'` is the velocity that the node would have by the pressure alone in the last step, of length h' (`couple::solid_kick`). What it lacks
+//! of u came from elasticity, contact, gravity and the drag of moving water: these change slowly from step to step.
 
 use crate::{
     column::padded,
-    columns::{Columns, lane},
+    columns::{Columns, Nodes, lane},
     cpu::Cpu,
     kernel::declare,
     params::Params,
@@ -16,31 +18,42 @@ use crate::{
 
 declare! {
     needs: [Fluid, Sponge, Divergence, Porous],
-    reads: [ControlNode, NodeVelocity, NodeAcceleration, NodeSponge, NodeVolume],
-    writes: [ControlExpected, ControlImpulse],
+    reads: [ControlNode, NodePosition, NodeVelocity, NodeDriven, NodeSponge, NodeVolume],
+    writes: [ControlExpected, ControlKnown],
     oracle: crate::oracle::solid::expect,
-    bound: 1e-6,
+    bound: 2e-5,
     twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (nodes, controls) = (&columns.nodes, &mut columns.controls);
-    let (node, expected) = (&controls.node, &mut controls.expected);
-    expected.clear();
-    expected.resize(padded(node.len()), [0.0; 4]);
-    // Nothing is known before the first round.
-    controls.impulse.clear();
-    controls.impulse.resize(padded(node.len()), [0.0; 4]);
-    let step = params.step;
-    cpu.for_chunks(&mut expected[..node.len()], |first, expected| {
-        for (row, node) in expected.iter_mut().zip(&node[first..]) {
+    let (node, expected, known) = (&controls.node, &mut controls.expected, &mut controls.known);
+    for column in [&mut *expected, known] {
+        column.clear();
+        column.resize(padded(node.len()), [0.0; 4]);
+    }
+    let rows = (&mut expected[..node.len()], &mut known[..node.len()]);
+    cpu.for_chunks(rows, |first, (expected, known)| {
+        for (row, node) in node[first..][..expected.len()].iter().enumerate() {
             let node = *node as usize;
-            let (v, a) = (nodes.velocity[node], nodes.acceleration[node]);
-            let share = v[lane::nodes::velocity::FOLLOWED_SHARE];
-            (0..3).for_each(|axis| row[axis] = v[axis] + step * share * a[axis]);
             // Of the dry node: swelling widens pores and adds no material.
             let solid = 1.0 - params.sponges[nodes.sponge[node] as usize].porosity;
-            row[lane::controls::expected::VOLUME] = solid * nodes.volume[node];
+            let [vx, vy, vz, _] = nodes.velocity[node];
+            expected[row] = [vx, vy, vz, solid * nodes.volume[node]];
+            known[row] = impulse(params, nodes, node);
         }
     });
+}
+
+/// Impulse that a node is expected to receive from everything but the pressure; none of held nodes and before the first step.
+fn impulse(params: &Params, nodes: &Nodes, node: usize) -> [f32; 4] {
+    let inverse_mass = nodes.position[node][lane::nodes::position::INVERSE_MASS];
+    let driven = nodes.driven.get(node).copied().unwrap_or_default();
+    let step = driven[lane::nodes::driven::STEP];
+    if inverse_mass == 0.0 || step == 0.0 {
+        return [0.0; 4];
+    }
+    let scale = params.step / (step * inverse_mass);
+    let [x, y, z] = [0, 1, 2].map(|axis| scale * (nodes.velocity[node][axis] - driven[axis]));
+    [x, y, z, 0.0]
 }

@@ -5,11 +5,11 @@
 //! z_i = sum_a c_ia e_ia,   M_i = sum_a c_ia e_ia e_ia^T,   lambda_i = sum_a V_s W_ia
 //! b_i = 1 / (1 + h k_i),   k_i = beta_i + gamma_i |v_i - u_i|,   u_i = sum_a w_ia u_a
 //! m'_a = sum_i w_ia (1 - b_i) m                            water that the drag moves with a node
-//! D_a = m_a + m'_a + h (h + damping) K_a / 2,   K_a = 8 V_a / a^2 (mu + lambda / 3)
+//! D_a = m_a + m'_a + h (h + damping) K_a / 4,   K_a = 8 V_a / a^2 (mu + lambda / 3)
 //! B_i = b_i + (1 - b_i) sum_a w_ia m'_a / D_a,   N_i = m / 3 sum_a |c_ia e_ia|^2 / D_a
 //! ```
 //!
-//! `1 / D_a` is the velocity of a node by an impulse, within the solve for the pressure. Its neighbours hold it by half of its stiffness
+//! `1 / D_a` is the velocity of a node by an impulse, within the solve for the pressure. Its neighbours hold it by a quarter of its stiffness
 //! against theirs, because they follow as well. B and N are the parts of the diagonal of the system by the particle with what the drag
 //! moves, and by the forces on nodes (`couple::solid_diagonal`).
 
@@ -48,7 +48,7 @@ declare! {
     ],
     constants: {
         /// Part of the stiffness of a node against its neighbours at rest that holds it.
-        const HELD_BY_NEIGHBORS: f32 = 0.5;
+        const HELD_BY_NEIGHBORS: f32 = 0.25;
     },
 }
 

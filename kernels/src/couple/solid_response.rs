@@ -3,10 +3,11 @@
 //! ```text
 //! F_a = sum_i m P_i c_ia L_i (x_a - x_i)                   images of the node in walls included
 //! I_a = h F_a + sum_i w_ia (1 - b_i) m h a_i               by the pressure, and by the water that drag holds
-//! w_a = u_a + (I_a - I_a by the pressure of the last step) / D_a
+//! w_a = u_a + (K_a + I_a) / D_a
 //! ```
 //!
-//! The expected velocity u of a node goes on as it was: it has answered the pressure of the last step. At rest nodes do not respond.
+//! with the velocity u of the node before the step and the impulse K that it is expected to receive from everything but the pressure
+//! (`couple::solid_expect`). Both count with the same response: at rest they cancel, whatever `D` is.
 //! Without the response the scheme is the drained split of poroelasticity, which is unstable for an incompressible fluid
 //! (docs/porous.md).
 
@@ -26,8 +27,7 @@ declare! {
     needs: [Fluid, Sponge, Divergence, Porous],
     reads: [
         FluidPredicted, FluidVelocity, FluidCorrection, FluidRenormalisation, FluidRenormalisationBetween, FluidHeld,
-        FluidPressureSolve, ControlPosition, ControlFluid, ControlFluidWeights, ControlExpected, ControlCompliance,
-        ControlImpulse,
+        ControlPosition, ControlFluid, ControlFluidWeights, ControlExpected, ControlCompliance, ControlKnown,
     ],
     writes: [FluidHeld, FluidUndragged, ControlForce, ControlImpulse, ControlSolved],
     oracle: crate::oracle::solid::response,
@@ -38,10 +38,18 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(smoothing) = &params.solid else { return };
     hold(cpu, &mut columns.fluid);
-    let is_first = columns.fluid.pressure_solve.rounds() == 0;
     let Fluid { predicted, renormalisation, renormalisation_between, held, .. } = &columns.fluid;
     let Controls {
-        position, fluid: lists, fluid_weights, expected, compliance, force, impulse, solved, ..
+        position,
+        fluid: lists,
+        fluid_weights,
+        expected,
+        compliance,
+        known,
+        force,
+        impulse,
+        solved,
+        ..
     } = &mut columns.controls;
     for column in [&mut *force, &mut *impulse, &mut *solved] {
         column.resize(position.len(), [0.0; 4]);
@@ -74,12 +82,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let [compliance, _, _, volume] = lanes::load_rows(simd, compliance, first + row);
                 let own = times(sum, volume * kernel.gradient_scale() * mass);
                 let received = plus(times(own, step), [cx, cy, cz]);
-                let [kx, ky, kz, _] = lanes::load_rows(simd, impulse, row);
-                let known = if is_first { received } else { [kx, ky, kz] };
+                let [kx, ky, kz, _] = lanes::load_rows(simd, known, first + row);
                 let [ux, uy, uz, _] = lanes::load_rows(simd, expected, first + row);
-                let [wx, wy, wz] = plus([ux, uy, uz], times(minus(received, known), compliance));
+                let [wx, wy, wz] = plus([ux, uy, uz], times(plus(received, [kx, ky, kz]), compliance));
                 lanes::store_rows(force, row, [own[0], own[1], own[2], zero]);
-                lanes::store_rows(impulse, row, [known[0], known[1], known[2], zero]);
+                lanes::store_rows(impulse, row, [received[0], received[1], received[2], zero]);
                 lanes::store_rows(solved, row, [wx, wy, wz, volume]);
             }
         });

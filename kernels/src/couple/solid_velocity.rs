@@ -3,6 +3,7 @@
 //! ```text
 //! w_i <- b_i w_i + (1 - b_i) sum_a w_ia w_a
 //! -div_i = sum_a c_ia (w_a - w_i) . L_i (x_i - x_a)        images of the nodes in walls included
+//!        = L_i : sum_a c_ia w_a (x_i - x_a)^T - w_i . L_i sum_a c_ia (x_i - x_a)
 //! ```
 //!
 //! The divergence of water and material together is that of `phi v + (1 - phi) u`. With the drag outside of the solve, it would take
@@ -18,7 +19,7 @@ use crate::{
     vector::{dot, minus, plus, times},
 };
 
-use super::{impulses::mean_inside, solid_mirrors::Mirrors};
+use super::{impulses::weight_inside, solid_mirrors::Mirrors};
 
 declare! {
     needs: [Fluid, Sponge, Divergence, Porous],
@@ -49,7 +50,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let (lists, weights) = (lists.chunk(first), control_weights.chunk(first));
         with_lanes!(cpu, simd => {
             let kernel = smoothing.lanes(simd);
-            let one = lanes::splat(simd, 1.0);
+            let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
             for row in (0..correction.len()).step_by(LANES) {
                 let group = lists.group(row);
                 if group.is_empty() {
@@ -57,21 +58,27 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 }
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let [vx, vy, vz, _] = lanes::load_rows(simd, correction, row);
-                let (u, _) = mean_inside(simd, &controls.solved, group, &weights[lists.range(row)]);
-                let [mobility, ..] = lanes::load_rows(simd, mobility, first + row);
-                let own = plus(times([vx, vy, vz], mobility), times(u, one - mobility));
                 let mirrors = Mirrors::near(params, &position[first + row..][..LANES]);
+                let (mut mean, mut chi, mut moment) = ([zero; 3], zero, [zero; 3]);
                 let mut sums = Symmetric::splat(simd, 0.0);
-                for entry in group {
+                for (entry, weight) in group.iter().zip(&weights[lists.range(row)]) {
                     let [xa, ya, za, _] = lanes::gather_rows(simd, &controls.position, entry);
                     let [ux, uy, uz, volume] = lanes::gather_rows(simd, &controls.solved, entry);
+                    let weight = lanes::load_array(simd, weight);
+                    mean = plus(mean, times([ux, uy, uz], weight));
+                    chi += weight;
                     for mirror in mirrors.iter() {
                         let apart = minus([x, y, z], mirror.image(simd, [xa, ya, za]));
                         let u = kernel.closeness(dot(apart, apart));
-                        let relative = minus(mirror.turned([ux, uy, uz]), own);
-                        sums.add_twice(relative, times(apart, volume * (u * u * u)));
+                        let push = times(apart, volume * (u * u * u));
+                        moment = plus(moment, push);
+                        sums.add_twice(mirror.turned([ux, uy, uz]), push);
                     }
                 }
+                let [mobility, ..] = lanes::load_rows(simd, mobility, first + row);
+                let drawn = (one - mobility) * weight_inside(simd, chi);
+                let own = plus(times([vx, vy, vz], mobility), times(mean, drawn));
+                sums.add_twice(own, minus([zero; 3], moment));
                 let [xx, yy, zz, _] = lanes::load_rows(simd, renormalisation, first + row);
                 let [yz, zx, xy, _] = lanes::load_rows(simd, renormalisation_between, first + row);
                 let rate = dot(sums.along, [xx, yy, zz]) + dot(sums.between, [yz, zx, xy]);

@@ -77,14 +77,20 @@ pub(super) fn first_moments(params: &Params, columns: &Columns) -> Vec<DVec3> {
 pub(crate) fn expect(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
     columns.controls.expected = vec![[0.0; 4]; columns.nodes.position.len()];
-    columns.controls.impulse = columns.controls.expected.clone();
+    columns.controls.known = columns.controls.expected.clone();
     for control in 0..columns.rows.nodes {
         let (nodes, node) = (&columns.nodes, columns.controls.node[control] as usize);
         let v = nodes.velocity[node];
-        let share = f64::from(v[lane::nodes::velocity::FOLLOWED_SHARE]);
         let solid = 1.0 - f64::from(sponge(params, columns, control).porosity);
-        let velocity = vector(v) + h * share * vector(nodes.acceleration[node]);
-        columns.controls.expected[control] = row(velocity, solid * f64::from(nodes.volume[node]));
+        columns.controls.expected[control] = row(vector(v), solid * f64::from(nodes.volume[node]));
+        let inverse_mass = f64::from(nodes.position[node][lane::nodes::position::INVERSE_MASS]);
+        let Some(driven) = nodes.driven.get(node).filter(|row| row[lane::nodes::driven::STEP] > 0.0) else {
+            continue;
+        };
+        if inverse_mass > 0.0 {
+            let rate = (vector(v) - vector(*driven)) / f64::from(driven[lane::nodes::driven::STEP]);
+            columns.controls.known[control] = row(h * rate / inverse_mass, 0.0);
+        }
     }
 }
 
@@ -123,7 +129,7 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let modulus = softer * (f64::from(own.mu) + f64::from(own.lambda) / 3.0);
         let volume = f64::from(columns.controls.position[control][lane::controls::position::VOLUME]);
         let stiffness = 8.0 * volume / f64::from(own.edge).powi(2) * modulus;
-        let elastic = 0.5 * h * (h + f64::from(own.damping)) * stiffness;
+        let elastic = 0.25 * h * (h + f64::from(own.damping)) * stiffness;
         let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         let response = if inverse_mass > 0.0 { 1.0 / (1.0 / inverse_mass + drawn + elastic) } else { 0.0 };
         let solid = columns.controls.expected[control][lane::controls::expected::VOLUME];
@@ -175,7 +181,6 @@ pub(crate) fn diagonal(params: &Params, columns: &mut Columns) {
 pub(crate) fn response(params: &Params, columns: &mut Columns) {
     let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
     let pairs = Pairs::new(params, columns);
-    let is_first = columns.fluid.pressure_solve.rounds() == 0;
     let fluid = &mut columns.fluid;
     fluid.undragged.clone_from(&fluid.correction);
     for particle in 0..columns.rows.fluid {
@@ -200,11 +205,11 @@ pub(crate) fn response(params: &Params, columns: &mut Columns) {
         let held = |particle: usize| pairs.weight(particle, control) * vector(columns.fluid.held[particle]);
         let drawn: DVec3 = (0..columns.rows.fluid).map(held).sum();
         let received = h * *force + drawn;
-        let known = if is_first { received } else { vector(controls.impulse[control]) };
+        let known = vector(controls.known[control]);
         let [compliance, _, _, volume] = controls.compliance[control].map(f64::from);
-        let velocity = vector(controls.expected[control]) + compliance * (received - known);
+        let velocity = vector(controls.expected[control]) + compliance * (received + known);
         controls.force[control] = row(*force, 0.0);
-        controls.impulse[control] = row(known, 0.0);
+        controls.impulse[control] = row(received, 0.0);
         controls.solved[control] = row(velocity, volume);
     }
 }
@@ -225,7 +230,8 @@ pub(crate) fn velocity(params: &Params, columns: &mut Columns) {
     }
 }
 
-pub(crate) fn kick(_: &Params, columns: &mut Columns) {
+pub(crate) fn kick(params: &Params, columns: &mut Columns) {
+    columns.nodes.driven = vec![[0.0; 4]; columns.nodes.position.len()];
     columns.fluid.correction.clone_from(&columns.fluid.undragged);
     for control in 0..columns.rows.nodes {
         let node = columns.controls.node[control] as usize;
@@ -233,5 +239,8 @@ pub(crate) fn kick(_: &Params, columns: &mut Columns) {
         let gained = inverse_mass * vector(columns.controls.force[control]);
         let old = columns.nodes.acceleration[node];
         columns.nodes.acceleration[node] = keep(old, vector(old) + gained);
+        let impulse = inverse_mass * vector(columns.controls.impulse[control]);
+        columns.nodes.driven[node] =
+            row(vector(columns.nodes.velocity[node]) + impulse, f64::from(params.step));
     }
 }

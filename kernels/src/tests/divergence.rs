@@ -166,7 +166,7 @@ fn asymmetry(fault: Fault) -> f64 {
         }
         fluid.velocity.iter_mut().for_each(|row| row[..3].fill(0.0));
         fluid.factors.iter_mut().for_each(|row| row[lane::fluid::factors::TARGET] = 0.0);
-        for rows in [&mut columns.controls.expected, &mut columns.controls.impulse] {
+        for rows in [&mut columns.controls.expected, &mut columns.controls.known] {
             rows.iter_mut().for_each(|row| row[..3].fill(0.0));
         }
         columns.bodies.expected.fill([0.0; 4]);

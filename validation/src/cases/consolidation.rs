@@ -3,7 +3,7 @@
 use sorb::{
     World,
     glam::{DVec3, UVec3, Vec3},
-    scene::{Body, Fluid, FluidBlock, FluidSolver, Motion, Scene, ShapeKind, Sponge, Time},
+    scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
 };
 
 use super::duct::surface;
@@ -182,14 +182,11 @@ impl Vessel {
     fn pressure(&self, world: &World, time: f64) -> Result<(f64, f64), Failure> {
         let level = surface(world, self.half() - self.edge)?;
         let inner = self.half() - self.edge;
-        // The multiplier of a solve for the density is that of pores without material.
-        let is_pressure = world.scene().fluid_solver() == Some(FluidSolver::Divergence);
-        let share = if is_pressure { 1.0 } else { POROSITY };
         let (mut measured, mut expected) = (Vec::new(), Vec::new());
         for (row, pressure) in world.particle_positions().iter().zip(world.particle_pressures()) {
             let [x, y, z] = [0, 1, 2].map(|axis| f64::from(row[axis]));
             if x.abs() < inner && z.abs() < inner && (self.edge..2.0 * self.edge).contains(&y) {
-                measured.push(share * f64::from(pressure) - WATER * GRAVITY * (level - y));
+                measured.push(POROSITY * f64::from(pressure) - WATER * GRAVITY * (level - y));
                 expected.push(self.layer.pressure(y, time));
             }
         }
