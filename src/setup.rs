@@ -21,7 +21,7 @@ use sorb_kernels::{
 };
 
 use crate::{
-    rigid::{BodySetup, RigidEngine},
+    rigid::{BodySetup, RigidEngine, check_engine},
     scene::{self, Scene},
     sponge::{self, Lattice, LatticeSponge, SLOT_VERTEX_COLOR},
     world::WorldError,
@@ -39,11 +39,22 @@ pub(crate) struct Setup {
 }
 
 impl Setup {
-    pub(crate) fn new(scene: &Scene, cpu: &Cpu) -> Result<Self, WorldError> {
+    /// With the engine of a host, if there is one.
+    pub(crate) fn new(
+        scene: &Scene,
+        cpu: &Cpu,
+        own: Option<Box<dyn RigidEngine>>,
+    ) -> Result<Self, WorldError> {
         let params = params::params(scene);
         let mut columns = Columns::default();
-        let setups = scene.bodies.iter().map(body_setup).collect::<Result<Vec<_>, _>>()?;
-        let engine = engine(scene, &setups)?;
+        let setups = body_setups(scene)?;
+        let engine = match own {
+            Some(own) => {
+                check_engine(&*own, &setups)?;
+                own
+            }
+            None => engine(scene, &setups)?,
+        };
         place_bodies(scene, &setups, &*engine, &mut columns);
         let lattice = lattice(scene, &columns.bodies.states.0)?;
         overlap::check(scene, &lattice)?;
@@ -54,6 +65,15 @@ impl Setup {
         seed::seed_fluid(scene, &params, &mut columns);
         Ok(Self { params, columns, lattice, engine })
     }
+}
+
+/// The bodies of a scene as an engine takes them, in order: shapes about their centres of mass, and states at time zero. For hosts that
+/// give [`World::with_engine`](crate::World::with_engine) their own.
+///
+/// # Errors
+/// The corners of a hull span no volume, or hulls need the feature `rigid`.
+pub fn body_setups(scene: &Scene) -> Result<Vec<BodySetup>, WorldError> {
+    scene.bodies.iter().map(body_setup).collect()
 }
 
 fn body_setup(body: &scene::Body) -> Result<BodySetup, WorldError> {

@@ -26,6 +26,9 @@ impl World {
     pub(crate) fn check_command(&self, command: &Command) -> Result<(), CommandError> {
         let mut check = Check { world: self, problems: Vec::new() };
         check.command(command);
+        if check.problems.is_empty() && self.has_own_engine {
+            check.engine(command);
+        }
         if check.problems.is_empty() { Ok(()) } else { Err(CommandError { problems: check.problems }) }
     }
 }
@@ -61,6 +64,34 @@ impl Check<'_> {
                 self.nodes("grip.nodes", nodes);
             }
             Command::Release { nodes } => self.nodes("release.nodes", nodes),
+        }
+    }
+
+    /// What an engine of a host refuses: tried on a copy, because a step must not fail by it later.
+    fn engine(&mut self, command: &Command) {
+        let mut engine = self.world.engine.boxed_clone();
+        let (key, value, tried) = match command {
+            Command::Impulse { body, .. } => {
+                ("impulse.body", *body, engine.set_velocity(*body as usize, Vec3::ZERO, Vec3::ZERO))
+            }
+            Command::Velocity { body, linear_velocity, angular_velocity } => {
+                let tried = engine.set_velocity(*body as usize, *linear_velocity, *angular_velocity);
+                ("velocity.body", *body, tried)
+            }
+            Command::Pose { body, position, rotation, duration } => {
+                let target = self.world.target(*body as usize, (*position, *rotation), *duration);
+                ("pose.body", *body, engine.set_target(*body as usize, target))
+            }
+            Command::Gravity { gravity } => {
+                if let Err(error) = engine.set_gravity(*gravity) {
+                    self.rule("gravity.gravity", gravity.to_string(), error.to_string());
+                }
+                return;
+            }
+            _ => return,
+        };
+        if let Err(error) = tried {
+            self.rule(key, value.to_string(), error.to_string());
         }
     }
 

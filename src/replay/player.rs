@@ -10,6 +10,8 @@ use crate::{CommandError, Difference, Options, Save, SimdLevel, StateError, Step
 pub struct Player<'a> {
     recording: &'a Recording,
     options: Options,
+    /// A world of the host that plays in place of one that is built from the scene.
+    own: Option<World>,
     world: World,
     /// Ticks that were played.
     tick: u64,
@@ -85,8 +87,27 @@ impl<'a> Player<'a> {
     /// # Errors
     /// The scene cannot be built, or its first state is another one than that of the recording.
     pub fn new(recording: &'a Recording, options: &Options) -> Result<Self, ReplayError> {
-        let world = Self::first(recording, options)?;
-        let player = Self { recording, options: options.clone(), world, tick: 0, memory: Vec::new() };
+        Self::begin(recording, options, None)
+    }
+
+    /// The same in a world of the host, of the scene of the recording: for one whose bodies an engine of the host moves
+    /// ([`World::with_engine`]). What that world has done so far does not matter if the recording begins with a key frame, else it is new.
+    ///
+    /// # Errors
+    /// The world is of another scene, or its first state is another one than that of the recording.
+    pub fn in_world(recording: &'a Recording, world: World) -> Result<Self, ReplayError> {
+        let (own, found) = (world.identity()?.scene.clone(), &recording.header.scene);
+        if own != *found && *world.scene() != recording.scene()? {
+            let (expected, found) = (world.scene().name.clone(), recording.scene()?.name);
+            return Err(StateError::Scene { expected, found }.into());
+        }
+        let options = Options::default();
+        Self::begin(recording, &options, Some(world))
+    }
+
+    fn begin(recording: &'a Recording, options: &Options, own: Option<World>) -> Result<Self, ReplayError> {
+        let world = Self::first(recording, options, own.as_ref())?;
+        let player = Self { recording, options: options.clone(), own, world, tick: 0, memory: Vec::new() };
         let (recorded, found) = (recording.header.start, player.world.digest());
         // On another device the first state is the same: nothing was computed yet.
         if recorded != found {
@@ -95,12 +116,15 @@ impl<'a> Player<'a> {
         Ok(player)
     }
 
-    fn first(recording: &Recording, options: &Options) -> Result<World, ReplayError> {
+    fn first(recording: &Recording, options: &Options, own: Option<&World>) -> Result<World, ReplayError> {
         if let Some(key) = recording.key_before(0) {
-            return Ok(key?.1.world(options)?);
+            return Ok(world_of(&key?.1, options, own)?);
         }
-        let build = World::with_options(&recording.scene()?, options);
-        let world = build.map_err(|error| StateError::World(Box::new(error)))?;
+        let world = match own {
+            Some(own) => own.clone(),
+            None => World::with_options(&recording.scene()?, options)
+                .map_err(|error| StateError::World(Box::new(error)))?,
+        };
         world.check_parameters(recording.header.parameters, &recording.header.library)?;
         Ok(world)
     }
@@ -179,7 +203,7 @@ impl<'a> Player<'a> {
                 self.tick = at;
             }
             None if is_behind => {
-                self.world = Self::first(self.recording, &self.options)?;
+                self.world = Self::first(self.recording, &self.options, self.own.as_ref())?;
                 self.tick = 0;
             }
             _ => {}
@@ -204,8 +228,8 @@ impl<'a> Player<'a> {
             return Ok(expected.first_difference(&found).map(|difference| (self.tick, difference)));
         }
         let Some((at, key)) = self.recording.key_after(self.tick).transpose()? else { return Ok(None) };
-        let mut later =
-            Player { options: self.options.clone(), world: self.world.clone(), memory: Vec::new(), ..*self };
+        let (options, own, world) = (self.options.clone(), self.own.clone(), self.world.clone());
+        let mut later = Player { options, own, world, memory: Vec::new(), ..*self };
         while later.tick < at {
             later.play()?;
         }
@@ -219,15 +243,27 @@ impl<'a> Player<'a> {
         let options = Options { threads: Some(1), simd: Some(SimdLevel::Fallback), ..self.options.clone() };
         let from = self.tick.checked_sub(1)?;
         let (tick, world) = match self.recording.key_before(from) {
-            Some(key) => key.ok().and_then(|(at, save)| Some((at, save.world(&options).ok()?)))?,
-            None => (0, Self::first(self.recording, &options).ok()?),
+            Some(key) => key.ok().and_then(|(at, save)| {
+                let world = world_of(&save, &options, self.own.as_ref()).ok()?;
+                Some((at, world))
+            })?,
+            None => (0, Self::first(self.recording, &options, self.own.as_ref()).ok()?),
         };
-        let mut again = Player { recording: self.recording, options, world, tick, memory: Vec::new() };
+        let (recording, own) = (self.recording, self.own.clone());
+        let mut again = Player { recording, options, own, world, tick, memory: Vec::new() };
         while again.tick < self.tick {
             again.play().ok()?;
         }
         (again.world.digest() == recorded).then(|| again.world.to_save().ok()).flatten()
     }
+}
+
+/// The world of a key frame, in a copy of that of a host if there is one.
+fn world_of(save: &Save, options: &Options, own: Option<&World>) -> Result<World, StateError> {
+    let Some(own) = own else { return save.world(options) };
+    let mut world = own.clone();
+    world.resume(save)?;
+    Ok(world)
 }
 
 fn mismatch(mismatch: Mismatch) -> ReplayError {

@@ -2,12 +2,14 @@
 //!
 //! A [`RigidEngine`] takes one [`Wrench`] per body and advances the bodies by one step. [`ScriptedEngine`] supports fixed
 //! and kinematic bodies only and needs no physics engine. With the feature `rigid`, `RapierEngine` adds dynamic bodies,
-//! moved by rapier3d. A host with its own engine implements the trait instead.
+//! moved by rapier3d. A host with its own engine implements the trait, and builds its world by
+//! [`World::with_engine`](crate::World::with_engine).
 //!
 //! The same inputs give the same bits on every run. Bodies are inserted in the order given, and nothing sleeps by itself.
 //! Scripted poses are closed forms of the time, with trigonometry that does not depend on the platform.
 
 mod error;
+mod foreign;
 #[cfg(feature = "rigid")]
 mod hull;
 mod light;
@@ -28,7 +30,9 @@ pub use sorb_kernels::body::{Body, BodyKind, BodyState, Shape, Wrench};
 
 use crate::scene::Motion;
 
+pub use crate::setup::body_setups;
 pub use error::RigidError;
+pub(crate) use foreign::{check_engine, check_state};
 #[cfg(feature = "rigid")]
 pub use hull::{ConvexHull, HullError, MAX_HULL_VERTICES, convex_hull};
 pub(crate) use light::LightBodies;

@@ -8,6 +8,7 @@ use crate::{rigid::RigidError, world::World};
 /// Names of the sections that are no columns.
 pub(super) const SLEEP: [&str; 2] = ["sleep.particles", "sleep.nodes"];
 pub(super) const ENGINE: &str = "engine";
+pub(super) const ENGINE_OF_HOST: &str = "engine of the host";
 pub(super) const REST: &str = "rest";
 
 /// Name and bytes of every section, in order.
@@ -47,7 +48,7 @@ impl World {
         if engine.is_err() {
             out.truncate(length);
         }
-        end(ENGINE, out);
+        end(if self.has_own_engine { ENGINE_OF_HOST } else { ENGINE }, out);
         let all = std::mem::take(out);
         // Neither lists without a length nor maps are in there, which is all that could fail.
         *out = postcard::to_extend(&Rest::of(self), all).unwrap_or_default();

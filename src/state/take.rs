@@ -4,7 +4,7 @@ use glam::Vec3;
 use sorb_kernels::columns::Column;
 
 use super::{
-    body::{ENGINE, REST, SLEEP, saved_columns},
+    body::{ENGINE, ENGINE_OF_HOST, REST, SLEEP, saved_columns},
     columns::{copy_words, fits, take_column},
     error::StateError,
     rest::Rest,
@@ -42,7 +42,8 @@ impl World {
         let sleep = self.sleep_from(sleep, SLEEP.map(|name| places(parts.of(name))), &commands.targets);
         let sleep = sleep.map_err(|reason| invalid("sleep", reason))?;
         if self.stores.host.rows.bodies > 0 {
-            self.engine.restore(parts.of(ENGINE))?;
+            let own = if self.has_own_engine { ENGINE_OF_HOST } else { ENGINE };
+            self.engine.restore(parts.of(own))?;
         }
         for column in saved_columns() {
             take_column(&mut self.stores.host, column, parts.of(column.name()));
@@ -63,12 +64,22 @@ impl World {
         let columns = &self.stores.host;
         let known = |name: &str| {
             name == ENGINE
+                || name == ENGINE_OF_HOST
                 || name == REST
                 || SLEEP.contains(&name)
                 || saved_columns().any(|column| column.name() == name)
         };
         if let Some((name, _)) = parts.0.iter().find(|(name, _)| !known(name)) {
             return Err(invalid(name, "this library has no such column"));
+        }
+        let other = if self.has_own_engine { ENGINE } else { ENGINE_OF_HOST };
+        if self.stores.host.rows.bodies > 0 && parts.0.iter().any(|(name, _)| *name == other) {
+            let reason = if self.has_own_engine {
+                "its bodies were moved by an engine of the library, and those of this world are by one of the host"
+            } else {
+                "its bodies were moved by an engine of a host: `resume` it in a world of `World::with_engine`"
+            };
+            return Err(invalid(other, reason));
         }
         for column in saved_columns() {
             let bytes = parts.of(column.name()).len();

@@ -1,6 +1,6 @@
 //! Commands of a host, applied at the beginning of a step.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Quat, Vec3};
 use sorb_kernels::{
     body::{Body, Wrench},
     columns::{Columns, lane},
@@ -75,16 +75,8 @@ impl World {
                 self.set_velocity(index, *linear_velocity, *angular_velocity)?;
             }
             Command::Pose { body, position, rotation, duration } => {
-                let (index, start) = (*body as usize, self.clock.time);
-                let state = self.engine.state(index);
-                let target = Target {
-                    from: state.position,
-                    from_rotation: state.rotation,
-                    position: *position,
-                    rotation: rotation.as_dquat().normalize().as_quat(),
-                    start,
-                    end: start + f64::from(*duration),
-                };
+                let index = *body as usize;
+                let target = self.target(index, (*position, *rotation), *duration);
                 self.engine.set_target(index, target)?;
                 let count = self.bodies().len();
                 self.commands.targets.resize(count, None);
@@ -101,6 +93,19 @@ impl World {
             Command::Release { nodes } => self.release(nodes),
         }
         Ok(())
+    }
+
+    /// The way of a body from where it is to a pose, in some time \[s\].
+    pub(crate) fn target(&self, index: usize, (position, rotation): (Vec3, Quat), duration: f32) -> Target {
+        let (state, start) = (self.engine.state(index), self.clock.time);
+        Target {
+            from: state.position,
+            from_rotation: state.rotation,
+            position,
+            rotation: rotation.as_dquat().normalize().as_quat(),
+            start,
+            end: start + f64::from(duration),
+        }
     }
 
     fn set_velocity(&mut self, index: usize, linear: Vec3, angular: Vec3) -> Result<(), RigidError> {

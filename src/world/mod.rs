@@ -107,6 +107,8 @@ pub struct World {
     pub(crate) stores: Stores,
     lattice: Lattice,
     pub(crate) engine: Box<dyn RigidEngine>,
+    /// Whether the engine is that of a host.
+    pub(crate) has_own_engine: bool,
     pub(crate) light: LightBodies,
     pub(crate) plans: Plans,
     pub(crate) runner: Runner,
@@ -138,7 +140,28 @@ impl World {
     pub fn with_options(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
         let level = options.simd.unwrap_or_else(SimdLevel::best);
         let threads = options.threads.unwrap_or_else(default_threads);
-        Self::build(scene, Cpu::with_threads(level, threads)?, options)
+        Self::build(scene, Cpu::with_threads(level, threads)?, options, None)
+    }
+
+    /// Builds a scene whose bodies an engine of the host moves. It has the bodies of the scene in their order, of the same kinds:
+    /// [`rigid::body_setups`](crate::rigid::body_setups) lists them with shapes and states. Contacts between bodies and with the walls of
+    /// the container are up to the engine; fluid and sponges push its bodies through the wrenches of
+    /// [`RigidEngine::step`](crate::rigid::RigidEngine::step).
+    ///
+    /// Saves, recordings and commands need the methods of the engine that have defaults; without them they are refused. A save is
+    /// restored by [`World::resume`](Self::resume) in a world that was built with an equal engine: [`World::restore`](Self::restore)
+    /// knows only the engines of the library.
+    ///
+    /// # Errors
+    /// As [`Self::with_options`], or the engine has other bodies than the scene.
+    pub fn with_engine(
+        scene: &Scene,
+        engine: Box<dyn RigidEngine>,
+        options: &Options,
+    ) -> Result<Self, WorldError> {
+        let level = options.simd.unwrap_or_else(SimdLevel::best);
+        let threads = options.threads.unwrap_or_else(default_threads);
+        Self::build(scene, Cpu::with_threads(level, threads)?, options, Some(engine))
     }
 
     /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool. Threads and SIMD level are those
@@ -147,15 +170,21 @@ impl World {
     /// # Errors
     /// As [`Self::with_options`].
     pub fn on(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {
-        Self::build(scene, cpu, options)
+        Self::build(scene, cpu, options, None)
     }
 
-    fn build(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {
+    fn build(
+        scene: &Scene,
+        cpu: Cpu,
+        options: &Options,
+        engine: Option<Box<dyn RigidEngine>>,
+    ) -> Result<Self, WorldError> {
         scene.validate()?;
+        let has_own_engine = engine.is_some();
         let estimate = scene.estimate();
         let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
         let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
-        let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu)?;
+        let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu, engine)?;
         let step = if params.solid.is_some() { POROUS_STEP } else { STEP };
         let plans = Plans::new(step, &Contents::new(&params, &columns), &options.observed)?;
         let bodies = &columns.bodies.states.0;
@@ -170,6 +199,7 @@ impl World {
             stores: Stores { host: columns, device: None },
             lattice,
             engine,
+            has_own_engine,
             light: LightBodies::new(scene),
             plans,
             clock: Clock::default(),

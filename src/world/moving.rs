@@ -7,7 +7,7 @@ use sorb_kernels::{
 };
 
 use super::commands::add_forces;
-use crate::rigid::{LightBodies, RigidEngine, RigidError};
+use crate::rigid::{LightBodies, RigidEngine, RigidError, check_state};
 
 /// Largest speed of particles or nodes \[m/s\].
 pub(super) fn fastest(velocities: &[[f32; 4]]) -> f32 {
@@ -57,7 +57,10 @@ pub(crate) fn move_bodies(
     add_forces(forces, &bodies.states.0, &mut wrenches, step);
     engine.step(step, &wrenches)?;
     for (index, body) in bodies.states.0.iter_mut().enumerate() {
-        body.state = engine.state(index);
+        let state = engine.state(index);
+        // The engine may be that of a host.
+        check_state(index, &state)?;
+        body.state = state;
     }
     Ok(())
 }
