@@ -12,11 +12,8 @@ use sorb_kernels::{
     params::Params,
 };
 
-pub use crate::schedule::run::Runner;
-use crate::{
-    World,
-    schedule::{Plan, PlanError},
-};
+use crate::World;
+pub use crate::schedule::{Place, Placement, Plan, PlanError, PlanLine, Transfer, Verdict, run::Runner};
 
 /// All columns of a world. Rows of the fluid change their order from step to step.
 ///

@@ -1,7 +1,7 @@
 //! An absorbent sponge, the water it drinks and the bodies that squeeze it.
 //!
 //! Build a [`Scene`](scene::Scene), make a [`World`] of it, step that and look at it: [`World`] has the views that a host needs, with unit
-//! and shape. How the state is kept and which kernels a step has is in [`internal`], without any promise.
+//! and shape. How the state is kept and which kernels a step has is no part of this face.
 
 mod clock;
 mod command;
@@ -11,6 +11,7 @@ pub mod gpu;
 #[cfg(not(feature = "gpu"))]
 #[path = "no_gpu.rs"]
 pub mod gpu;
+#[doc(hidden)]
 pub mod internal;
 mod measure;
 #[cfg(feature = "render")]
@@ -19,7 +20,7 @@ pub mod render;
 mod replay;
 pub mod rigid;
 pub mod scene;
-pub mod schedule;
+mod schedule;
 mod setup;
 pub mod sponge;
 mod state;
@@ -31,7 +32,7 @@ pub use command::{Command, CommandError, Nodes};
 pub use measure::Measures;
 #[cfg(feature = "serde")]
 pub use replay::{Mismatch, Player, Recorder, Recording, ReplayError};
-pub use schedule::Offload;
+pub use schedule::{Offload, OffloadError, PhaseTime, PlaceError};
 pub use sorb_kernels::{
     SimdLevel,
     cpu::{Cpu, CpuError},

@@ -5,7 +5,7 @@ mod common;
 use sorb::{
     Cpu, World,
     internal::{
-        self, POROUS_STEP, Phase, Runner, STEP,
+        self, POROUS_STEP, Phase, Plan, PlanError, Runner, STEP, Verdict,
         columns::{Column, Columns, RowCounts},
         contents::Contents,
         kernel::Kernel,
@@ -13,7 +13,6 @@ use sorb::{
         params::{Params, Solver, SpongeParams, WettingParams},
     },
     scene::Scene,
-    schedule::{Plan, PlanError, Verdict},
 };
 
 /// No column is observed beyond what phases read.

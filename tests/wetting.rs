@@ -2,7 +2,11 @@
 
 mod common;
 
-use sorb::{Options, SimdLevel, World, internal, scene::Scene};
+use sorb::{
+    Options, SimdLevel, World,
+    internal::{self, Verdict},
+    scene::Scene,
+};
 
 const KEYS: [&str; 5] = [
     "sponges[0].softening=0.5",
@@ -23,7 +27,7 @@ fn what_is_not_asked_for_has_no_state() {
     assert!(internal::columns(&plain).nodes.wetting.is_empty());
     let runs = |world: &World| {
         let line = world.plan().lines().iter().find(|line| line.name == "couple::wetting");
-        line.is_some_and(|line| line.verdict == sorb::schedule::Verdict::Runs)
+        line.is_some_and(|line| line.verdict == Verdict::Runs)
     };
     assert!(!runs(&plain));
     let asked = common::world(&wetting());

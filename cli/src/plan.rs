@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use sorb::{
     Offload, Options, World,
-    schedule::{Place, Plan, PlanLine, Verdict},
+    internal::{Place, Plan, PlanLine, Verdict},
 };
 
 use crate::{choice::Choice, error::CliError, output};

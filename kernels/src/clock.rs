@@ -5,7 +5,8 @@ use crate::layout::{constants, enumeration};
 enumeration! {
     /// What limited a step.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Bound {
+    #[non_exhaustive]
+pub enum Bound {
         /// `time.maximum_step`.
         Maximum,
         /// The end of the frame.

@@ -38,6 +38,7 @@ use glam::Vec3;
 
 /// What a picture shows. Figure 1 of the paper has the views a to d.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum View {
     /// Rays from the eye: refraction, reflection, absorption and soft shadows (the default; the paper's figure 1 d).
     #[default]

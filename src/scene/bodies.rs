@@ -56,6 +56,7 @@ pub struct Body {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
 pub enum Look {
     /// Paint that hides what is behind.
     #[default]
@@ -127,6 +128,7 @@ enum KindKey {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
+#[non_exhaustive]
 pub enum ShapeKind {
     /// Solid half-space below the local plane y = 0. Fixed or kinematic bodies only.
     Plane,

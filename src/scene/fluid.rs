@@ -148,6 +148,7 @@ impl Fluid {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
 pub enum FluidSolver {
     /// By an equation of state from the density: weakly compressible SPH, many short steps (the paper).
     Wcsph,

@@ -19,6 +19,7 @@ fn is_abrupt(ease: &f32) -> bool {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
+#[non_exhaustive]
 pub enum Motion {
     /// Straight motion at constant velocity.
     Linear {

@@ -20,6 +20,7 @@ pub enum Axis {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
+#[non_exhaustive]
 pub enum SpongeShape {
     /// The whole block.
     #[default]
@@ -49,6 +50,7 @@ impl SpongeShape {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
 pub enum Solver {
     /// Vertex block descent: a material of `young_modulus`, `poisson_ratio` and `damping`, stable at any step.
     #[default]

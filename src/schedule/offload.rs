@@ -6,6 +6,7 @@ use sorb_kernels::{KERNELS, kernel::Kernel, kernel_named};
 
 /// Kernels that the host wants to run on a GPU.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Offload {
     /// Nothing: everything on the CPU, with the same bits on every machine. The default.
     #[default]

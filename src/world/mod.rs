@@ -53,7 +53,8 @@ pub struct Options {
     pub threads: Option<usize>,
     /// SIMD level; default: the best of the machine. Has no effect on results.
     pub simd: Option<SimdLevel>,
-    /// Columns to keep up to date although no phase reads them; [`internal`](crate::internal), without any promise.
+    /// Columns to keep up to date although no phase reads them: of `internal`, without any promise.
+    #[doc(hidden)]
     pub observed: Vec<Column>,
     /// Kernels that run on a GPU; by default none.
     pub offload: Offload,

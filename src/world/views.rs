@@ -80,13 +80,15 @@ impl World {
         &self.scene
     }
 
-    /// The phases of a step, with the skipped ones and the reason.
+    /// The phases of a step, with the skipped ones and the reason: of `internal`, without any promise.
+    #[doc(hidden)]
     #[must_use]
     pub fn plan(&self) -> &Plan {
         self.plans.whole()
     }
 
     /// The phases of the next step: [`Self::plan`] without those that have no work while parts sleep.
+    #[doc(hidden)]
     #[must_use]
     pub fn step_plan(&self) -> &Plan {
         self.plans.of(self.awake())

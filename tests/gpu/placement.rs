@@ -3,9 +3,8 @@
 use sorb::{
     Offload, Options, World,
     glam::{UVec3, Vec3},
-    internal::KERNELS,
+    internal::{KERNELS, Place, Verdict},
     scene::{Domain, Scene, Solver, Sponge},
-    schedule::{Place, Verdict},
 };
 
 use super::{DFSPH, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, gpu, world};

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use sorb::{StepError, World, schedule::Verdict};
+use sorb::{StepError, World, internal::Verdict};
 
 use super::{Record, table::Named};
 
