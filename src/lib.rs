@@ -25,10 +25,11 @@ mod setup;
 pub mod sponge;
 mod state;
 mod stores;
+mod water;
 mod world;
 
 pub use clock::{Bound, Clock};
-pub use command::{Command, CommandError, Nodes};
+pub use command::{Command, CommandError, Nodes, Region};
 pub use measure::Measures;
 #[cfg(feature = "serde")]
 pub use replay::{Mismatch, Player, Recorder, Recording, ReplayError};
@@ -40,6 +41,7 @@ pub use sorb_kernels::{
 #[cfg(feature = "serde")]
 pub use state::{Difference, Save};
 pub use state::{Snapshot, StateError};
+pub use water::Ledger;
 pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;

@@ -67,6 +67,14 @@ impl Device {
 }
 
 impl World {
+    /// The same for other contents.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    pub(crate) fn place_again(&mut self) -> Result<(), WorldError> {
+        self.place()
+    }
+
     /// Places the step as the options say: on the CPU.
     ///
     /// # Errors

@@ -27,8 +27,19 @@ use crate::{
     world::WorldError,
 };
 
+pub(crate) use seed::{Beside, jitter};
+
 /// Tets of a chunk that one thread solves at a time.
 const TETS_PER_CHUNK: usize = 256;
+
+/// What a world begins with beside its scene.
+#[derive(Debug, Default)]
+pub(crate) struct Begin {
+    /// The engine of a host.
+    pub(crate) engine: Option<Box<dyn RigidEngine>>,
+    /// Whether the particles of the scene are left out.
+    pub(crate) is_dry: bool,
+}
 
 /// All parts of a world at time zero.
 pub(crate) struct Setup {
@@ -39,16 +50,11 @@ pub(crate) struct Setup {
 }
 
 impl Setup {
-    /// With the engine of a host, if there is one.
-    pub(crate) fn new(
-        scene: &Scene,
-        cpu: &Cpu,
-        own: Option<Box<dyn RigidEngine>>,
-    ) -> Result<Self, WorldError> {
+    pub(crate) fn new(scene: &Scene, cpu: &Cpu, begin: Begin) -> Result<Self, WorldError> {
         let params = params::params(scene);
         let mut columns = Columns::default();
         let setups = body_setups(scene)?;
-        let engine = match own {
+        let engine = match begin.engine {
             Some(own) => {
                 check_engine(&*own, &setups)?;
                 own
@@ -62,7 +68,9 @@ impl Setup {
         if scene.fluid.is_some() && !scene.sponges.is_empty() {
             columns.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &columns));
         }
-        seed::seed_fluid(scene, &params, &mut columns);
+        if !begin.is_dry {
+            seed::seed_fluid(scene, &params, &mut columns);
+        }
         Ok(Self { params, columns, lattice, engine })
     }
 }

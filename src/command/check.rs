@@ -2,15 +2,18 @@
 
 use glam::{Quat, Vec3};
 
-use super::{Command, CommandError, Nodes};
+use super::{Command, CommandError, Nodes, Region};
 use crate::{
     rigid::BodyKind,
-    scene::{Defect, Problem, limit},
+    scene::{Defect, MAXIMUM_PARTICLES, Problem, limit},
     world::World,
 };
 
 /// Largest force \[N\], torque \[N m\] and impulse \[N s\].
 const LARGEST: f32 = 1e6;
+
+/// Shortest axis of a cylinder \[m\].
+const SHORTEST: f32 = 1e-4;
 
 /// How far the squared length of a rotation may be from one.
 const UNIT: f32 = 1e-3;
@@ -18,13 +21,25 @@ const UNIT: f32 = 1e-3;
 /// Problems so far, and the world that they are of.
 struct Check<'a> {
     world: &'a World,
+    /// Whether the water is that in which the command is carried out.
+    knows_water: bool,
     problems: Vec<Problem>,
 }
 
 impl World {
     /// Refuses a command that this world cannot carry out.
     pub(crate) fn check_command(&self, command: &Command) -> Result<(), CommandError> {
-        let mut check = Check { world: self, problems: Vec::new() };
+        self.check_in(command, !self.has_water_commands())
+    }
+
+    /// The same where it is not known what the water will be like.
+    #[cfg(feature = "serde")]
+    pub(crate) fn check_later(&self, command: &Command) -> Result<(), CommandError> {
+        self.check_in(command, false)
+    }
+
+    fn check_in(&self, command: &Command, knows_water: bool) -> Result<(), CommandError> {
+        let mut check = Check { world: self, knows_water, problems: Vec::new() };
         check.command(command);
         if check.problems.is_empty() && self.has_own_engine {
             check.engine(command);
@@ -64,6 +79,15 @@ impl Check<'_> {
                 self.nodes("grip.nodes", nodes);
             }
             Command::Release { nodes } => self.nodes("release.nodes", nodes),
+            Command::Pour { region, velocity } => {
+                self.as_key("pour.velocity", *velocity, "fluid.blocks[].velocity");
+                self.region("pour.region", region);
+                self.pour(region);
+            }
+            Command::Remove { region } => {
+                self.region("remove.region", region);
+                self.remove(region);
+            }
         }
     }
 
@@ -121,6 +145,85 @@ impl Check<'_> {
                     self.rule(&format!("{key}.rows"), row.to_string(), rule);
                 }
             }
+        }
+    }
+
+    fn region(&mut self, key: &str, region: &Region) {
+        let mut place = |name: &str, value: Vec3| {
+            self.as_key(&format!("{key}.{name}"), value, "sponges[].position");
+        };
+        let radius = match *region {
+            Region::Box { minimum, maximum } => {
+                place("box.minimum", minimum);
+                place("box.maximum", maximum);
+                if !minimum.cmplt(maximum).all() {
+                    let rule = format!("must be above `{key}.box.minimum` = {minimum} along every axis");
+                    self.rule(&format!("{key}.box.maximum"), maximum.to_string(), rule);
+                }
+                return;
+            }
+            Region::Sphere { centre, radius } => {
+                place("sphere.centre", centre);
+                ("sphere", radius)
+            }
+            Region::Cylinder { start, end, radius } => {
+                place("cylinder.start", start);
+                place("cylinder.end", end);
+                if start.distance(end) < SHORTEST {
+                    let rule = format!("must be at least {SHORTEST} m from `{key}.cylinder.start` = {start}");
+                    self.rule(&format!("{key}.cylinder.end"), end.to_string(), rule);
+                }
+                ("cylinder", radius)
+            }
+        };
+        self.number(&format!("{key}.{}.radius", radius.0), radius.1, (1e-4, 100.0, "m"));
+    }
+
+    /// A pour of a scene with fluid, of a possible number of particles, for which there is any room.
+    fn pour(&mut self, region: &Region) {
+        if !self.problems.is_empty() {
+            return;
+        }
+        let (world, value) = (self.world, format!("{region:?}"));
+        let Some(fluid) = &world.scene().fluid else {
+            let rule =
+                "the scene has no `fluid`; one without blocks and sponges that are wet has no particles yet";
+            self.rule("pour.region", value, rule.to_owned());
+            return;
+        };
+        let (wanted, present) = (region.lattice_size(fluid.spacing), world.stores.host.rows.fluid);
+        if wanted + present as f64 > MAXIMUM_PARTICLES as f64 {
+            let rule = format!(
+                "asks for up to {wanted:.0} particles, and {present} are there; the range is 0 to {MAXIMUM_PARTICLES} \
+                 in all"
+            );
+            self.rule("pour.region", value, rule);
+            return;
+        }
+        let given = world.water.identities();
+        if wanted > u64::from(u32::MAX).saturating_sub(given) as f64 {
+            let rule = format!("{given} particles have had a number of their own, of {} at most", u32::MAX);
+            self.rule("pour.region", value, rule);
+            return;
+        }
+        // What commands before it do to the water is not known yet.
+        if self.knows_water {
+            let room = world.room(region);
+            if room.points.is_empty() {
+                self.rule("pour.region", value, room.to_string());
+            }
+        }
+    }
+
+    /// A removal of any water.
+    fn remove(&mut self, region: &Region) {
+        if !self.problems.is_empty() || !self.knows_water {
+            return;
+        }
+        let rows = self.world.particle_positions();
+        if !rows.iter().any(|row| region.contains(Vec3::new(row[0], row[1], row[2]))) {
+            let rule = format!("holds none of {} particles", rows.len());
+            self.rule("remove.region", format!("{region:?}"), rule);
         }
     }
 

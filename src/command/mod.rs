@@ -4,11 +4,14 @@
 //! order. The same commands before the same steps give the same bits. Recordings hold commands with their step.
 
 mod check;
+mod region;
 
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::{rigid::Target, scene::Problem};
+
+pub use region::Region;
 
 /// A change of a running world. Bodies have the numbers of the scene, from 0. Other kinds may be added.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,6 +67,22 @@ pub enum Command {
         body: u32,
         /// The nodes.
         nodes: Nodes,
+    },
+    /// Water in a region, at once, as particles on a lattice of `fluid.spacing`. Places outside of the container, or less than a quarter
+    /// of a spacing from its walls, in bodies, in sponges and less than 0.8 spacings from other water are left out and counted
+    /// ([`Ledger::left_out`](crate::Ledger)). A region without any room is an error. For water that falls from above the blocks of the
+    /// scene, or is faster than they are, set [`Fluid::sound_speed`](crate::scene::Fluid::sound_speed).
+    Pour {
+        /// Where. At most 50 million particles in all.
+        region: Region,
+        /// Its velocity. Range -100 to 100 m/s.
+        velocity: Vec3,
+    },
+    /// All water in a region is taken away, at once: particles whose centres are in it, those in sponges included. A region without any is
+    /// an error.
+    Remove {
+        /// Where.
+        region: Region,
     },
     /// Nodes that nothing holds any more, whatever held them.
     Release {

@@ -35,11 +35,20 @@ impl World {
         self.place_by(&self.options.clone())
     }
 
+    /// The same for other contents, where [`Self::move_to`] has placed it last.
+    ///
+    /// # Errors
+    /// As [`Self::place_by`].
+    pub(crate) fn place_again(&mut self) -> Result<(), WorldError> {
+        self.place_by(&self.placed_by.clone())
+    }
+
     /// Places the step, on a device of its own if it is a GPU.
     ///
     /// # Errors
     /// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
     pub(super) fn place_by(&mut self, options: &Options) -> Result<(), WorldError> {
+        self.placed_by.clone_from(options);
         let (rows, params, plans) = (self.stores.host.rows, &self.params, &mut self.plans);
         if options.offload == Offload::Cpu {
             self.stores.device = None;

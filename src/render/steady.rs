@@ -1,5 +1,7 @@
 //! Pictures that follow small motions slowly: particles and nodes at rest still tremble, and refraction magnifies it.
 
+use std::collections::BTreeMap;
+
 use super::world::draw_positions;
 use super::{Camera, Image, View, colour::smooth};
 use crate::World;
@@ -14,7 +16,7 @@ const SMALL: (f32, f32) = (0.01, 0.05);
 #[derive(Clone, Debug, Default)]
 pub struct Steady {
     /// By identity.
-    particles: Vec<Vec3>,
+    particles: BTreeMap<u32, Vec3>,
     nodes: Vec<Vec3>,
 }
 
@@ -31,15 +33,16 @@ impl Steady {
     ) -> Image {
         let spacing = world.params.fluid.spacing.max(1e-6);
         let (rows, ids) = (world.particle_positions(), world.particle_ids());
-        if self.particles.len() != rows.len() || self.nodes.len() != world.node_positions().len() {
-            self.particles = vec![Vec3::INFINITY; rows.len()];
+        if self.nodes.len() != world.node_positions().len() {
             self.nodes = vec![Vec3::INFINITY; world.node_positions().len()];
         }
         let mut particles = rows.to_vec();
+        let before = std::mem::take(&mut self.particles);
         for (row, id) in particles.iter_mut().zip(ids) {
-            if let Some(shown) = self.particles.get_mut(*id as usize) {
-                follow(shown, row, spacing);
-            }
+            // What has come, and what was removed, has no picture before or after.
+            let mut shown = before.get(id).copied().unwrap_or(Vec3::INFINITY);
+            follow(&mut shown, row, spacing);
+            self.particles.insert(*id, shown);
         }
         let mut nodes = world.node_positions().to_vec();
         for (row, shown) in nodes.iter_mut().zip(&mut self.nodes) {

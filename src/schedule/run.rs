@@ -83,6 +83,11 @@ impl Runner {
         Self { sequences, times, step: PhaseTime::new("step") }
     }
 
+    /// Takes over other plans, and keeps the times.
+    pub(crate) fn follow(&mut self, plans: &[Plan]) {
+        self.sequences = plans.iter().map(|plan| Sequence::new(plan, &mut self.times)).collect();
+    }
+
     /// Runs all phases of the plan for the awake parts in order; `host` runs the host phases.
     pub(crate) fn run(
         &mut self,

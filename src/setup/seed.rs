@@ -24,13 +24,8 @@ const MARGIN: f32 = 0.1;
 pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
     let Some(fluid) = &scene.fluid else { return };
     let spacing = fluid.spacing;
-    let (bodies, clearance) = if params.fluid.divergence().is_some() {
-        (columns.bodies.states.0.iter().map(Body::core).collect(), 0.0)
-    } else {
-        (columns.bodies.states.0.iter().map(|body| (body.clone(), 0.0)).collect(), CLEARANCE * spacing)
-    };
-    let margin = if clearance > 0.0 { 0.0 } else { MARGIN * spacing };
-    let mut seeds = Seeds { columns, bodies, clearance, margin, jitter: JITTER * spacing };
+    let room = Beside::new(params, &columns.bodies.states.0);
+    let mut seeds = Seeds { columns, room, spacing };
     for block in &fluid.blocks {
         let (counts, pitch) = block.lattice(scene, spacing);
         // The saturation of a sponge is its initial water, whatever block of water it stands in.
@@ -123,14 +118,46 @@ fn holds(sponge: &scene::Sponge, point: Vec3) -> bool {
     inside && mask(sponge.shape)(relative)
 }
 
-struct Seeds<'a> {
+/// The room for new particles beside bodies.
+#[derive(Clone, Debug)]
+pub(crate) struct Beside {
     /// Bodies, and the radius of the balls that sweep them \[m\].
     bodies: Vec<(Body, f32)>,
-    columns: &'a mut Columns,
     /// Distance from bodies within which there are no particles \[m\], and to which those that are nearer are moved.
     clearance: f32,
     margin: f32,
-    jitter: f32,
+}
+
+impl Beside {
+    pub(crate) fn new(params: &Params, bodies: &[Body]) -> Self {
+        let spacing = params.fluid.spacing;
+        let (bodies, clearance) = if params.fluid.divergence().is_some() {
+            (bodies.iter().map(Body::core).collect(), 0.0)
+        } else {
+            (bodies.iter().map(|body| (body.clone(), 0.0)).collect(), CLEARANCE * spacing)
+        };
+        let margin = if clearance > 0.0 { 0.0 } else { MARGIN * spacing };
+        Self { bodies, clearance, margin }
+    }
+
+    /// The point, away from the surfaces of bodies; none inside.
+    pub(crate) fn outside(&self, mut point: Vec3) -> Option<Vec3> {
+        for (body, radius) in &self.bodies {
+            let (distance, normal) = body.distance_and_normal(point);
+            let distance = distance - radius;
+            if distance < self.clearance {
+                return None;
+            }
+            point += normal * (self.margin - distance).max(0.0);
+        }
+        Some(point)
+    }
+}
+
+struct Seeds<'a> {
+    columns: &'a mut Columns,
+    room: Beside,
+    spacing: f32,
 }
 
 impl Seeds<'_> {
@@ -148,9 +175,9 @@ impl Seeds<'_> {
                 for x in 0..counts[0] {
                     let steps = Vec3::new(x as f32, y as f32, z as f32) + 0.5;
                     let point = corner + steps * Vec3::from_array(pitch);
-                    let Some(point) = self.outside(point).filter(|_| keep(point)) else { continue };
+                    let Some(point) = self.room.outside(point).filter(|_| keep(point)) else { continue };
                     let fluid = &mut self.columns.fluid;
-                    let point = point + jitter(fluid.position.len() as u64) * self.jitter;
+                    let point = point + jitter(fluid.position.len() as u64, self.spacing);
                     fluid.position.push([point.x, point.y, point.z, 0.0]);
                     fluid.velocity.push([velocity.x, velocity.y, velocity.z, 0.0]);
                 }
@@ -159,27 +186,12 @@ impl Seeds<'_> {
     }
 }
 
-impl Seeds<'_> {
-    /// The point, away from the surfaces of bodies; none inside.
-    fn outside(&self, mut point: Vec3) -> Option<Vec3> {
-        for (body, radius) in &self.bodies {
-            let (distance, normal) = body.distance_and_normal(point);
-            let distance = distance - radius;
-            if distance < self.clearance {
-                return None;
-            }
-            point += normal * (self.margin - distance).max(0.0);
-        }
-        Some(point)
-    }
-}
-
-/// A displacement in [-1, 1]^3 that is a function of the index alone (splitmix64).
-fn jitter(index: u64) -> Vec3 {
+/// A small displacement \[m\] of particles some spacing apart that is a function of the index alone (splitmix64).
+pub(crate) fn jitter(index: u64, spacing: f32) -> Vec3 {
     let mut bits = index.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     bits ^= bits >> 31;
     let unit = |shift: u32| ((bits >> shift) & 0xffff) as f32 / 32767.5 - 1.0;
-    Vec3::new(unit(0), unit(16), unit(32))
+    Vec3::new(unit(0), unit(16), unit(32)) * (JITTER * spacing)
 }

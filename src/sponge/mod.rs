@@ -24,6 +24,7 @@ mod error;
 mod grid;
 mod lattice;
 mod limits;
+mod locate;
 mod mask;
 mod pieces;
 mod pits;
@@ -39,5 +40,6 @@ pub use class::{
 pub use error::LatticeError;
 pub use lattice::{Lattice, LatticeSponge, SpongeSummary};
 pub use limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
+pub(crate) use locate::TetGrid;
 pub use mask::{block, cylinder, ellipsoid};
 pub use pieces::{Pieces, pieces};

@@ -10,6 +10,7 @@ pub(super) const SLEEP: [&str; 2] = ["sleep.particles", "sleep.nodes"];
 pub(super) const ENGINE: &str = "engine";
 pub(super) const ENGINE_OF_HOST: &str = "engine of the host";
 pub(super) const REST: &str = "rest";
+pub(super) const WATER: &str = "water";
 
 /// Name and bytes of every section, in order.
 pub(super) type Sections = Vec<(&'static str, u64)>;
@@ -42,6 +43,12 @@ impl World {
                 place.to_array().into_iter().for_each(|value| out.extend_from_slice(&value.to_le_bytes()));
             }
             end(name, out);
+        }
+        if self.water.is_changed() {
+            let all = std::mem::take(out);
+            // Numbers alone cannot fail.
+            *out = postcard::to_extend(&self.water, all).unwrap_or_default();
+            end(WATER, out);
         }
         let length = out.len();
         let engine = self.engine.save(out);

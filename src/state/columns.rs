@@ -2,7 +2,7 @@
 
 use sorb_kernels::{
     column::PlainMut,
-    columns::{Column, Columns},
+    columns::{Column, Columns, RowCounts},
 };
 
 /// Reads as many words as there are.
@@ -13,8 +13,8 @@ pub(super) fn copy_words(bytes: &[u8], words: &mut [u32]) {
 }
 
 /// Whether bytes are those of a column of these rows: of all of them, or of none where the column may be absent.
-pub(super) fn fits(columns: &Columns, column: Column, bytes: usize) -> bool {
-    let rows = columns.rows.of(column.store());
+pub(super) fn fits(columns: &Columns, rows: RowCounts, column: Column, bytes: usize) -> bool {
+    let rows = rows.of(column.store());
     let row = column.element().bytes();
     if row == 0 {
         let mut words = 0;

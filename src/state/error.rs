@@ -78,7 +78,6 @@ pub enum StateError {
     #[error(transparent)]
     Engine(#[from] RigidError),
     /// The world of the scene cannot be built.
-    #[cfg(feature = "serde")]
     #[error(transparent)]
     World(#[from] Box<crate::WorldError>),
     /// The scene in it cannot be read.

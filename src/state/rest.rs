@@ -66,6 +66,6 @@ impl Rest {
         commands
             .pending
             .iter()
-            .find_map(|command| world.check_command(command).err().map(|error| error.to_string()))
+            .find_map(|command| world.check_later(command).err().map(|error| error.to_string()))
     }
 }

@@ -10,7 +10,7 @@ use sorb_kernels::{column::Element, columns::Column};
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::{
-    body::{REST, saved_columns},
+    body::{REST, WATER, saved_columns},
     error::StateError,
     file::{self, Kind},
     filter::{self, row_bytes},
@@ -187,15 +187,18 @@ impl Save {
         let scene = self.scene()?;
         // A few bytes of scene could ask for gigabytes.
         let Estimate { particles, nodes, .. } = scene.estimate();
+        let (has_water, mut is_dry) = (!self.parts().of(WATER).is_empty(), false);
         let rows = |column: Column| self.parts().of(column.name()).len() as u64 / 16;
         for (column, estimate) in [(Column::FluidPosition, particles), (Column::NodePosition, nodes)] {
-            if estimate > 4 * rows(column) + 10_000 {
+            // Commands may have removed most of the water: it is not made at all.
+            is_dry |= column == Column::FluidPosition && estimate > rows(column) && has_water;
+            if estimate > 4 * rows(column) + 10_000 && !(is_dry && column == Column::FluidPosition) {
                 let reason = format!("{} rows, and the scene has about {estimate}", rows(column));
                 return Err(invalid(column.name(), reason));
             }
         }
-        let mut world =
-            World::with_options(&scene, options).map_err(|error| StateError::World(Box::new(error)))?;
+        let build = if is_dry { World::without_water } else { World::with_options };
+        let mut world = build(&scene, options).map_err(|error| StateError::World(Box::new(error)))?;
         world.resume(self)?;
         Ok(world)
     }

@@ -1,12 +1,16 @@
 //! A copy of a state in memory, to roll back to.
 
-use sorb_kernels::{asleep::Asleep, columns::Columns};
+use sorb_kernels::{
+    asleep::Asleep,
+    columns::{Columns, RowCounts},
+};
 
 use super::error::StateError;
 use crate::{
     clock::{Clock, Steps},
     command::Commands,
     rigid::RigidEngine,
+    water::Water,
     world::{StepError, World, forces::FluidForces, sleep::Sleep},
 };
 
@@ -28,6 +32,7 @@ struct Kept {
     step: f32,
     gravity: glam::Vec3,
     failed: Option<StepError>,
+    water: Water,
 }
 
 impl Snapshot {
@@ -77,6 +82,7 @@ impl World {
                 step: self.params.step,
                 gravity: self.params.gravity,
                 failed: self.failed.clone(),
+                water: self.water,
             }));
             return;
         };
@@ -89,19 +95,24 @@ impl World {
         kept.asleep.clone_from(&self.params.asleep);
         (kept.step, kept.gravity) = (self.params.step, self.params.gravity);
         kept.failed.clone_from(&self.failed);
+        kept.water = self.water;
     }
 
     /// Returns to the state of a snapshot of this world, or of another of the same scene: it continues with the same bits.
     ///
     /// # Errors
-    /// The snapshot is empty, or of a scene with other numbers of particles, nodes or bodies.
+    /// The snapshot is empty, or of a scene with other numbers of nodes or bodies.
     pub fn rollback(&mut self, snapshot: &Snapshot) -> Result<(), StateError> {
         let fail =
             |reason: &str| StateError::Invalid { what: "snapshot".to_owned(), reason: reason.to_owned() };
         let Some(kept) = &snapshot.0 else { return Err(fail("it is empty")) };
-        if kept.columns.rows != self.stores.host.rows {
+        let RowCounts { fluid, .. } = kept.columns.rows;
+        // Water may have come and gone since.
+        let is_same = kept.columns.rows == RowCounts { fluid, ..self.stores.host.rows };
+        if !is_same || fluid > 0 && self.scene.fluid.is_none() {
             return Err(fail("it is of another scene"));
         }
+        self.set_particles(fluid)?;
         self.stores.host.copy_state(&kept.columns);
         copy_engine(&mut self.engine, &*kept.engine);
         self.sleep.copy(&kept.sleep);
@@ -111,6 +122,7 @@ impl World {
         (self.params.step, self.params.gravity) = (kept.step, kept.gravity);
         self.light.set_gravity(kept.gravity);
         self.failed.clone_from(&kept.failed);
+        self.water = kept.water;
         self.params.asleep.clone_from(&kept.asleep);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();

@@ -1,15 +1,15 @@
 //! A state from sections of bytes.
 
 use glam::Vec3;
-use sorb_kernels::columns::Column;
+use sorb_kernels::columns::{Column, RowCounts};
 
 use super::{
-    body::{ENGINE, ENGINE_OF_HOST, REST, SLEEP, saved_columns},
+    body::{ENGINE, ENGINE_OF_HOST, REST, SLEEP, WATER, saved_columns},
     columns::{copy_words, fits, take_column},
     error::StateError,
     rest::Rest,
 };
-use crate::world::World;
+use crate::{water::Water, world::World};
 
 /// Sections by name.
 #[derive(Debug)]
@@ -32,19 +32,25 @@ impl World {
     /// # Errors
     /// The state is not of this scene, or impossible; the world is unchanged.
     pub(super) fn take_state(&mut self, parts: &Parts<'_>) -> Result<(), StateError> {
-        self.check_sections(parts)?;
+        let rows = self.rows_in(parts);
+        self.check_sections(parts, rows)?;
+        let water = water_in(parts, rows.fluid)?;
         let rest: Rest =
             postcard::from_bytes(parts.of(REST)).map_err(|error| invalid(REST, error.to_string()))?;
         if let Some(defect) = rest.defect(self) {
             return Err(invalid(REST, defect));
         }
         let Rest { clock, step, gravity, constant, sleep, commands, fluid_forces } = rest;
-        let sleep = self.sleep_from(sleep, SLEEP.map(|name| places(parts.of(name))), &commands.targets);
+        let places = SLEEP.map(|name| places(parts.of(name)));
+        let sleep = self.sleep_from(sleep, rows, places, &commands.targets);
         let sleep = sleep.map_err(|reason| invalid("sleep", reason))?;
-        if self.stores.host.rows.bodies > 0 {
-            let own = if self.has_own_engine { ENGINE_OF_HOST } else { ENGINE };
+        let own = if self.has_own_engine { ENGINE_OF_HOST } else { ENGINE };
+        // Without bodies an engine may have a clock all the same.
+        if self.stores.host.rows.bodies > 0 || !parts.of(own).is_empty() {
             self.engine.restore(parts.of(own))?;
         }
+        self.set_particles(rows.fluid)?;
+        self.water = water;
         for column in saved_columns() {
             take_column(&mut self.stores.host, column, parts.of(column.name()));
         }
@@ -59,13 +65,35 @@ impl World {
         Ok(())
     }
 
+    /// Rows of a state: as many particles as have identities, and the rest as here.
+    fn rows_in(&self, parts: &Parts<'_>) -> RowCounts {
+        let own = self.stores.host.rows;
+        if self.scene.fluid.is_none() {
+            return own;
+        }
+        RowCounts { fluid: parts.of(Column::FluidId.name()).len() / 4, ..own }
+    }
+
+    /// Refuses identities that occur twice, or that were never given.
+    fn check_ids(&self, parts: &Parts<'_>, given: u64) -> Result<(), StateError> {
+        let (words, _) = parts.of(Column::FluidId.name()).as_chunks::<4>();
+        let mut ids: Vec<u32> = words.iter().map(|id| u32::from_le_bytes(*id)).collect();
+        ids.sort_unstable();
+        let is_twice = ids.windows(2).any(|pair| pair[0] == pair[1]);
+        if is_twice || ids.last().is_some_and(|last| u64::from(*last) >= given) {
+            return Err(invalid(Column::FluidId.name(), format!("not different identities below {given}")));
+        }
+        Ok(())
+    }
+
     /// Refuses sections that are no columns of this scene, or of other sizes.
-    fn check_sections(&self, parts: &Parts<'_>) -> Result<(), StateError> {
+    fn check_sections(&self, parts: &Parts<'_>, rows: RowCounts) -> Result<(), StateError> {
         let columns = &self.stores.host;
         let known = |name: &str| {
             name == ENGINE
                 || name == ENGINE_OF_HOST
                 || name == REST
+                || name == WATER
                 || SLEEP.contains(&name)
                 || saved_columns().any(|column| column.name() == name)
         };
@@ -83,24 +111,13 @@ impl World {
         }
         for column in saved_columns() {
             let bytes = parts.of(column.name()).len();
-            if !fits(columns, column, bytes) {
-                let rows = columns.rows.of(column.store());
+            if !fits(columns, rows, column, bytes) {
+                let rows = rows.of(column.store());
                 let row = column.element().bytes();
                 return Err(invalid(column.name(), format!("{bytes} bytes for {rows} rows of {row} bytes")));
             }
         }
-        let mut is_known = vec![false; columns.rows.fluid];
-        for id in parts.of(Column::FluidId.name()).as_chunks::<4>().0 {
-            match is_known.get_mut(u32::from_le_bytes(*id) as usize) {
-                Some(known) if !*known => *known = true,
-                _ => {
-                    return Err(invalid(
-                        Column::FluidId.name(),
-                        "identities are not 0 to their number less one",
-                    ));
-                }
-            }
-        }
+        self.check_ids(parts, water_in(parts, rows.fluid)?.identities())?;
         let holds = |body: u32| body == u32::MAX || (body as usize) < columns.rows.bodies;
         let mut grips = parts.of(Column::NodeGrip.name()).as_chunks::<4>().0.iter();
         match grips.find(|grip| !holds(u32::from_le_bytes(**grip))) {
@@ -111,6 +128,16 @@ impl World {
             None => Ok(()),
         }
     }
+}
+
+/// What commands have done to the water of a state of as many particles.
+fn water_in(parts: &Parts<'_>, rows: usize) -> Result<Water, StateError> {
+    let bytes = parts.of(WATER);
+    if bytes.is_empty() {
+        return Ok(Water::of_scene(rows));
+    }
+    let water: Water = postcard::from_bytes(bytes).map_err(|error| invalid(WATER, error.to_string()))?;
+    water.defect(rows).map_or(Ok(water), |defect| Err(invalid(WATER, defect)))
 }
 
 /// Positions from their bytes.

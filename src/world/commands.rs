@@ -36,6 +36,11 @@ impl World {
         Ok(())
     }
 
+    /// Whether commands that change the water wait for the next step.
+    pub(crate) fn has_water_commands(&self) -> bool {
+        self.commands.pending.iter().any(changes_water)
+    }
+
     /// Carries out what was pushed.
     pub(super) fn carry_out(&mut self) -> Result<(), StepError> {
         if self.commands.pending.is_empty() {
@@ -47,13 +52,13 @@ impl World {
         }
         let pending = std::mem::take(&mut self.commands.pending);
         for command in &pending {
-            self.carry_out_one(command).map_err(|error| StepError::Rigid(error.to_string()))?;
+            self.carry_out_one(command)?;
         }
         self.clock.body_speed = fastest_body(&self.stores.host.bodies.states.0);
         Ok(())
     }
 
-    fn carry_out_one(&mut self, command: &Command) -> Result<(), RigidError> {
+    fn carry_out_one(&mut self, command: &Command) -> Result<(), StepError> {
         match command {
             Command::Force { body, force, torque } => {
                 let count = self.bodies().len();
@@ -67,17 +72,17 @@ impl World {
                 let state = self.engine.state(index);
                 let linear = state.linear_velocity + *impulse * self.engine.inverse_mass(index);
                 let angular = state.angular_velocity + self.engine.inverse_inertia(index) * *angular_impulse;
-                self.set_velocity(index, linear, angular)?;
+                self.set_velocity(index, linear, angular).map_err(rigid)?;
             }
             Command::Velocity { body, linear_velocity, angular_velocity } => {
                 let index = *body as usize;
                 self.wake_kinds(|kind| kind == Kind::Body(index));
-                self.set_velocity(index, *linear_velocity, *angular_velocity)?;
+                self.set_velocity(index, *linear_velocity, *angular_velocity).map_err(rigid)?;
             }
             Command::Pose { body, position, rotation, duration } => {
                 let index = *body as usize;
                 let target = self.target(index, (*position, *rotation), *duration);
-                self.engine.set_target(index, target)?;
+                self.engine.set_target(index, target).map_err(rigid)?;
                 let count = self.bodies().len();
                 self.commands.targets.resize(count, None);
                 self.commands.targets[index] = Some(target);
@@ -86,11 +91,13 @@ impl World {
                 self.wake_kinds(|_| false);
             }
             Command::Gravity { gravity } => {
-                self.set_gravity(*gravity)?;
+                self.set_gravity(*gravity).map_err(rigid)?;
                 self.wake_kinds(|_| true);
             }
             Command::Grip { body, nodes } => self.grip(*body, nodes),
             Command::Release { nodes } => self.release(nodes),
+            Command::Pour { region, velocity } => self.pour(region, *velocity)?,
+            Command::Remove { region } => self.remove_water(region)?,
         }
         Ok(())
     }
@@ -168,9 +175,19 @@ impl World {
     }
 }
 
+fn rigid(error: RigidError) -> StepError {
+    StepError::Rigid(error.to_string())
+}
+
 /// Whether a command changes what a device has a copy of.
 fn changes_columns(command: &Command) -> bool {
-    matches!(command, Command::Gravity { .. } | Command::Grip { .. } | Command::Release { .. })
+    changes_water(command)
+        || matches!(command, Command::Gravity { .. } | Command::Grip { .. } | Command::Release { .. })
+}
+
+/// Whether water comes or goes by a command.
+fn changes_water(command: &Command) -> bool {
+    matches!(command, Command::Pour { .. } | Command::Remove { .. })
 }
 
 /// Rows of nodes, in order.

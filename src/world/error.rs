@@ -116,6 +116,9 @@ pub enum StepError {
         /// Simulated time \[s\].
         time: f64,
     },
+    /// The steps of a scene whose first water has come, or whose last has gone, cannot be placed where the options say.
+    #[error("water that came or went: {0}")]
+    Water(String),
     /// The engine of the bodies failed.
     #[error("rigid bodies: {0}")]
     Rigid(String),

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::scene::preset;
+use glam::Vec3;
 
 /// A scene of the library in which everything interacts, after some steps.
 fn busy(name: &str) -> World {

@@ -1,5 +1,6 @@
 //! The world: the one object that a host builds, steps and reads.
 
+mod build;
 mod commands;
 mod error;
 #[cfg(all(test, feature = "serde"))]
@@ -14,32 +15,30 @@ mod pool;
 pub(crate) mod sleep;
 mod start;
 mod views;
+mod water;
 
 use std::sync::Arc;
 #[cfg(feature = "serde")]
 use std::sync::OnceLock;
 
-use glam::Vec3;
 use sorb_kernels::{
     SimdLevel,
     clock::TIME_RESOLUTION,
     columns::{Column, Columns},
-    contents::Contents,
     cpu::Cpu,
     params::Params,
-    step::{POROUS_STEP, STEP},
 };
 
 use crate::{
-    clock::{Bound, Clock, Dormant, Steps, within},
+    clock::{Bound, Clock, Steps, within},
     command::Commands,
     gpu::Gpu,
     rigid::{LightBodies, RigidEngine},
     scene::Scene,
     schedule::{Offload, Plans, Runner},
-    setup::Setup,
     sponge::Lattice,
     stores::Stores,
+    water::Water,
 };
 
 pub use error::{StepError, WorldError};
@@ -94,9 +93,6 @@ pub struct FrameReport {
     pub maximum_speed: f32,
 }
 
-/// Particles and nodes below which one thread is faster than waking others.
-const ROWS_FOR_THREADS: u64 = 1000;
-
 /// A scene in motion.
 ///
 /// A clone continues with the same bits: keep one to return to it.
@@ -104,6 +100,8 @@ const ROWS_FOR_THREADS: u64 = 1000;
 pub struct World {
     pub(crate) scene: Scene,
     cpu: Cpu,
+    /// That of scenes with many rows, while there are few.
+    spare_cpu: Option<Cpu>,
     pub(crate) params: Params,
     pub(crate) stores: Stores,
     lattice: Lattice,
@@ -121,111 +119,15 @@ pub struct World {
     pub(crate) fluid_forces: forces::FluidForces,
     pub(crate) failed: Option<StepError>,
     pub(crate) options: Options,
+    /// The options by which the step is placed, after [`Self::move_to`] as well.
+    #[cfg(feature = "gpu")]
+    pub(crate) placed_by: Options,
+    pub(crate) water: Water,
     #[cfg(feature = "serde")]
     pub(crate) identity: OnceLock<crate::state::Identity>,
 }
 
 impl World {
-    /// Builds a scene, on all cores at the machine's best SIMD level.
-    ///
-    /// # Errors
-    /// The scene has values that are out of range or do not fit together; the message names the key.
-    pub fn new(scene: &Scene) -> Result<Self, WorldError> {
-        Self::with_options(scene, &Options::default())
-    }
-
-    /// Builds a scene.
-    ///
-    /// # Errors
-    /// As [`Self::new`], or the machine lacks what the options ask for.
-    pub fn with_options(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
-        let level = options.simd.unwrap_or_else(SimdLevel::best);
-        let threads = options.threads.unwrap_or_else(default_threads);
-        Self::build(scene, Cpu::with_threads(level, threads)?, options, None)
-    }
-
-    /// Builds a scene whose bodies an engine of the host moves. It has the bodies of the scene in their order, of the same kinds:
-    /// [`rigid::body_setups`](crate::rigid::body_setups) lists them with shapes and states. Contacts between bodies and with the walls of
-    /// the container are up to the engine; fluid and sponges push its bodies through the wrenches of
-    /// [`RigidEngine::step`](crate::rigid::RigidEngine::step).
-    ///
-    /// Saves, recordings and commands need the methods of the engine that have defaults; without them they are refused. A save is
-    /// restored by [`World::resume`](Self::resume) in a world that was built with an equal engine: [`World::restore`](Self::restore)
-    /// knows only the engines of the library.
-    ///
-    /// # Errors
-    /// As [`Self::with_options`], or the engine has other bodies than the scene.
-    pub fn with_engine(
-        scene: &Scene,
-        engine: Box<dyn RigidEngine>,
-        options: &Options,
-    ) -> Result<Self, WorldError> {
-        let level = options.simd.unwrap_or_else(SimdLevel::best);
-        let threads = options.threads.unwrap_or_else(default_threads);
-        Self::build(scene, Cpu::with_threads(level, threads)?, options, Some(engine))
-    }
-
-    /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool. Threads and SIMD level are those
-    /// of the context, whatever the options say.
-    ///
-    /// # Errors
-    /// As [`Self::with_options`].
-    pub fn on(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {
-        Self::build(scene, cpu, options, None)
-    }
-
-    fn build(
-        scene: &Scene,
-        cpu: Cpu,
-        options: &Options,
-        engine: Option<Box<dyn RigidEngine>>,
-    ) -> Result<Self, WorldError> {
-        scene.validate()?;
-        let has_own_engine = engine.is_some();
-        let estimate = scene.estimate();
-        let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
-        let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
-        let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu, engine)?;
-        let step = if params.solid.is_some() { POROUS_STEP } else { STEP };
-        let plans = Plans::new(step, &Contents::new(&params, &columns), &options.observed)?;
-        let bodies = &columns.bodies.states.0;
-        let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
-        let mut world = Self {
-            runner: Runner::of_all(&plans.0),
-            sleep: sleep::Sleep::new(scene, &params),
-            steps,
-            scene: scene.clone(),
-            cpu,
-            params,
-            stores: Stores { host: columns, device: None },
-            lattice,
-            engine,
-            has_own_engine,
-            light: LightBodies::new(scene),
-            plans,
-            clock: Clock::default(),
-            commands: Commands::default(),
-            fluid_forces: forces::FluidForces::default(),
-            failed: None,
-            options: options.clone(),
-            #[cfg(feature = "serde")]
-            identity: OnceLock::new(),
-        };
-        world.place()?;
-        let Columns { rows, fluid, nodes, bodies, .. } = &world.stores.host;
-        world.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
-        world.clock.fluid_acceleration = scene.gravity.length();
-        world.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
-        world.clock.body_speed = fastest_body(&bodies.states.0);
-        if world.params.fluid.incompressible.is_some() {
-            // Nothing carries the weight along an axis without walls.
-            let held = Vec3::select(scene.periodic().into(), Vec3::ZERO, scene.gravity);
-            world.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], held);
-        }
-        world.look();
-        Ok(world)
-    }
-
     /// Takes one step, as long as stability allows.
     ///
     /// # Errors
@@ -387,14 +289,5 @@ impl World {
         }
         self.clock.body_speed = fastest_body(&columns.bodies.states.0);
         Ok(())
-    }
-}
-
-/// One thread per core.
-fn default_threads() -> usize {
-    if cfg!(feature = "threads") {
-        std::thread::available_parallelism().map_or(1, usize::from).min(1024)
-    } else {
-        1
     }
 }

@@ -16,6 +16,7 @@ use crate::{
     scene::Scene,
     schedule::{PhaseTime, Plan},
     sponge::Lattice,
+    water::ranks,
 };
 
 /// Views of a state, row by row.
@@ -37,7 +38,8 @@ macro_rules! views {
                 &columns.fluid.velocity[..columns.rows.fluid]
             }
 
-            /// Identities of the particles, 0 to their number less one: `ids[row]` is the same particle for ever.
+            /// Identities of the particles: `ids[row]` is the same particle for ever. Those of the scene are 0 to their number less one;
+            /// poured ones have the next numbers, and no number is given twice.
             #[must_use]
             pub fn particle_ids(&self) -> &[u32] {
                 let columns = self.columns();
@@ -166,15 +168,20 @@ impl World {
     /// they lack the volume that is no water. They are summed anew at every call: a step of `dfsph` needs none.
     #[must_use]
     pub fn particle_densities(&self) -> Vec<f32> {
+        if self.particle_ids().is_empty() {
+            return Vec::new();
+        }
         let summed = self.summed_density();
         let count = summed.rows.fluid;
-        let mut by_id = vec![0.0; count];
-        for (id, density) in summed.fluid.id.iter().zip(&summed.fluid.density).take(count) {
-            if let Some(own) = by_id.get_mut(*id as usize) {
+        let mut by_rank = vec![0.0; count];
+        let ids = summed.fluid.id.get(..count).unwrap_or_default();
+        for (rank, density) in ranks(ids).into_iter().zip(&summed.fluid.density) {
+            if let Some(own) = by_rank.get_mut(rank as usize) {
                 *own = *density;
             }
         }
-        self.particle_ids().iter().map(|id| by_id.get(*id as usize).copied().unwrap_or(0.0)).collect()
+        let own = ranks(self.particle_ids()).into_iter();
+        own.map(|rank| by_rank.get(rank as usize).copied().unwrap_or(0.0)).collect()
     }
 
     /// Mass of every particle \[kg\]; 0 without fluid.

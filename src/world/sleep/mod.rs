@@ -103,13 +103,27 @@ impl Sleep {
     }
 
     /// All parts awake, with what commands have changed.
-    #[cfg(feature = "gpu")]
     pub(crate) fn anew(&self, scene: &Scene, params: &Params, targets: &[Option<Target>]) -> Self {
         let mut sleep = Self { gripped: self.gripped.clone(), ..Self::new(scene, params) };
         for (body, target) in targets.iter().enumerate() {
             target.iter().for_each(|target| sleep.follow(body, target));
         }
         sleep
+    }
+
+    /// Particles that have come, which have the last identities.
+    pub(crate) fn add_particles(&mut self, rows: &[[f32; 4]]) {
+        if let Some(before) = &mut self.before {
+            before.particles.extend(rows.iter().map(|row| Vec3::new(row[0], row[1], row[2])));
+        }
+    }
+
+    /// Keeps the particles that stay, in the order of their identities.
+    pub(crate) fn keep_particles(&mut self, stays: &[bool]) {
+        if let Some(before) = &mut self.before {
+            let mut stays = stays.iter();
+            before.particles.retain(|_| stays.next().copied().unwrap_or(false));
+        }
     }
 
     /// Replaces the motions of a body by the way to a target.

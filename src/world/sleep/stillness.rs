@@ -4,7 +4,7 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::{Kind, Sleep};
-use crate::world::World;
+use crate::{water::ranks, world::World};
 
 /// Largest speed of a single particle or node over the mean. Thin films glide on floors with slip, but a falling drop or a
 /// swinging corner is awake.
@@ -14,7 +14,7 @@ pub(super) const LARGEST: f64 = 100.0;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Places {
     pub(super) time: f64,
-    /// By identity.
+    /// In the order of their identities.
     pub(super) particles: Vec<Vec3>,
     pub(super) nodes: Vec<Vec3>,
     pub(super) bodies: Vec<(Vec3, Quat)>,
@@ -122,12 +122,12 @@ impl World {
     pub(super) fn places(&mut self) -> Places {
         let mut places = std::mem::take(&mut self.sleep.spare);
         let place = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
-        let ids = self.particle_ids();
+        let ranks = ranks(self.particle_ids());
         places.time = self.clock.time;
         places.particles.clear();
-        places.particles.resize(ids.len(), Vec3::ZERO);
-        for (id, row) in ids.iter().zip(self.particle_positions()) {
-            if let Some(particle) = places.particles.get_mut(*id as usize) {
+        places.particles.resize(ranks.len(), Vec3::ZERO);
+        for (rank, row) in ranks.iter().zip(self.particle_positions()) {
+            if let Some(particle) = places.particles.get_mut(*rank as usize) {
                 *particle = place(row);
             }
         }

@@ -1,7 +1,7 @@
 //! Sleep that is taken over from a saved state.
 
 use glam::Vec3;
-use sorb_kernels::{asleep::Asleep, clock::Bound};
+use sorb_kernels::{asleep::Asleep, clock::Bound, columns::RowCounts};
 
 use super::{Bounds, Places, Saved, Sleep, Way};
 use crate::{
@@ -11,18 +11,18 @@ use crate::{
 };
 
 impl World {
-    /// Sleep as it was saved in a world of the same scene, with positions at the last check and targets of bodies.
+    /// Sleep as it was saved in a world of the same scene with such rows, with positions at the last check and targets of bodies.
     ///
     /// # Errors
     /// What is saved does not belong to this scene: the reason.
     pub(crate) fn sleep_from(
         &self,
         saved: Saved,
+        rows: RowCounts,
         places: [Vec<Vec3>; 2],
         targets: &[Option<Target>],
     ) -> Result<Sleep, String> {
-        let rows = self.stores.host.rows;
-        let mut parts = if saved.before.is_some() { self.parts() } else { Vec::new() };
+        let mut parts = if saved.before.is_some() { self.parts_of(rows.fluid > 0) } else { Vec::new() };
         if saved.parts.len() != parts.len() {
             return Err(format!("{} parts that may sleep, and there are {}", saved.parts.len(), parts.len()));
         }

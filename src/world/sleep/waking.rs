@@ -35,17 +35,22 @@ impl World {
 
     /// All parts, awake, with boxes that were never computed.
     pub(super) fn parts(&self) -> Vec<Part> {
+        self.parts_of(self.stores.host.rows.fluid > 0)
+    }
+
+    /// The same with or without water.
+    pub(super) fn parts_of(&self, has_water: bool) -> Vec<Part> {
         let (params, awake_since) = (&self.params, self.clock.time);
         let part = |kind, reach| {
             let bounds = Bounds::of(std::iter::empty());
             Part { kind, reach, bounds, is_asleep: false, awake_since }
         };
         let mut parts = Vec::new();
-        if self.stores.host.rows.fluid > 0 {
+        if has_water {
             parts.push(part(Kind::Fluid, FLUID_REACH * params.fluid.list_radius()));
         }
         for (index, sponge) in params.sponges.iter().enumerate() {
-            let coupling = if self.stores.host.rows.fluid > 0 { params.coupling.support_radius } else { 0.0 };
+            let coupling = if has_water { params.coupling.support_radius } else { 0.0 };
             let touch = pbd::meeting::pair_radius(params);
             parts.push(part(Kind::Sponge(index), coupling.max(touch).max(2.0 * sponge.edge)));
         }
@@ -64,7 +69,7 @@ impl World {
     }
 
     /// Computes the boxes of all awake parts.
-    pub(super) fn take_bounds(&mut self) {
+    pub(crate) fn take_bounds(&mut self) {
         let bounds = |kind| match kind {
             Kind::Fluid => Bounds::of(self.particle_positions().iter()),
             Kind::Sponge(index) => {
@@ -104,7 +109,7 @@ impl World {
     }
 
     /// Wakes the islands of parts that an awake part has come near; returns whether there are any.
-    pub(super) fn wake_what_is_reached(&mut self) -> bool {
+    pub(crate) fn wake_what_is_reached(&mut self) -> bool {
         let passed = (self.clock.time - self.sleep.watched) as f32;
         self.sleep.watched = self.clock.time;
         let speeds = [self.clock.fluid_speed, self.clock.node_speed];

@@ -1,0 +1,156 @@
+//! Worlds from scenes.
+
+#[cfg(feature = "serde")]
+use std::sync::OnceLock;
+
+use glam::Vec3;
+use sorb_kernels::{
+    SimdLevel,
+    columns::Columns,
+    contents::Contents,
+    cpu::Cpu,
+    step::{POROUS_STEP, STEP},
+};
+
+use super::{Options, World, WorldError, column_pressure, fastest, fastest_body, forces, sleep};
+use crate::{
+    clock::{Clock, Dormant, Steps},
+    command::Commands,
+    rigid::{LightBodies, RigidEngine},
+    scene::Scene,
+    schedule::{Plans, Runner},
+    setup::{Begin, Setup},
+    stores::Stores,
+    water::Water,
+};
+
+/// Particles and nodes below which one thread is faster than waking others.
+pub(super) const ROWS_FOR_THREADS: u64 = 1000;
+
+impl World {
+    /// Builds a scene, on all cores at the machine's best SIMD level.
+    ///
+    /// # Errors
+    /// The scene has values that are out of range or do not fit together; the message names the key.
+    pub fn new(scene: &Scene) -> Result<Self, WorldError> {
+        Self::with_options(scene, &Options::default())
+    }
+
+    /// Builds a scene.
+    ///
+    /// # Errors
+    /// As [`Self::new`], or the machine lacks what the options ask for.
+    pub fn with_options(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
+        let level = options.simd.unwrap_or_else(SimdLevel::best);
+        let threads = options.threads.unwrap_or_else(default_threads);
+        Self::build(scene, Cpu::with_threads(level, threads)?, options, Begin::default())
+    }
+
+    /// Builds a scene whose bodies an engine of the host moves. It has the bodies of the scene in their order, of the same kinds:
+    /// [`rigid::body_setups`](crate::rigid::body_setups) lists them with shapes and states. Contacts between bodies and with the walls of
+    /// the container are up to the engine; fluid and sponges push its bodies through the wrenches of
+    /// [`RigidEngine::step`](crate::rigid::RigidEngine::step).
+    ///
+    /// Saves, recordings and commands need the methods of the engine that have defaults; without them they are refused. A save is
+    /// restored by [`World::resume`](Self::resume) in a world that was built with an equal engine: [`World::restore`](Self::restore)
+    /// knows only the engines of the library.
+    ///
+    /// # Errors
+    /// As [`Self::with_options`], or the engine has other bodies than the scene.
+    pub fn with_engine(
+        scene: &Scene,
+        engine: Box<dyn RigidEngine>,
+        options: &Options,
+    ) -> Result<Self, WorldError> {
+        let level = options.simd.unwrap_or_else(SimdLevel::best);
+        let threads = options.threads.unwrap_or_else(default_threads);
+        let begin = Begin { engine: Some(engine), is_dry: false };
+        Self::build(scene, Cpu::with_threads(level, threads)?, options, begin)
+    }
+
+    /// Builds a scene without its particles, for a state that has others.
+    #[cfg(feature = "serde")]
+    pub(crate) fn without_water(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
+        let level = options.simd.unwrap_or_else(SimdLevel::best);
+        let threads = options.threads.unwrap_or_else(default_threads);
+        let begin = Begin { engine: None, is_dry: true };
+        Self::build(scene, Cpu::with_threads(level, threads)?, options, begin)
+    }
+
+    /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool. Threads and SIMD level are those
+    /// of the context, whatever the options say.
+    ///
+    /// # Errors
+    /// As [`Self::with_options`].
+    pub fn on(scene: &Scene, cpu: Cpu, options: &Options) -> Result<Self, WorldError> {
+        Self::build(scene, cpu, options, Begin::default())
+    }
+
+    fn build(scene: &Scene, cpu: Cpu, options: &Options, begin: Begin) -> Result<Self, WorldError> {
+        scene.validate()?;
+        let has_own_engine = begin.engine.is_some();
+        let estimate = scene.estimate();
+        let few = estimate.particles + estimate.nodes < ROWS_FOR_THREADS;
+        // Water may come.
+        let spare_cpu = Some(&cpu).filter(|_| few && scene.fluid.is_some()).cloned();
+        let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
+        let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu, begin)?;
+        let step = if params.solid.is_some() { POROUS_STEP } else { STEP };
+        let plans = Plans::new(step, &Contents::new(&params, &columns), &options.observed)?;
+        let bodies = &columns.bodies.states.0;
+        let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
+        let mut world = Self {
+            runner: Runner::of_all(&plans.0),
+            sleep: sleep::Sleep::new(scene, &params),
+            steps,
+            scene: scene.clone(),
+            cpu,
+            spare_cpu,
+            params,
+            stores: Stores { host: columns, device: None },
+            lattice,
+            engine,
+            has_own_engine,
+            light: LightBodies::new(scene),
+            plans,
+            clock: Clock::default(),
+            commands: Commands::default(),
+            fluid_forces: forces::FluidForces::default(),
+            failed: None,
+            options: options.clone(),
+            #[cfg(feature = "gpu")]
+            placed_by: options.clone(),
+            water: Water::default(),
+            #[cfg(feature = "serde")]
+            identity: OnceLock::new(),
+        };
+        world.place()?;
+        world.begin_clock();
+        world.look();
+        Ok(world)
+    }
+
+    /// The clock of the state at time zero.
+    fn begin_clock(&mut self) {
+        let Columns { rows, fluid, nodes, bodies, .. } = &self.stores.host;
+        self.water = Water::of_scene(rows.fluid);
+        self.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
+        self.clock.fluid_acceleration = self.scene.gravity.length();
+        self.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);
+        self.clock.body_speed = fastest_body(&bodies.states.0);
+        if self.params.fluid.incompressible.is_some() {
+            // Nothing carries the weight along an axis without walls.
+            let held = Vec3::select(self.scene.periodic().into(), Vec3::ZERO, self.scene.gravity);
+            self.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], held);
+        }
+    }
+}
+
+/// One thread per core.
+fn default_threads() -> usize {
+    if cfg!(feature = "threads") {
+        std::thread::available_parallelism().map_or(1, usize::from).min(1024)
+    } else {
+        1
+    }
+}
