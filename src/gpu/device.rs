@@ -46,6 +46,8 @@ pub(crate) struct Device {
     looked_at: Vec<Column>,
     wants_times: bool,
     resident: Option<On>,
+    /// The same with a state that is past, for the next one.
+    spare: Option<On>,
     /// Whether the device is ahead of the host.
     is_ahead: bool,
     /// The present state, once the host has looked at it.
@@ -104,6 +106,7 @@ impl Device {
             looked_at,
             wants_times,
             resident: None,
+            spare: None,
             is_ahead: false,
             mirror: OnceLock::new(),
             kept: None,
@@ -123,6 +126,7 @@ impl Device {
             looked_at: self.looked_at.clone(),
             wants_times: self.wants_times,
             resident: None,
+            spare: None,
             is_ahead,
             mirror: OnceLock::new(),
             kept: self.kept.clone().filter(|_| is_ahead),
@@ -187,15 +191,22 @@ impl Device {
         self.view(host);
         let is_there = self.is_looked_at();
         if is_there {
-            self.give_up(host);
+            self.leave(host);
+            self.set_aside();
         }
         is_there
     }
 
     /// Forgets the state of the device for another one, which the host has.
     pub(crate) fn leave_behind(&mut self) {
-        (self.resident, self.is_ahead, self.kept) = (None, false, None);
         self.mirror.take();
+        self.set_aside();
+    }
+
+    /// Keeps the buffers for another state.
+    fn set_aside(&mut self) {
+        self.spare = self.resident.take().or_else(|| self.spare.take());
+        (self.is_ahead, self.kept) = (false, None);
     }
 
     /// The read-back state becomes that of the host: the newest one if the device is lost.
@@ -212,9 +223,17 @@ impl Device {
         if self.resident.is_some() {
             return Ok(());
         }
-        let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
         let lives = |column: &Column| column.life() != Life::Scratch && !column.is_on_host_only();
         let columns: Vec<Column> = Column::ALL.iter().copied().filter(lives).collect();
+        if let Some(mut on) = self.spare.take()
+            && on.resident.renew(host, params, self.limits)?
+        {
+            on.resident.upload(host, &columns, false)?;
+            self.resident = Some(on);
+            self.make_room(host);
+            return Ok(());
+        }
+        let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
         resident.upload(host, &columns, false)?;
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
         let programs =
@@ -222,12 +241,17 @@ impl Device {
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
         let reduced = self.reduced.iter().map(|_| None).collect();
         self.resident = Some(On { resident, programs, reduced, profile });
+        self.make_room(host);
+        Ok(())
+    }
+
+    /// Room on the host for what the device gives back.
+    fn make_room(&self, host: &mut Columns) {
         if self.has_all() {
             forget_lists(host);
         } else {
             Column::ALL.iter().for_each(|column| make_room(host, *column));
         }
-        Ok(())
     }
 
     /// Restricts the next steps to awake parts; the awake fluid may be outside of all sponges. The time has to be set anew.

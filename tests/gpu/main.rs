@@ -9,6 +9,7 @@ mod pictures;
 mod placement;
 mod replay;
 mod state;
+mod water;
 
 use std::sync::{Arc, OnceLock};
 

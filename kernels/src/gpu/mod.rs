@@ -30,6 +30,7 @@ mod pipeline;
 mod profile;
 mod program;
 mod read;
+mod renew;
 mod resident;
 #[cfg(test)]
 mod rounds;

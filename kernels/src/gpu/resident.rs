@@ -42,7 +42,7 @@ pub struct Resident {
     pub(super) params: Params,
     pub(super) grids: [Grid; 5],
     /// First node of every sponge.
-    first_nodes: Vec<usize>,
+    pub(super) first_nodes: Vec<usize>,
     /// First row and rows of every batch.
     pub(super) batches: [Batch; BATCHES],
     /// Whether particles are where `sph::advect` leaves them (false) or where `grid::sort_fluid` does (true).
@@ -73,23 +73,7 @@ impl Resident {
             return Err(GpuError::TooManySponges { sponges: params.sponges.len(), limit: SPONGES });
         }
         let rows = columns.rows;
-        // Counts and starts are padded to pages.
-        let maximum =
-            (gpu.limits.max_storage_buffer_binding_size / 4).saturating_sub(8192).min(MAXIMUM_CELLS);
-        let fluid = params.fluid.list_radius();
-        let grids = [
-            Grid::new(params.domain, fluid, rows.fluid, maximum),
-            Grid::new(params.domain, params.coupling.support_radius, rows.nodes, maximum),
-            // Where nothing can touch, its buffers are empty and no pass takes it.
-            Grid::new(
-                params.domain,
-                if params.has_touch() { pair_radius(params) } else { 1.0 },
-                rows.nodes,
-                maximum,
-            ),
-            images::cells(params, rows, maximum),
-            Grid::line(rows.fluid),
-        ];
+        let grids = grids(gpu, params, rows);
         let (batches, tet_sponge) = pack::batches(&columns.nodes.topology);
         let answer = gpu.guarded(None, || {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -152,7 +136,7 @@ impl Resident {
     }
 
     /// Name, bytes and use of every buffer.
-    fn layout(&self, columns: &Columns) -> Vec<(&'static str, u64, BufferUsages)> {
+    pub(super) fn layout(&self, columns: &Columns) -> Vec<(&'static str, u64, BufferUsages)> {
         let RowCounts { fluid, nodes, tets, bodies } = self.rows;
         let coupled = fluid > 0 && nodes > 0;
         let (fluid, nodes, body_rows) = (fluid as u64, nodes as u64, bodies as u64);
@@ -235,6 +219,11 @@ impl Resident {
         own.chain(columns.into_iter().map(|(name, size)| (name, size, plain))).collect()
     }
 
+    /// Bytes of a buffer for some bytes.
+    pub(super) fn buffer_size(size: u64) -> u64 {
+        size.max(DeviceBody::BYTES).next_multiple_of(16)
+    }
+
     /// Makes a buffer, zeroed. One row at least: nothing can be bound to an empty buffer.
     pub(super) fn allocate(
         &mut self,
@@ -242,7 +231,7 @@ impl Resident {
         size: u64,
         usage: BufferUsages,
     ) -> Result<(), GpuError> {
-        let size = size.max(DeviceBody::BYTES).next_multiple_of(16);
+        let size = Self::buffer_size(size);
         let limits = &self.gpu.limits;
         let maximum = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         if size > maximum {
@@ -261,12 +250,7 @@ impl Resident {
 
     fn fill_constants(&self, columns: &Columns, tet_sponge: &[u32]) {
         let nodes = &columns.nodes;
-        self.write("sponges", bytemuck::cast_slice(&pack::sponges(&self.params, &self.first_nodes)));
-        self.write("fluid_grid", bytemuck::cast_slice(&self.grids[0].words()));
-        self.write("control_grid", bytemuck::cast_slice(&self.grids[1].words()));
-        self.write("pair_grid", bytemuck::cast_slice(&self.grids[2].words()));
-        self.write("image_grid", bytemuck::cast_slice(&self.grids[3].words()));
-        self.write("image_line", bytemuck::cast_slice(&self.grids[4].words()));
+        self.fill_grids();
         if self.params.has_touch() {
             self.write("node_rest", bytemuck::cast_slice(&nodes.rest[..self.rows.nodes]));
         }
@@ -286,6 +270,16 @@ impl Resident {
         self.write("node_stars", bytemuck::cast_slice(&stars));
         self.fill_ranges(columns);
         self.fill_params();
+    }
+
+    /// The sponges, and cells.
+    pub(super) fn fill_grids(&self) {
+        self.write("sponges", bytemuck::cast_slice(&pack::sponges(&self.params, &self.first_nodes)));
+        self.write("fluid_grid", bytemuck::cast_slice(&self.grids[0].words()));
+        self.write("control_grid", bytemuck::cast_slice(&self.grids[1].words()));
+        self.write("pair_grid", bytemuck::cast_slice(&self.grids[2].words()));
+        self.write("image_grid", bytemuck::cast_slice(&self.grids[3].words()));
+        self.write("image_line", bytemuck::cast_slice(&self.grids[4].words()));
     }
 
     /// Where the nodes of every sponge are, and which others it touches.
@@ -338,6 +332,25 @@ impl Resident {
             self.write(name, &vec![0; self.buffer(name).size() as usize]);
         }
     }
+}
+
+/// Cells over particles, controls, nodes that touch and images, and the line of the particles.
+pub(super) fn grids(gpu: &Gpu, params: &Params, rows: RowCounts) -> [Grid; 5] {
+    // Counts and starts are padded to pages.
+    let maximum = (gpu.limits.max_storage_buffer_binding_size / 4).saturating_sub(8192).min(MAXIMUM_CELLS);
+    [
+        Grid::new(params.domain, params.fluid.list_radius(), rows.fluid, maximum),
+        Grid::new(params.domain, params.coupling.support_radius, rows.nodes, maximum),
+        // Where nothing can touch, its buffers are empty and no pass takes it.
+        Grid::new(
+            params.domain,
+            if params.has_touch() { pair_radius(params) } else { 1.0 },
+            rows.nodes,
+            maximum,
+        ),
+        images::cells(params, rows, maximum),
+        Grid::line(rows.fluid),
+    ]
 }
 
 /// The first node of every sponge; beyond all nodes for one without any.
