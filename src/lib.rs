@@ -14,6 +14,7 @@ pub mod gpu;
 #[doc(hidden)]
 pub mod internal;
 mod measure;
+mod query;
 #[cfg(feature = "render")]
 pub mod render;
 #[cfg(feature = "serde")]
@@ -31,6 +32,7 @@ mod world;
 pub use clock::{Bound, Clock};
 pub use command::{Command, CommandError, Nodes, Region};
 pub use measure::Measures;
+pub use query::{Hit, Probe, QueryError, Ray, SpongeProbe, Surface, Targets};
 #[cfg(feature = "serde")]
 pub use replay::{Mismatch, Player, Recorder, Recording, ReplayError};
 pub use schedule::{Offload, OffloadError, PhaseTime, PlaceError};
@@ -42,7 +44,7 @@ pub use sorb_kernels::{
 pub use state::{Difference, Save};
 pub use state::{Snapshot, StateError};
 pub use water::Ledger;
-pub use world::{FrameReport, Options, StepError, StepReport, World, WorldError};
+pub use world::{BodyLoads, FrameReport, Load, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;
 

@@ -226,10 +226,10 @@ impl World {
             if self.sleep.are_bodies_still(began, answer.last_step) {
                 self.engine.wait(f64::from(answer.last_step));
             } else if !answer.wrenches.is_empty() {
-                self.fluid_forces.add(&answer.wrenches, answer.last_step);
                 let bodies = &mut self.stores.host.bodies;
                 let given = (&answer.wrenches[..], &self.commands.forces[..]);
-                move_bodies(self.engine.as_mut(), &self.light, bodies, given, answer.last_step)
+                let step = (answer.last_step, &mut self.loads);
+                move_bodies(self.engine.as_mut(), &self.light, bodies, given, step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;
             }
         }

@@ -49,6 +49,11 @@ impl LightBodies {
         self.gravity = gravity.as_dvec3();
     }
 
+    /// The acceleration of gravity \[m/s^2\].
+    pub(crate) fn gravity(&self) -> Vec3 {
+        self.gravity.as_vec3()
+    }
+
     /// Wrenches for the engine, from those that fluid and nodes gave the bodies in a step \[s\].
     pub(crate) fn wrenches(
         &self,

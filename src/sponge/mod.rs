@@ -40,6 +40,6 @@ pub use class::{
 pub use error::LatticeError;
 pub use lattice::{Lattice, LatticeSponge, SpongeSummary};
 pub use limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
-pub(crate) use locate::TetGrid;
+pub(crate) use locate::{Located, TetGrid};
 pub use mask::{block, cylinder, ellipsoid};
 pub use pieces::{Pieces, pieces};

@@ -9,6 +9,7 @@ use crate::{rigid::RigidError, world::World};
 pub(super) const SLEEP: [&str; 2] = ["sleep.particles", "sleep.nodes"];
 pub(super) const ENGINE: &str = "engine";
 pub(super) const ENGINE_OF_HOST: &str = "engine of the host";
+pub(super) const LOADS: &str = "loads";
 pub(super) const REST: &str = "rest";
 pub(super) const WATER: &str = "water";
 
@@ -56,6 +57,13 @@ impl World {
             out.truncate(length);
         }
         end(if self.has_own_engine { ENGINE_OF_HOST } else { ENGINE }, out);
+        let loads = self.loads.saved_others();
+        if !loads.is_empty() {
+            let all = std::mem::take(out);
+            // As for the rest.
+            *out = postcard::to_extend(&loads, all).unwrap_or_default();
+            end(LOADS, out);
+        }
         let all = std::mem::take(out);
         // Neither lists without a length nor maps are in there, which is all that could fail.
         *out = postcard::to_extend(&Rest::of(self), all).unwrap_or_default();

@@ -33,7 +33,7 @@ pub use snapshot::Snapshot;
 #[cfg(feature = "serde")]
 pub(crate) use take::invalid;
 
-use sorb_kernels::column::Life;
+use sorb_kernels::{column::Life, columns::Column};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::{rigid::RigidError, world::World};
@@ -72,7 +72,8 @@ fn digest_of<'a>(sections: impl Iterator<Item = (&'a str, u64)>, bytes: &[u8]) -
     let mut rest = bytes;
     for (name, size) in sections {
         let (own, after) = rest.split_at(rest.len().min(size as usize));
-        if !body::saved_columns().any(|column| column.name() == name && column.life() == Life::Kept) {
+        let is_kept = |column: Column| column.name() == name && column.life() == Life::Kept;
+        if name != body::LOADS && !body::saved_columns().any(is_kept) {
             hasher.update(own);
         }
         rest = after;

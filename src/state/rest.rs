@@ -34,7 +34,7 @@ impl Rest {
             constant: (constant, bound as u8),
             sleep: world.sleep.saved(),
             commands: world.commands.clone(),
-            fluid_forces: world.fluid_forces.saved(),
+            fluid_forces: world.loads.saved(),
         }
     }
 

@@ -11,7 +11,7 @@ use crate::{
     command::Commands,
     rigid::RigidEngine,
     water::Water,
-    world::{StepError, World, forces::FluidForces, sleep::Sleep},
+    world::{StepError, World, forces::Loads, sleep::Sleep},
 };
 
 /// The state of a world at some time, in memory. Filled again and again, it allocates for the columns only once; the engine
@@ -28,7 +28,7 @@ struct Kept {
     steps: Steps,
     asleep: Asleep,
     commands: Commands,
-    fluid_forces: FluidForces,
+    loads: Loads,
     step: f32,
     gravity: glam::Vec3,
     failed: Option<StepError>,
@@ -78,7 +78,7 @@ impl World {
                 steps: self.steps.clone(),
                 asleep: self.params.asleep.clone(),
                 commands: self.commands.clone(),
-                fluid_forces: self.fluid_forces.clone(),
+                loads: self.loads.clone(),
                 step: self.params.step,
                 gravity: self.params.gravity,
                 failed: self.failed.clone(),
@@ -90,7 +90,7 @@ impl World {
         copy_engine(&mut kept.engine, &*self.engine);
         kept.sleep.copy(&self.sleep);
         kept.commands.copy(&self.commands);
-        kept.fluid_forces.copy(&self.fluid_forces);
+        kept.loads.copy(&self.loads);
         (kept.clock, kept.steps) = (self.clock, self.steps.clone());
         kept.asleep.clone_from(&self.params.asleep);
         (kept.step, kept.gravity) = (self.params.step, self.params.gravity);
@@ -117,7 +117,7 @@ impl World {
         copy_engine(&mut self.engine, &*kept.engine);
         self.sleep.copy(&kept.sleep);
         self.commands.copy(&kept.commands);
-        self.fluid_forces.copy(&kept.fluid_forces);
+        self.loads.copy(&kept.loads);
         (self.clock, self.steps) = (kept.clock, kept.steps.clone());
         (self.params.step, self.params.gravity) = (kept.step, kept.gravity);
         self.light.set_gravity(kept.gravity);

@@ -4,12 +4,15 @@ use glam::Vec3;
 use sorb_kernels::columns::{Column, RowCounts};
 
 use super::{
-    body::{ENGINE, ENGINE_OF_HOST, REST, SLEEP, WATER, saved_columns},
+    body::{ENGINE, ENGINE_OF_HOST, LOADS, REST, SLEEP, WATER, saved_columns},
     columns::{copy_words, fits, take_column},
     error::StateError,
     rest::Rest,
 };
-use crate::{water::Water, world::World};
+use crate::{
+    water::Water,
+    world::{World, forces::SavedLoads},
+};
 
 /// Sections by name.
 #[derive(Debug)]
@@ -35,6 +38,7 @@ impl World {
         let rows = self.rows_in(parts);
         self.check_sections(parts, rows)?;
         let water = water_in(parts, rows.fluid)?;
+        let loads = loads_in(parts, rows.bodies)?;
         let rest: Rest =
             postcard::from_bytes(parts.of(REST)).map_err(|error| invalid(REST, error.to_string()))?;
         if let Some(defect) = rest.defect(self) {
@@ -57,7 +61,7 @@ impl World {
         self.light.set_gravity(gravity);
         (self.clock, self.sleep, self.commands, self.failed) = (clock, sleep, commands, None);
         (self.params.gravity, self.params.step) = (gravity, step);
-        self.fluid_forces.take(fluid_forces);
+        self.loads.take(fluid_forces, &loads);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();
         }
@@ -94,6 +98,7 @@ impl World {
                 || name == ENGINE_OF_HOST
                 || name == REST
                 || name == WATER
+                || name == LOADS
                 || SLEEP.contains(&name)
                 || saved_columns().any(|column| column.name() == name)
         };
@@ -128,6 +133,19 @@ impl World {
             None => Ok(()),
         }
     }
+}
+
+/// What pushed the bodies of a state beside the fluid.
+fn loads_in(parts: &Parts<'_>, bodies: usize) -> Result<SavedLoads, StateError> {
+    let bytes = parts.of(LOADS);
+    if bytes.is_empty() {
+        return Ok(SavedLoads::new());
+    }
+    let loads: SavedLoads = postcard::from_bytes(bytes).map_err(|error| invalid(LOADS, error.to_string()))?;
+    if loads.len() != bodies {
+        return Err(invalid(LOADS, format!("{} bodies, and there are {bodies}", loads.len())));
+    }
+    Ok(loads)
 }
 
 /// What commands have done to the water of a state of as many particles.

@@ -115,7 +115,7 @@ impl World {
             plans,
             clock: Clock::default(),
             commands: Commands::default(),
-            fluid_forces: forces::FluidForces::default(),
+            loads: forces::Loads::default(),
             failed: None,
             options: options.clone(),
             #[cfg(feature = "gpu")]

@@ -42,6 +42,7 @@ use crate::{
 };
 
 pub use error::{StepError, WorldError};
+pub use forces::{BodyLoads, Load};
 use moving::{column_pressure, fastest, fastest_body, wrenches};
 pub(crate) use moving::{move_bodies, take_masses};
 
@@ -115,8 +116,8 @@ pub struct World {
     pub(crate) clock: Clock,
     pub(crate) sleep: sleep::Sleep,
     pub(crate) commands: Commands,
-    /// What the fluid gave the bodies; decides nothing.
-    pub(crate) fluid_forces: forces::FluidForces,
+    /// What the bodies were given; decides nothing.
+    pub(crate) loads: forces::Loads,
     pub(crate) failed: Option<StepError>,
     pub(crate) options: Options,
     /// The options by which the step is placed, after [`Self::move_to`] as well.
@@ -151,7 +152,7 @@ impl World {
         let is_over = self.sleep_until(end);
         // What is slept through leaves the forces as they were.
         if !is_over {
-            self.fluid_forces.begin_frame();
+            self.loads.begin_frame();
         }
         if !is_over && let Some(report) = self.frame_on_device() {
             return self.remember(report);
@@ -241,7 +242,7 @@ impl World {
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
         let (bodies, sleep) = (&mut self.stores.host.bodies.states.0, &self.sleep);
         take_masses(self.engine.as_ref(), bodies, |index| sleep.has(sleep::Kind::Body(index)));
-        let Self { runner, cpu, params, stores, engine, light, fluid_forces, commands, .. } = self;
+        let Self { runner, cpu, params, stores, engine, light, loads, commands, .. } = self;
         let mut rigid = Ok(());
         let mut host = |columns: &mut Columns| {
             if are_bodies_still {
@@ -249,9 +250,8 @@ impl World {
                 return;
             }
             let given = wrenches(columns);
-            fluid_forces.add(&given, step);
             let given = (&given[..], &commands.forces[..]);
-            rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, given, step);
+            rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, given, (step, &mut *loads));
         };
         if let Some(device) = &mut stores.device {
             device.step_with(cpu, &mut stores.host, params)?;

@@ -6,7 +6,10 @@ use sorb_kernels::{
     columns::{BodyStore, Columns},
 };
 
-use super::commands::add_forces;
+use super::{
+    commands::add_forces,
+    forces::{Loads, Momentum},
+};
 use crate::rigid::{LightBodies, RigidEngine, RigidError, check_state};
 
 /// Largest speed of particles or nodes \[m/s\].
@@ -45,17 +48,36 @@ pub(crate) fn take_masses(engine: &dyn RigidEngine, bodies: &mut [Body], is_held
     }
 }
 
+/// Momenta of bodies that forces move.
+fn momenta(engine: &dyn RigidEngine, bodies: &[Body]) -> Vec<Momentum> {
+    let bodies = bodies.iter().enumerate();
+    bodies.map(|(index, body)| Momentum::of(engine, index, body.inverse_mass)).collect()
+}
+
 /// Passes the wrenches of fluid and sponges, and the forces of commands, to the engine, and stores the new states of the bodies.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
     light: &LightBodies,
     bodies: &mut BodyStore,
     (given, forces): (&[(Wrench, Wrench)], &[[Vec3; 2]]),
-    step: f32,
+    (step, loads): (f32, &mut Loads),
 ) -> Result<(), RigidError> {
     let mut wrenches = light.wrenches(engine, given, step);
+    let mut by_host = vec![Wrench::default(); wrenches.len()];
+    add_forces(forces, &bodies.states.0, &mut by_host, step);
     add_forces(forces, &bodies.states.0, &mut wrenches, step);
+    let before = momenta(engine, &bodies.states.0);
     engine.step(step, &wrenches)?;
+    let after = momenta(engine, &bodies.states.0);
+    let loads_of = |index: usize| {
+        let inverse_mass = bodies.states.0[index].inverse_mass;
+        let mass = if inverse_mass > 0.0 { 1.0 / inverse_mass } else { 0.0 };
+        let weight = light.gravity() * (mass * step);
+        let contact = before[index].beside(after[index], weight, &wrenches[index]);
+        let (by_fluid, by_nodes) = given[index];
+        [by_fluid, by_nodes, by_host[index], contact]
+    };
+    loads.add((0..given.len().min(before.len())).map(loads_of), step);
     for (index, body) in bodies.states.0.iter_mut().enumerate() {
         let state = engine.state(index);
         // The engine may be that of a host.

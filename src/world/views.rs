@@ -7,7 +7,7 @@ use sorb_kernels::{
     sph,
 };
 
-use super::World;
+use super::{BodyLoads, World};
 use crate::{
     clock::Clock,
     digest,
@@ -216,7 +216,14 @@ impl World {
     /// On a GPU, bodies that never move are told of the last step of a frame only.
     #[must_use]
     pub fn body_fluid_forces(&self) -> Vec<glam::DVec3> {
-        self.fluid_forces.means()
+        self.loads.means().into_iter().map(|loads| loads.fluid.force).collect()
+    }
+
+    /// Forces and torques on every body by their source, in the order of the scene: means over the steps since the last frame began.
+    /// Empty before the first step, and without bodies. On a GPU as [`Self::body_fluid_forces`].
+    #[must_use]
+    pub fn body_loads(&self) -> Vec<BodyLoads> {
+        self.loads.means()
     }
 
     /// The engine that moves the bodies.
