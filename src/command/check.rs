@@ -21,7 +21,9 @@ const UNIT: f32 = 1e-3;
 /// Problems so far, and the world that they are of.
 struct Check<'a> {
     world: &'a World,
-    /// Whether the water is that in which the command is carried out.
+    /// Whether the flows are those beside which the command is carried out.
+    knows_flows: bool,
+    /// Whether the water is that in which it is.
     knows_water: bool,
     problems: Vec<Problem>,
 }
@@ -29,26 +31,38 @@ struct Check<'a> {
 impl World {
     /// Refuses a command that this world cannot carry out.
     pub(crate) fn check_command(&self, command: &Command) -> Result<(), CommandError> {
-        self.check_in(command, !self.has_water_commands())
+        let mut check = Check::new(self, true, !self.has_water_commands());
+        check.all(command);
+        check.result()
     }
 
     /// The same where it is not known what the water will be like.
     #[cfg(feature = "serde")]
     pub(crate) fn check_later(&self, command: &Command) -> Result<(), CommandError> {
-        self.check_in(command, false)
+        let mut check = Check::new(self, false, false);
+        check.all(command);
+        check.result()
+    }
+}
+
+impl<'a> Check<'a> {
+    fn new(world: &'a World, knows_flows: bool, knows_water: bool) -> Self {
+        Self { world, knows_flows, knows_water, problems: Vec::new() }
     }
 
-    fn check_in(&self, command: &Command, knows_water: bool) -> Result<(), CommandError> {
-        let mut check = Check { world: self, knows_water, problems: Vec::new() };
-        check.command(command);
-        if check.problems.is_empty() && self.has_own_engine {
-            check.engine(command);
-        }
-        if check.problems.is_empty() { Ok(()) } else { Err(CommandError { problems: check.problems }) }
+    fn result(self) -> Result<(), CommandError> {
+        if self.problems.is_empty() { Ok(()) } else { Err(CommandError { problems: self.problems }) }
     }
 }
 
 impl Check<'_> {
+    fn all(&mut self, command: &Command) {
+        self.command(command);
+        if self.problems.is_empty() && self.world.has_own_engine {
+            self.engine(command);
+        }
+    }
+
     fn command(&mut self, command: &Command) {
         use BodyKind::{Dynamic, Kinematic};
         match command {
@@ -84,6 +98,15 @@ impl Check<'_> {
                 self.region("pour.region", region);
                 self.pour(region);
             }
+            Command::Emit { number, emitter } => {
+                self.problems.extend(emitter.problems("emit.emitter."));
+                self.begins("emit", *number, ("emitter", emitter.end));
+            }
+            Command::Drain { number, drain } => {
+                self.problems.extend(drain.problems("drain.drain."));
+                self.begins("drain", *number, ("drain", drain.end));
+            }
+            Command::EndFlow { number } => self.ends(*number),
             Command::Remove { region } => {
                 self.region("remove.region", region);
                 self.remove(region);
@@ -212,6 +235,34 @@ impl Check<'_> {
             if room.points.is_empty() {
                 self.rule("pour.region", value, room.to_string());
             }
+        }
+    }
+
+    /// A flow with the next number in a scene with fluid, which has not ended before it begins.
+    fn begins(&mut self, key: &str, number: u32, (kind, end): (&str, f32)) {
+        let world = self.world;
+        if world.scene().fluid.is_none() {
+            self.rule(key, number.to_string(), "the scene has no `fluid`".to_owned());
+        }
+        if !self.knows_flows || !self.problems.is_empty() {
+            return;
+        }
+        let next = world.next_flow();
+        if number != next {
+            let rule = format!("no number is used twice; the next one is {next}");
+            self.rule(&format!("{key}.number"), number.to_string(), rule);
+        }
+        if f64::from(end) <= world.clock().time {
+            let rule = format!("must be after the present time, {} s", world.clock().time);
+            self.rule(&format!("{key}.{kind}.end"), end.to_string(), rule);
+        }
+    }
+
+    /// A flow that has not ended.
+    fn ends(&mut self, number: u32) {
+        if self.knows_flows && !self.world.has_flow(number) {
+            let rule = "no such emitter or drain; it has ended, or never began".to_owned();
+            self.rule("end_flow.number", number.to_string(), rule);
         }
     }
 

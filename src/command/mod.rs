@@ -9,7 +9,10 @@ mod region;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::{rigid::Target, scene::Problem};
+use crate::{
+    rigid::Target,
+    scene::{Drain, Emitter, Problem},
+};
 
 pub use region::Region;
 
@@ -83,6 +86,25 @@ pub enum Command {
     Remove {
         /// Where.
         region: Region,
+    },
+    /// Begins a stream of water.
+    Emit {
+        /// Its number, which is that of [`World::next_flow`](crate::World::next_flow).
+        number: u32,
+        /// The stream. It begins at once if `start` is past.
+        emitter: Emitter,
+    },
+    /// Opens a drain.
+    Drain {
+        /// Its number, which is that of [`World::next_flow`](crate::World::next_flow).
+        number: u32,
+        /// The drain. It opens at once if `start` is past.
+        drain: Drain,
+    },
+    /// Ends an emitter or a drain.
+    EndFlow {
+        /// Its number. One that has ended, by itself as well, is an error.
+        number: u32,
     },
     /// Nodes that nothing holds any more, whatever held them.
     Release {

@@ -345,9 +345,16 @@ impl Scene {
         let floor = minimum.y;
         let tops = fluid.blocks.iter().map(|block| block.maximum.y);
         let soaked = self.sponges.iter().filter(|sponge| sponge.saturation > 0.0).map(|s| s.maximum().y);
-        let height = tops.chain(soaked).map(|top| (top - floor).min(maximum.y - floor)).fold(0.0, f32::max);
+        let streams = self.emitters.iter().map(|emitter| emitter.position.y);
+        let height = tops
+            .chain(soaked)
+            .chain(streams)
+            .map(|top| (top - floor).min(maximum.y - floor))
+            .fold(0.0, f32::max);
         let fall = 2.0 * self.gravity.length() * height;
-        let start = fluid.blocks.iter().map(|block| block.velocity.length_squared()).fold(0.0, f32::max);
+        let of_streams = self.emitters.iter().map(|emitter| emitter.velocity.length_squared());
+        let of_blocks = fluid.blocks.iter().map(|block| block.velocity.length_squared());
+        let start = of_blocks.chain(of_streams).fold(0.0, f32::max);
         let pull = self.sponges.iter().map(|sponge| 2.0 * sponge.entry_pressure / fluid.rest_density);
         let fastest = (fall + start).max(pull.fold(0.0, f32::max)).sqrt();
         (10.0 * fastest).max(5.0)

@@ -1,5 +1,6 @@
 //! The table of ranges. Validation, schema and a test of the docs use it.
 
+use super::flows::{DRAIN, EMITTER};
 use super::number::Numbers;
 use super::{Body, Camera, Domain, Fluid, FluidBlock, Motion, Rotation, Scene, ShapeKind, Sponge, Time};
 
@@ -41,6 +42,8 @@ pub fn limits() -> impl Iterator<Item = &'static Limit> {
         .chain(of(DOMAIN))
         .chain(of(FLUID))
         .chain(of(FLUID_BLOCK))
+        .chain(of(EMITTER))
+        .chain(of(DRAIN))
         .chain(of(SPONGE))
         .chain(of(BODY))
         .chain(of(SHAPE))
@@ -74,6 +77,8 @@ macro_rules! fields {
         }),+]
     };
 }
+
+pub(super) use fields;
 
 /// Rows of an enumeration: the key and the variants that have it.
 macro_rules! variants {

@@ -26,6 +26,7 @@ mod body_rules;
 mod camera;
 mod error;
 mod estimate;
+mod flows;
 mod fluid;
 mod limits;
 mod motion;
@@ -61,6 +62,7 @@ pub use bodies::{Body, Look, Rotation, ShapeKind};
 pub use camera::Camera;
 pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
+pub use flows::{Drain, Emitter};
 pub use fluid::{
     Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm, ViscosityIntegration,
 };

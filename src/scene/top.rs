@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Body, Camera, Fluid, Sponge};
+use super::{Body, Camera, Drain, Emitter, Fluid, Sponge};
 
 /// Version of the scene format that this library reads and writes.
 pub const VERSION: u32 = 1;
@@ -34,6 +34,12 @@ pub struct Scene {
     /// The water; absent in a dry scene, which skips all its phases.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub fluid: Option<Fluid>,
+    /// Streams of water that come in; default none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub emitters: Vec<Emitter>,
+    /// Boxes out of which water is taken; default none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub drains: Vec<Drain>,
     /// Sponges; default none.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub sponges: Vec<Sponge>,
@@ -56,6 +62,8 @@ impl Default for Scene {
             time: Time::default(),
             domain: Domain::default(),
             fluid: None,
+            emitters: Vec::new(),
+            drains: Vec::new(),
             sponges: Vec::new(),
             bodies: Vec::new(),
             camera: None,
@@ -98,6 +106,20 @@ impl Scene {
     #[must_use]
     pub fn with_fluid(self, fluid: Fluid) -> Self {
         Self { fluid: Some(fluid), ..self }
+    }
+
+    /// Adds an emitter.
+    #[must_use]
+    pub fn with_emitter(mut self, emitter: Emitter) -> Self {
+        self.emitters.push(emitter);
+        self
+    }
+
+    /// Adds a drain.
+    #[must_use]
+    pub fn with_drain(mut self, drain: Drain) -> Self {
+        self.drains.push(drain);
+        self
     }
 
     /// Adds a sponge.

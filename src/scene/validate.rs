@@ -54,6 +54,12 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
             check(block, limits::FLUID_BLOCK, &format!("fluid.blocks[{index}]."), problems);
         }
     }
+    for (index, emitter) in scene.emitters.iter().enumerate() {
+        problems.extend(emitter.problems(&format!("emitters[{index}].")));
+    }
+    for (index, drain) in scene.drains.iter().enumerate() {
+        problems.extend(drain.problems(&format!("drains[{index}].")));
+    }
     for (index, sponge) in scene.sponges.iter().enumerate() {
         check(sponge, limits::SPONGE, &format!("sponges[{index}]."), problems);
     }
@@ -72,7 +78,7 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// Compares every number of one table with its range.
-fn check<T>(owner: &T, rows: &[Row<T>], table: &str, problems: &mut Vec<Problem>) {
+pub(super) fn check<T>(owner: &T, rows: &[Row<T>], table: &str, problems: &mut Vec<Problem>) {
     for Row { limit, field } in rows {
         let Some(numbers) = field(owner) else { continue };
         numbers.numbers(&format!("{table}{}", limit.field()), &mut |key, value| {
@@ -98,6 +104,10 @@ fn rules(scene: &Scene, problems: &mut Vec<Problem>) {
     repeating(scene, problems);
     if let Some(fluid) = &scene.fluid {
         water(fluid, scene, problems);
+    }
+    let flows = [("emitters", scene.emitters.len()), ("drains", scene.drains.len())];
+    for (key, count) in flows.into_iter().filter(|(_, count)| *count > 0 && scene.fluid.is_none()) {
+        problems.push(Problem::rule(key, count.to_string(), "needs `fluid`, which may be without blocks"));
     }
     sponges(scene, problems);
     for (index, body) in scene.bodies.iter().enumerate() {

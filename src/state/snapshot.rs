@@ -82,7 +82,7 @@ impl World {
                 step: self.params.step,
                 gravity: self.params.gravity,
                 failed: self.failed.clone(),
-                water: self.water,
+                water: self.water.clone(),
             }));
             return;
         };
@@ -95,7 +95,7 @@ impl World {
         kept.asleep.clone_from(&self.params.asleep);
         (kept.step, kept.gravity) = (self.params.step, self.params.gravity);
         kept.failed.clone_from(&self.failed);
-        kept.water = self.water;
+        kept.water.clone_from(&self.water);
     }
 
     /// Returns to the state of a snapshot of this world, or of another of the same scene: it continues with the same bits.
@@ -122,7 +122,7 @@ impl World {
         (self.params.step, self.params.gravity) = (kept.step, kept.gravity);
         self.light.set_gravity(kept.gravity);
         self.failed.clone_from(&kept.failed);
-        self.water = kept.water;
+        self.water.clone_from(&kept.water);
         self.params.asleep.clone_from(&kept.asleep);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();

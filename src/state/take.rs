@@ -10,6 +10,7 @@ use super::{
     rest::Rest,
 };
 use crate::{
+    scene::Scene,
     water::Water,
     world::{World, forces::SavedLoads},
 };
@@ -37,7 +38,7 @@ impl World {
     pub(super) fn take_state(&mut self, parts: &Parts<'_>) -> Result<(), StateError> {
         let rows = self.rows_in(parts);
         self.check_sections(parts, rows)?;
-        let water = water_in(parts, rows.fluid)?;
+        let water = water_in(&self.scene, parts, rows.fluid)?;
         let loads = loads_in(parts, rows.bodies)?;
         let rest: Rest =
             postcard::from_bytes(parts.of(REST)).map_err(|error| invalid(REST, error.to_string()))?;
@@ -122,7 +123,7 @@ impl World {
                 return Err(invalid(column.name(), format!("{bytes} bytes for {rows} rows of {row} bytes")));
             }
         }
-        self.check_ids(parts, water_in(parts, rows.fluid)?.identities())?;
+        self.check_ids(parts, water_in(&self.scene, parts, rows.fluid)?.identities())?;
         let holds = |body: u32| body == u32::MAX || (body as usize) < columns.rows.bodies;
         let mut grips = parts.of(Column::NodeGrip.name()).as_chunks::<4>().0.iter();
         match grips.find(|grip| !holds(u32::from_le_bytes(**grip))) {
@@ -149,10 +150,10 @@ fn loads_in(parts: &Parts<'_>, bodies: usize) -> Result<SavedLoads, StateError> 
 }
 
 /// What commands have done to the water of a state of as many particles.
-fn water_in(parts: &Parts<'_>, rows: usize) -> Result<Water, StateError> {
+fn water_in(scene: &Scene, parts: &Parts<'_>, rows: usize) -> Result<Water, StateError> {
     let bytes = parts.of(WATER);
     if bytes.is_empty() {
-        return Ok(Water::of_scene(rows));
+        return Ok(Water::of_scene(scene, rows));
     }
     let water: Water = postcard::from_bytes(bytes).map_err(|error| invalid(WATER, error.to_string()))?;
     water.defect(rows).map_or(Ok(water), |defect| Err(invalid(WATER, defect)))

@@ -1,30 +1,41 @@
 //! Water that comes and goes: how much there was, and where there is room for more.
 
+mod flow;
 mod ranks;
 mod room;
 
 use serde::{Deserialize, Serialize};
 
+use crate::scene::Scene;
+
+pub(crate) use flow::{Flow, FlowKind, layer};
 pub(crate) use ranks::ranks;
+pub(crate) use room::Room;
 
 /// Counts of particles since time zero. Saved once a command has changed any.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Water {
     /// Particles of the scene.
     pub(crate) seeded: u64,
     pub(crate) poured: u64,
     pub(crate) removed: u64,
+    pub(crate) drained: u64,
     /// Places of pours in which there was no room.
     pub(crate) left_out: u64,
+    /// Emitters and drains that have not ended.
+    pub(crate) flows: Vec<Flow>,
+    /// Number of the next one.
+    pub(crate) next_flow: u32,
 }
 
 impl Water {
-    /// Of a world that commands have not changed.
-    pub(crate) fn of_scene(rows: usize) -> Self {
-        Self { seeded: rows as u64, ..Self::default() }
+    /// Of a world that commands and flows have not changed.
+    pub(crate) fn of_scene(scene: &Scene, rows: usize) -> Self {
+        let flows = flow::of_scene(scene);
+        Self { seeded: rows as u64, next_flow: flows.len() as u32, flows, ..Self::default() }
     }
 
-    /// Whether commands have changed anything.
+    /// Whether commands or flows have changed anything, or may.
     pub(crate) fn is_changed(&self) -> bool {
         *self != Self { seeded: self.seeded, ..Self::default() }
     }
@@ -37,11 +48,20 @@ impl Water {
     /// What is impossible with as many particles, if anything is.
     #[cfg(feature = "serde")]
     pub(crate) fn defect(&self, rows: usize) -> Option<String> {
-        let Self { seeded, poured, removed, .. } = *self;
+        let Self { seeded, poured, removed, drained, .. } = *self;
         let given = seeded.checked_add(poured).filter(|given| *given <= u64::from(u32::MAX));
         let Some(given) = given else { return Some(format!("{seeded} and {poured} particles")) };
-        let present = given.checked_sub(removed);
-        (present != Some(rows as u64)).then(|| format!("{given} particles, {removed} removed, {rows} there"))
+        let numbers: Vec<u32> = self.flows.iter().map(|flow| flow.number).collect();
+        let is_twice = numbers.windows(2).any(|pair| pair[0] >= pair[1]);
+        if is_twice || numbers.last().is_some_and(|last| *last >= self.next_flow) {
+            return Some(format!("flows are not of different numbers below {}", self.next_flow));
+        }
+        if let Some(defect) = self.flows.iter().find_map(Flow::defect) {
+            return Some(defect);
+        }
+        let present = given.checked_sub(removed).and_then(|rest| rest.checked_sub(drained));
+        (present != Some(rows as u64))
+            .then(|| format!("{given} particles, {removed} removed, {drained} drained, {rows} there"))
     }
 }
 
@@ -53,16 +73,18 @@ pub struct Ledger {
     pub particle_mass: f32,
     /// Those that the scene began with.
     pub seeded: u64,
-    /// Those that were poured.
+    /// Those that were poured, by commands and by emitters.
     pub poured: u64,
     /// Those that were removed.
     pub removed: u64,
+    /// Those that drains have taken.
+    pub drained: u64,
     /// Those that are there.
     pub present: u64,
     /// Those of the present ones that sponges hold.
     pub absorbed: u64,
     /// Places of pours that were left out, because a body, a sponge, water or a wall was there. They never were particles.
     pub left_out: u64,
-    /// `seeded + poured - removed - present`: always 0.
+    /// `seeded + poured - removed - drained - present`: always 0.
     pub lost: i64,
 }

@@ -69,14 +69,19 @@ impl Points {
 impl World {
     /// The room for new particles in a region, as the state is.
     pub(crate) fn room(&self, region: &Region) -> Room {
-        let (spacing, (low, high)) = (self.params.fluid.spacing, region.bounds());
+        self.room_for(region.lattice(self.params.fluid.spacing), region.bounds())
+    }
+
+    /// The room for new particles at points in a box.
+    pub(crate) fn room_for(&self, points: impl Iterator<Item = Vec3>, (low, high): (Vec3, Vec3)) -> Room {
+        let spacing = self.params.fluid.spacing;
         let beside = Beside::new(&self.params, self.bodies());
         let edge = self.params.sponges.iter().map(|sponge| sponge.edge).fold(0.0, f32::max);
         let nodes = self.node_positions();
         let tets = TetGrid::new((nodes, &self.lattice().tets), (low, high), edge.max(1e-4));
         let water = self.water_near((low - spacing, high + spacing), APART * spacing);
         let mut room = Room::default();
-        for point in region.lattice(spacing) {
+        for point in points {
             let Some(point) = beside.outside(point) else {
                 room.in_bodies += 1;
                 continue;

@@ -133,7 +133,7 @@ impl World {
     /// The clock of the state at time zero.
     fn begin_clock(&mut self) {
         let Columns { rows, fluid, nodes, bodies, .. } = &self.stores.host;
-        self.water = Water::of_scene(rows.fluid);
+        self.water = Water::of_scene(&self.scene, rows.fluid);
         self.clock.fluid_speed = fastest(&fluid.velocity[..rows.fluid]);
         self.clock.fluid_acceleration = self.scene.gravity.length();
         self.clock.node_speed = fastest(&nodes.velocity[..rows.nodes]);

@@ -10,6 +10,7 @@ use super::{StepError, World, fastest_body, sleep::Kind};
 use crate::{
     command::{Command, CommandError, Nodes},
     rigid::{RigidError, Target},
+    water::FlowKind,
 };
 
 impl World {
@@ -39,6 +40,27 @@ impl World {
     /// Whether commands that change the water wait for the next step.
     pub(crate) fn has_water_commands(&self) -> bool {
         self.commands.pending.iter().any(changes_water)
+    }
+
+    /// Flows that commands begin which wait for the next step.
+    pub(crate) fn pending_flows(&self) -> u32 {
+        let begins = |command: &&Command| matches!(command, Command::Emit { .. } | Command::Drain { .. });
+        self.commands.pending.iter().filter(begins).count() as u32
+    }
+
+    /// Whether an emitter or a drain of a number has not ended, nor will before the next step.
+    pub(crate) fn has_flow(&self, number: u32) -> bool {
+        let mut is_there = self.water.flows.iter().any(|flow| flow.number == number);
+        for command in &self.commands.pending {
+            match command {
+                Command::Emit { number: own, .. } | Command::Drain { number: own, .. } => {
+                    is_there |= *own == number;
+                }
+                Command::EndFlow { number: own } => is_there &= *own != number,
+                _ => {}
+            }
+        }
+        is_there
     }
 
     /// Carries out what was pushed.
@@ -98,6 +120,9 @@ impl World {
             Command::Release { nodes } => self.release(nodes),
             Command::Pour { region, velocity } => self.pour(region, *velocity)?,
             Command::Remove { region } => self.remove_water(region)?,
+            Command::Emit { number, emitter } => self.begin_flow(*number, FlowKind::Emitter(*emitter)),
+            Command::Drain { number, drain } => self.begin_flow(*number, FlowKind::Drain(*drain)),
+            Command::EndFlow { number } => self.water.flows.retain(|flow| flow.number != *number),
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ mod commands;
 mod error;
 #[cfg(all(test, feature = "serde"))]
 mod failing;
+mod flows;
 pub(crate) mod forces;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
@@ -204,7 +205,7 @@ impl World {
 
     /// Carries out commands.
     fn begin_step(&mut self) -> Result<(), StepError> {
-        let result = self.carry_out();
+        let result = self.carry_out().and_then(|()| self.flow());
         self.remember(result)
     }
 

@@ -14,7 +14,7 @@ use crate::{
     schedule::Plans,
     setup::jitter,
     state::StateError,
-    water::{Ledger, ranks},
+    water::{Ledger, Room, ranks},
 };
 
 impl World {
@@ -45,10 +45,11 @@ impl World {
             seeded: water.seeded,
             poured: water.poured,
             removed: water.removed,
+            drained: water.drained,
             present,
             absorbed: inside.filter(|interior| **interior > sorb_kernels::params::INSIDE).count() as u64,
             left_out: water.left_out,
-            lost: (water.identities() - water.removed) as i64 - present as i64,
+            lost: (water.identities() - water.removed - water.drained) as i64 - present as i64,
         }
     }
 
@@ -61,6 +62,11 @@ impl World {
     /// Pours water where there is room.
     pub(super) fn pour(&mut self, region: &Region, velocity: Vec3) -> Result<(), StepError> {
         let room = self.room(region);
+        self.add_water(&room, velocity)
+    }
+
+    /// Adds water where there is room.
+    pub(super) fn add_water(&mut self, room: &Room, velocity: Vec3) -> Result<(), StepError> {
         self.water.left_out += room.left_out();
         let first = self.water.identities();
         // Identities are words, the last of which is that of padding.
@@ -96,12 +102,23 @@ impl World {
 
     /// Removes the water in a region.
     pub(super) fn remove_water(&mut self, region: &Region) -> Result<(), StepError> {
+        let taken = self.take_water(region, usize::MAX)?;
+        self.water.removed += taken as u64;
+        Ok(())
+    }
+
+    /// Takes particles out of a region, the first of them in the order of the rows; returns how many.
+    pub(super) fn take_water(&mut self, region: &Region, most: usize) -> Result<usize, StepError> {
         let columns = &mut self.stores.host;
-        let before = columns.rows.fluid;
-        let stays = |row: &[f32; 4]| !region.contains(Vec3::new(row[0], row[1], row[2]));
+        let (before, mut left) = (columns.rows.fluid, most);
+        let stays = |row: &[f32; 4]| {
+            let goes = left > 0 && region.contains(Vec3::new(row[0], row[1], row[2]));
+            left -= usize::from(goes);
+            !goes
+        };
         let stays: Vec<bool> = columns.fluid.position[..before].iter().map(stays).collect();
         if !stays.contains(&false) {
-            return Ok(());
+            return Ok(0);
         }
         let mut stays_by_rank = vec![true; before];
         for (rank, stays) in ranks(&columns.fluid.id[..before]).into_iter().zip(&stays) {
@@ -109,8 +126,9 @@ impl World {
         }
         self.sleep.keep_particles(&stays_by_rank);
         columns.keep_fluid_rows(&stays);
-        self.water.removed += (before - columns.rows.fluid) as u64;
-        self.water_has_changed(before)
+        let taken = before - columns.rows.fluid;
+        self.water_has_changed(before)?;
+        Ok(taken)
     }
 
     /// What follows from another number of particles.

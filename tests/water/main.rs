@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod flows;
 mod matrix;
 mod pours;
 mod refused;
@@ -49,7 +50,7 @@ fn pour(region: Region) -> Command {
 fn audit(world: &World) {
     let ledger = world.ledger();
     assert_eq!(ledger.lost, 0);
-    assert_eq!(ledger.present, ledger.seeded + ledger.poured - ledger.removed);
+    assert_eq!(ledger.present, ledger.seeded + ledger.poured - ledger.removed - ledger.drained);
     assert_eq!(world.particle_positions().len() as u64, ledger.present);
     let mut ids = world.particle_ids().to_vec();
     ids.sort_unstable();

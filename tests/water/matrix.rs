@@ -3,7 +3,7 @@
 use sorb::{
     Command, Nodes, Options, Player, Recorder, Region, SimdLevel, Snapshot, World,
     glam::Vec3,
-    scene::{FluidSolver, Scene},
+    scene::{Drain, Emitter, FluidSolver, Scene},
 };
 
 use super::{audit, busy_cup};
@@ -30,7 +30,7 @@ impl Random {
 }
 
 /// A command, good or bad.
-fn command(random: &mut Random) -> Command {
+fn command(random: &mut Random, next: u32) -> Command {
     let (point, other, radius) = (random.point(), random.point(), 0.005 + 0.02 * random.unit());
     let region = match random.next() % 3 {
         0 => Region::Sphere { centre: point, radius },
@@ -38,20 +38,39 @@ fn command(random: &mut Random) -> Command {
         _ => Region::Box { minimum: point.min(other), maximum: point.max(other) },
     };
     let velocity = (random.point() - Vec3::Y * 0.1) * 10.0;
-    match random.next() % 10 {
+    let (number, seconds) = (next + (random.next() % 4 / 3) as u32, 0.3 * random.unit());
+    match random.next() % 13 {
         0..=3 => Command::Pour { region, velocity },
         4 | 5 => Command::Remove { region },
         6 => Command::Impulse { body: 0, impulse: velocity * 1e-3, angular_impulse: Vec3::ZERO },
         7 => Command::Gravity { gravity: Vec3::new(random.unit() - 0.5, -9.0, random.unit()) },
-        8 => Command::Grip { body: 0, nodes: Nodes::Sphere { centre: point, radius } },
+        8 => {
+            let emitter = Emitter {
+                position: point,
+                velocity,
+                radius: 0.4 * radius,
+                end: seconds,
+                ..Emitter::default()
+            };
+            Command::Emit { number, emitter }
+        }
+        9 => {
+            let (minimum, maximum) = (point.min(other), point.max(other));
+            Command::Drain {
+                number,
+                drain: Drain { minimum, maximum, rate: 0.2, end: seconds, ..Drain::default() },
+            }
+        }
+        10 => Command::EndFlow { number: number.saturating_sub(1) },
+        11 => Command::Grip { body: 0, nodes: Nodes::Sphere { centre: point, radius } },
         _ => Command::Release { nodes: Nodes::Sphere { centre: point, radius: 1.0 } },
     }
 }
 
-/// The commands before a frame, which are functions of seed and frame alone.
-fn commands(seed: u64, frame: u64) -> Vec<Command> {
+/// The commands before a frame, which are functions of seed, frame and the numbers of flows alone.
+fn commands(world: &World, seed: u64, frame: u64) -> Vec<Command> {
     let mut random = Random(seed.wrapping_mul(1000) + frame);
-    (0..random.next() % 4).map(|_| command(&mut random)).collect()
+    (0..random.next() % 4).map(|_| command(&mut random, world.next_flow())).collect()
 }
 
 fn scene(solver: FluidSolver, sleeps: bool) -> Scene {
@@ -71,7 +90,7 @@ fn world(scene: &Scene, threads: usize, simd: SimdLevel) -> World {
 }
 
 fn advance(world: &mut World, seed: u64, frame: u64) {
-    for command in commands(seed, frame) {
+    for command in commands(world, seed, frame) {
         let before = world.digest();
         if world.push(command).is_err() {
             assert_eq!(world.digest(), before, "a refused command changes nothing");
@@ -97,7 +116,7 @@ fn saved(world: &World) -> Vec<u8> {
 fn restored(scene: &Scene, seed: u64) -> u64 {
     let mut own = world(scene, 1, SimdLevel::Fallback);
     for frame in 0..FRAMES {
-        for command in commands(seed, frame) {
+        for command in commands(&own, seed, frame) {
             let _ = own.push(command);
         }
         let bytes = saved(&own);
@@ -127,7 +146,7 @@ fn replayed(scene: &Scene, seed: u64) -> u64 {
     let mut own = world(scene, 2, SimdLevel::best());
     let mut recorder = Recorder::new(&own, Some(5)).unwrap_or_else(|error| panic!("{error}"));
     for frame in 0..FRAMES {
-        for command in commands(seed, frame) {
+        for command in commands(&own, seed, frame) {
             let _ = recorder.push(&mut own, command);
         }
         recorder.advance_frame(&mut own).unwrap_or_else(|error| panic!("{error}"));
