@@ -144,7 +144,8 @@ impl Scene {
             nodes.wetting = (0..rows).map(|_| std::array::from_fn(|_| random.unit())).collect();
         }
         // w: length of the step before.
-        let mut speed = || 0.6 * (random.unit() - 0.5);
+        let mut driven = Random(31);
+        let mut speed = || 0.6 * (driven.unit() - 0.5);
         nodes.driven = (0..rows).map(|_| [speed(), speed(), speed(), 0.002]).collect();
         nodes.sponge = lattice.sponge;
         nodes.sponge.resize(rows, 0);
