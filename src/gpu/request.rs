@@ -23,6 +23,8 @@ impl World {
     /// Buffers of the positions and velocities of the particles on the GPU after the last step: rows of four floats like
     /// those of [`Self::particle_positions`]. For a renderer on the same device, which must not write them. None for a world
     /// on the CPU, and before the first step.
+    ///
+    /// Once water came or went they may be other buffers, and longer: the first [`Self::particle_count`] rows count.
     #[must_use]
     pub fn particle_buffers(&self) -> Option<(&Buffer, &Buffer)> {
         self.resident().map(Resident::particle_buffers)

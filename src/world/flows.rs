@@ -29,14 +29,14 @@ impl World {
     /// The number of the next emitter or drain that a command begins. No number is used twice.
     #[must_use]
     pub fn next_flow(&self) -> u32 {
-        self.water.next_flow + self.pending_flows()
+        self.water.next_flow.saturating_add(self.pending_flows())
     }
 
     /// Begins an emitter or a drain.
     pub(super) fn begin_flow(&mut self, number: u32, kind: FlowKind) {
         // Only a state that was made up has another one.
         if number == self.water.next_flow {
-            self.water.next_flow += 1;
+            self.water.next_flow = number.saturating_add(1);
             self.water.flows.push(Flow::new(number, kind, self.clock.time));
         }
     }

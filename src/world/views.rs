@@ -125,6 +125,12 @@ impl World {
         self.stores.view()
     }
 
+    /// Number of particles; on a GPU without reading anything back.
+    #[must_use]
+    pub fn particle_count(&self) -> usize {
+        self.stores.host.rows.fluid
+    }
+
     /// Pressures of the particles in the last step \[Pa\], in the order of the positions; zero at time zero.
     ///
     /// With `wcsph` that of the equation of state, with `divergence` that of the solve. The solve of `dfsph` computes multipliers: the

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{
     command::Region,
+    scene::MAXIMUM_PARTICLES,
     schedule::Plans,
     setup::jitter,
     state::StateError,
@@ -54,9 +55,9 @@ impl World {
     }
 
     /// Makes room for as many particles as there will be at most: until then pours allocate nothing in the columns. On a GPU it
-    /// makes room on the host only.
+    /// makes room on the host only. At most for 50 million.
     pub fn reserve_particles(&mut self, particles: usize) {
-        self.stores.host.reserve_fluid(particles);
+        self.stores.host.reserve_fluid(particles.min(MAXIMUM_PARTICLES as usize));
     }
 
     /// Pours water where there is room.

@@ -6,7 +6,7 @@ use sorb::{
     Command, Offload, Options, Region, Snapshot, World,
     glam::{UVec3, Vec3},
     internal,
-    scene::{Body, Fluid, FluidBlock, FluidSolver, Scene, ShapeKind, Sponge},
+    scene::{Body, Drain, Emitter, Fluid, FluidBlock, FluidSolver, Scene, ShapeKind, Sponge},
 };
 
 use super::{common, difference, gpu};
@@ -107,6 +107,25 @@ fn one_digest_with_the_solve_for_the_density() {
     one_digest(FluidSolver::Dfsph);
 }
 
+/// A device and the CPU by turns, with kept buffers and new ones.
+#[test]
+fn one_digest_by_turns() {
+    let scene = scene(FluidSolver::Dfsph, 0.02);
+    let by_turns = || Options { offload: Offload::From("sph::forces"), ..options() };
+    let build = || World::with_options(&scene, &by_turns()).unwrap_or_else(|error| panic!("{error}"));
+    let (mut kept, mut anew) = (build(), build());
+    for frame in 0..4 {
+        advance(&mut kept, frame);
+        audit(&kept);
+        let mut bytes = Vec::new();
+        anew.save(&mut bytes).unwrap_or_else(|error| panic!("{error}"));
+        anew = World::restore(&bytes[..], &by_turns()).unwrap_or_else(|error| panic!("{error}"));
+        advance(&mut anew, frame);
+        assert_eq!(kept.digest(), anew.digest(), "frame {frame}");
+    }
+    assert!(kept.ledger().poured > 0);
+}
+
 #[test]
 fn the_cpu_pours_and_removes_the_same() {
     for solver in [FluidSolver::Divergence, FluidSolver::Wcsph] {
@@ -146,4 +165,41 @@ fn buffers_that_suffice_stay() {
     let after = memory(&world);
     assert!(after >= before && after < 2 * before, "{before} and {after} bytes");
     audit(&world);
+}
+
+#[test]
+fn emitters_and_drains_flow_on_a_device() {
+    let emitter = Emitter {
+        position: Vec3::new(0.01, 0.12, 0.01),
+        velocity: Vec3::new(0.0, -0.8, 0.0),
+        end: 0.15,
+        ..Emitter::default()
+    };
+    let (minimum, maximum) = (Vec3::new(-0.05, -0.01, -0.05), Vec3::new(0.05, 0.01, 0.05));
+    let drain = Drain { minimum, maximum, rate: 0.1, ..Drain::default() };
+    let scene = scene(FluidSolver::Dfsph, 0.02).with_emitter(emitter).with_drain(drain);
+    let mut on_gpu = world(&scene);
+    let mut on_cpu = common::world(&scene);
+    let mut twice = on_gpu.clone();
+    for _ in 0..12 {
+        common::frame(&mut on_gpu);
+        common::frame(&mut on_cpu);
+        common::frame(&mut twice);
+        audit(&on_gpu);
+    }
+    assert_eq!(on_gpu.digest(), twice.digest());
+    let (own, other) = (on_gpu.ledger(), on_cpu.ledger());
+    // The CPU lets them flow in every step, the device once a frame.
+    assert!(own.poured.abs_diff(other.poured) < other.poured / 10, "{own:?} {other:?}");
+    assert!(own.drained.abs_diff(other.drained) < other.drained / 5, "{own:?} {other:?}");
+    assert!(own.drained > 0 && on_gpu.emitters().count() == 0);
+    // The same questions have the same answers where the state is the same.
+    let mut bytes = Vec::new();
+    on_gpu.save(&mut bytes).unwrap_or_else(|error| panic!("{error}"));
+    let restored = World::restore(&bytes[..], &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    let points = [Vec3::new(0.0, 0.01, 0.0), Vec3::new(-0.03, 0.02, -0.03)];
+    assert_eq!(on_gpu.probe(&points), restored.probe(&points));
+    let places = [[0.0, 0.0], [0.03, 0.03]];
+    assert_eq!(on_gpu.water_levels(&places), restored.water_levels(&places));
+    assert_eq!(on_gpu.body_loads(), restored.body_loads());
 }

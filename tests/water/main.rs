@@ -52,6 +52,7 @@ fn audit(world: &World) {
     assert_eq!(ledger.lost, 0);
     assert_eq!(ledger.present, ledger.seeded + ledger.poured - ledger.removed - ledger.drained);
     assert_eq!(world.particle_positions().len() as u64, ledger.present);
+    assert_eq!(world.particle_count() as u64, ledger.present);
     let mut ids = world.particle_ids().to_vec();
     ids.sort_unstable();
     ids.dedup();
