@@ -2,7 +2,7 @@
 //! the pressure, and the volume of their material.
 //!
 //! ```text
-//! u_a = u,   K_a = m_a (h / h') (u - u'),   V_s = (1 - phi) V_a
+//! u_a = u,   Q_a = m_a (h / h') (u - u'),   V_s = (1 - phi) V_a
 //! ```
 //!
 //! `u'` is the velocity that the node would have by the pressure alone in the last step, of length h' (`couple::solid_kick`). What it lacks

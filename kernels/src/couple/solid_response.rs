@@ -3,10 +3,10 @@
 //! ```text
 //! F_a = sum_i m P_i c_ia L_i (x_a - x_i)                   images of the node in walls included
 //! I_a = h F_a + sum_i w_ia (1 - b_i) m h a_i               by the pressure, and by the water that drag holds
-//! w_a = u_a + (K_a + I_a) / D_a
+//! w_a = u_a + (Q_a + I_a) / D_a
 //! ```
 //!
-//! with the velocity u of the node before the step and the impulse K that it is expected to receive from everything but the pressure
+//! with the velocity u of the node before the step and the impulse Q that it is expected to receive from everything but the pressure
 //! (`couple::solid_expect`). Both count with the same response: at rest they cancel, whatever `D` is.
 //! Without the response the scheme is the drained split of poroelasticity, which is unstable for an incompressible fluid
 //! (docs/porous.md).
