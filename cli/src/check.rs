@@ -51,7 +51,7 @@ fn check(name: &str) -> Result<String, CliError> {
 }
 
 fn without_water(scene: &Scene) -> Scene {
-    let mut dry = Scene { fluid: None, ..scene.clone() };
+    let mut dry = Scene { fluid: None, emitters: Vec::new(), drains: Vec::new(), ..scene.clone() };
     for sponge in &mut dry.sponges {
         sponge.saturation = 0.0;
     }

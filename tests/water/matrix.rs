@@ -191,3 +191,18 @@ matrix! {
     random_commands_with_an_equation_of_state: Wcsph, false;
     random_commands_with_sleep: Dfsph, true;
 }
+
+/// Seeds that are tried; `SORB_STRESS=1` tries many more.
+fn seeds() -> std::ops::Range<u64> {
+    100..if std::env::var_os("SORB_STRESS").is_some() { 500 } else { 108 }
+}
+
+#[test]
+fn any_commands_give_an_error_or_a_sound_world() {
+    for seed in seeds() {
+        let solvers = [FluidSolver::Divergence, FluidSolver::Dfsph, FluidSolver::Pbf];
+        let scene = scene(solvers[(seed % 3) as usize], seed % 2 == 0);
+        let world = straight(&scene, seed, 2, SimdLevel::best());
+        assert!(world.clock().frames == FRAMES, "seed {seed}");
+    }
+}

@@ -43,6 +43,9 @@ fn check_accepts_presets_and_good_files() {
     let answer = sorb(&["check", &file]);
     assert_eq!(answer.code, Some(0));
     assert!(answer.out.contains("1233 nodes"), "{answer:?}");
+    let tap = "version = 1\n[fluid]\n[[emitters]]\nradius = 0.01\n[[drains]]\nrate = 2\n";
+    let answer = sorb(&["check", &scratch.write("tap.toml", tap)]);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
 }
 
 #[test]
@@ -55,6 +58,9 @@ fn check_names_every_problem_and_fails_with_1() {
         assert!(answer.err.contains(part), "{part} is not in {}", answer.err);
     }
     assert!(answer.out.contains("dry: ok"), "{answer:?}");
+    let tap = scratch.write("tap.toml", "version = 1\n[fluid]\n[[emitters]]\nradius = 50\n");
+    let answer = sorb(&["check", &tap]);
+    assert!(answer.code == Some(1) && answer.err.contains("tap.toml:4:"), "{answer:?}");
     let key = scratch.write("key.toml", "version = 1\n[fluid]\nspaceing = 0.01\n");
     let answer = sorb(&["check", &key]);
     assert_eq!(answer.code, Some(1));
