@@ -148,6 +148,43 @@ fn points_have_the_pressure_of_water_at_rest_and_the_saturation_of_the_sponge() 
 }
 
 #[test]
+fn water_in_pores_has_the_pressure_of_water_beside_them() {
+    // A solve for the density keeps pores less exactly.
+    for (solver, tolerance) in [(FluidSolver::Divergence, 0.1), (FluidSolver::Dfsph, 0.4)] {
+        let mut scene = pool();
+        scene.sponges[0].porosity = 0.6;
+        // Its material is as dense as water, so that it rests wherever it is.
+        scene.sponges[0].density = 400.0;
+        scene.sponges[0].entry_pressure = 0.0;
+        if let Some(fluid) = &mut scene.fluid {
+            fluid.solver = Some(solver);
+            let (low, high) = (Vec3::new(-0.1, 0.0, -0.05), Vec3::new(0.1, 0.06, 0.05));
+            fluid.blocks = vec![FluidBlock::new(low, high)];
+        }
+        let mut world = common::world(&scene);
+        let points = [0.012, 0.02, 0.028].map(|y| Vec3::new(0.06, y, 0.0));
+        let (mut in_pores, mut of_particles, mut expected) = (0.0, 0.0, 0.0);
+        for frame in 0..30 {
+            common::frame(&mut world);
+            if frame < 15 {
+                continue;
+            }
+            let level = world.water_levels(&[[-0.05, 0.0]]).unwrap_or_else(|error| panic!("{error}"))[0];
+            for probe in world.probe(&points).unwrap_or_else(|error| panic!("{error}")) {
+                in_pores += probe.sponge.map_or(f32::NAN, |sponge| sponge.pore_pressure);
+                of_particles += probe.pressure;
+            }
+            expected +=
+                points.iter().map(|point| 9810.0 * (level.unwrap_or(f32::NAN) - point.y)).sum::<f32>();
+        }
+        let error = |found: f32| (found / expected - 1.0).abs();
+        assert!(error(in_pores) < tolerance, "{solver:?}: {in_pores} of {expected}");
+        // Negative control: without the porosity.
+        assert!(error(of_particles) > 0.6, "{solver:?}: {of_particles} of {expected}");
+    }
+}
+
+#[test]
 fn points_move_with_the_water_and_the_sponge() {
     let mut scene = pool();
     let velocity = Vec3::new(0.3, 0.2, -0.1);

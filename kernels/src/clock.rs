@@ -6,7 +6,7 @@ enumeration! {
     /// What limited a step.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[non_exhaustive]
-pub enum Bound {
+    pub enum Bound {
         /// `time.maximum_step`.
         Maximum,
         /// The end of the frame.

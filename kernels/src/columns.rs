@@ -213,8 +213,8 @@ columns! {
         ControlFluidWeights = fluid_weights: ListValues("1"), Scratch on host;
         /// Expected position of the node at the end of the step; w: volume of its material, without pores \[m^3\].
         ControlSolid = solid: rows("m"; VOLUME 3 "m^3"), Scratch, needs Fluid;
-        /// Velocity of the node before the step; w: volume of its material, without pores \[m^3\].
-        ControlExpected = expected: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
+        /// Velocity of the material of the node before the step; w: its volume, without pores \[m^3\].
+        ControlMaterial = material: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Change of the velocity of the node per impulse \[1/kg\], and the part of the impulse that moves water; w: volume of its
         /// material \[m^3\].
         ControlCompliance = compliance: rows(; COMPLIANCE 0 "1/kg", DRAWN 1 "1", VOLUME 3 "m^3"), Scratch, needs Fluid;
@@ -223,7 +223,7 @@ columns! {
         /// Impulse of the pressure of the present round on the node, by itself and by the water that drag holds.
         ControlImpulse = impulse: rows("N s"), Scratch, needs Fluid;
         /// Impulse by everything but the pressure that the node is expected to receive in the step.
-        ControlKnown = known: rows("N s"), Scratch, needs Fluid;
+        ControlExpected = expected: rows("N s"), Scratch, needs Fluid;
         /// Velocity of the node by the pressure of the present round; w: volume of its material \[m^3\].
         ControlSolved = solved: rows("m/s"; VOLUME 3 "m^3"), Scratch, needs Fluid;
         /// Water-filled pore volume over pore volume.

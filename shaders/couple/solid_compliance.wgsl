@@ -6,7 +6,7 @@
 @group(0) @binding(2) var<uniform> sponges: Sponges;
 @group(0) @binding(3) var<storage, read> control_node: array<u32>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> control_expected: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> control_material: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> node_sponge: array<u32>;
 @group(0) @binding(8) var<storage, read> node_wetting: array<vec4<f32>>;
@@ -37,5 +37,5 @@ fn main(
     if (inverse_mass > 0.0) {
         response = 1.0 / (1.0 / inverse_mass + drawn + elastic);
     }
-    control_compliance[row] = vec4<f32>(response, drawn * response, 0.0, control_expected[row].w);
+    control_compliance[row] = vec4<f32>(response, drawn * response, 0.0, control_material[row].w);
 }

@@ -1,5 +1,6 @@
 // #include sponges
-// Velocities of the nodes, the impulses that are expected of all but the pressure, and the volume of their material; `solid_expect.rs` has the formula.
+// Velocities of the nodes, the volume of their material, and the impulses that are expected of all but the pressure;
+// `solid_expect.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -10,8 +11,8 @@
 @group(0) @binding(6) var<storage, read> node_sponge: array<u32>;
 @group(0) @binding(7) var<storage, read> node_volume: array<f32>;
 @group(0) @binding(8) var<storage, read> control_node: array<u32>;
-@group(0) @binding(9) var<storage, read_write> control_expected: array<vec4<f32>>;
-@group(0) @binding(10) var<storage, read_write> control_known: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> control_material: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> control_expected: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -26,12 +27,12 @@ fn main(
     let node = control_node[row];
     let v = node_velocity[node].xyz;
     let solid = 1.0 - sponges.all[node_sponge[node]].porosity;
-    control_expected[row] = vec4<f32>(v, solid * node_volume[node]);
+    control_material[row] = vec4<f32>(v, solid * node_volume[node]);
     let driven = node_driven[node];
     let inverse_mass = node_position[node].w;
-    var known = vec3<f32>(0.0);
+    var expected = vec3<f32>(0.0);
     if (inverse_mass > 0.0 && driven.w > 0.0) {
-        known = (clock.step / (driven.w * inverse_mass)) * (v - driven.xyz);
+        expected = (clock.step / (driven.w * inverse_mass)) * (v - driven.xyz);
     }
-    control_known[row] = vec4<f32>(known, 0.0);
+    control_expected[row] = vec4<f32>(expected, 0.0);
 }

@@ -8,7 +8,7 @@
 @group(0) @binding(4) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> fluid_controls: array<u32>;
 @group(0) @binding(6) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read> control_expected: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> control_material: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> fluid_mobility: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> fluid_held: array<vec4<f32>>;
 
@@ -34,7 +34,7 @@ fn main(
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
-        sum += weight * control_expected[other].xyz;
+        sum += weight * control_material[other].xyz;
         interior += weight;
     }
     let inverse = weight_inside(interior);

@@ -2,9 +2,9 @@
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<storage, read> control_expected: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> control_material: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> control_compliance: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> control_known: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_expected: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> control_force: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> control_impulse: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> control_solved: array<vec4<f32>>;
@@ -22,7 +22,7 @@ fn main(
     let response = control_compliance[row];
     let force = control_force[row].xyz * (response.w * params.solid.gradient * params.particle_mass);
     let received = force * clock.step + control_solved[row].xyz;
-    let velocity = control_expected[row].xyz + response.x * (received + control_known[row].xyz);
+    let velocity = control_material[row].xyz + response.x * (received + control_expected[row].xyz);
     control_force[row] = vec4<f32>(force, 0.0);
     control_impulse[row] = vec4<f32>(received, 0.0);
     control_solved[row] = vec4<f32>(velocity, response.w);

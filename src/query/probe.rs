@@ -105,11 +105,10 @@ fn in_sponge(world: &World, located: &Located, pressure: f32) -> SpongeProbe {
     SpongeProbe { sponge: sponge as usize, saturation, pore_pressure, velocity, volume_ratio }
 }
 
-/// Pressure in the pores over that of the particles there. With a solve for the density this is the porosity: their neighbours fill the
-/// pores only, see [`World::particle_pressures`].
+/// Pressure in the pores over that of the particles there. With a pressure solve this is the porosity: neighbours fill the pores only,
+/// see [`World::particle_pressures`].
 fn pore_share(params: &Params, sponge: usize, volume_ratio: f32) -> f32 {
-    let fluid = &params.fluid;
-    if fluid.incompressible.is_none() || fluid.divergence().is_some() || params.solid.is_none() {
+    if params.fluid.incompressible.is_none() || params.solid.is_none() {
         return 1.0;
     }
     (1.0 - (1.0 - params.sponges[sponge].porosity) / volume_ratio.max(1e-3)).clamp(0.0, 1.0)

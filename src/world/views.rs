@@ -135,8 +135,8 @@ impl World {
     ///
     /// With `wcsph` that of the equation of state, with `divergence` that of the solve. The solve of `dfsph` computes multipliers: the
     /// value here is the stress that pairs of neighbours transmit where water fills the space, see
-    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill only the pores: with both the pore
-    /// pressure is this times the porosity, `1 - (1 - phi) / J` at a volume ratio J of the sponge.
+    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill only the pores: the
+    /// pore pressure is this times the porosity with both, `1 - (1 - phi) / J` at a volume ratio J of the sponge.
     #[must_use]
     pub fn particle_pressures(&self) -> Vec<f32> {
         let (fluid, count) = (&self.columns().fluid, self.stores.host.rows.fluid);

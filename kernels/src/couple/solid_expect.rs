@@ -19,28 +19,28 @@ use crate::{
 declare! {
     needs: [Fluid, Sponge, Divergence, Porous],
     reads: [ControlNode, NodePosition, NodeVelocity, NodeDriven, NodeSponge, NodeVolume],
-    writes: [ControlExpected, ControlKnown],
+    writes: [ControlMaterial, ControlExpected],
     oracle: crate::oracle::solid::expect,
-    bound: 2e-5,
+    bound: 1e-6,
     twin: [pass(NAME, Nodes)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (nodes, controls) = (&columns.nodes, &mut columns.controls);
-    let (node, expected, known) = (&controls.node, &mut controls.expected, &mut controls.known);
-    for column in [&mut *expected, known] {
+    let (node, material, expected) = (&controls.node, &mut controls.material, &mut controls.expected);
+    for column in [&mut *material, expected] {
         column.clear();
         column.resize(padded(node.len()), [0.0; 4]);
     }
-    let rows = (&mut expected[..node.len()], &mut known[..node.len()]);
-    cpu.for_chunks(rows, |first, (expected, known)| {
-        for (row, node) in node[first..][..expected.len()].iter().enumerate() {
+    let rows = (&mut material[..node.len()], &mut expected[..node.len()]);
+    cpu.for_chunks(rows, |first, (material, expected)| {
+        for (row, node) in node[first..][..material.len()].iter().enumerate() {
             let node = *node as usize;
             // Of the dry node: swelling widens pores and adds no material.
             let solid = 1.0 - params.sponges[nodes.sponge[node] as usize].porosity;
             let [vx, vy, vz, _] = nodes.velocity[node];
-            expected[row] = [vx, vy, vz, solid * nodes.volume[node]];
-            known[row] = impulse(params, nodes, node);
+            material[row] = [vx, vy, vz, solid * nodes.volume[node]];
+            expected[row] = impulse(params, nodes, node);
         }
     });
 }

@@ -9,8 +9,8 @@
 //! B_i = b_i + (1 - b_i) sum_a w_ia m'_a / D_a,   N_i = m / 3 sum_a |c_ia e_ia|^2 / D_a
 //! ```
 //!
-//! `1 / D_a` is the velocity of a node by an impulse, within the solve for the pressure. Its neighbours hold it by a quarter of its stiffness
-//! against theirs, because they follow as well. B and N are the parts of the diagonal of the system by the particle with what the drag
+//! `1 / D_a` is the velocity of a node by an impulse, within the solve for the pressure. Its neighbours hold it by a quarter of its
+//! stiffness against theirs, because they follow as well. B and N are the parts of the diagonal of the system by the particle with what the drag
 //! moves, and by the forces on nodes (`couple::solid_diagonal`).
 
 use crate::{
@@ -33,7 +33,7 @@ declare! {
     needs: [Fluid, Sponge, Divergence, Porous],
     reads: [
         FluidPosition, FluidVelocity, FluidControls, FluidControlWeights, FluidDragRate, ControlNode,
-        ControlPosition, ControlExpected, ControlFluid, ControlFluidWeights, NodePosition, NodeSponge, NodeWetting,
+        ControlPosition, ControlMaterial, ControlFluid, ControlFluidWeights, NodePosition, NodeSponge, NodeWetting,
     ],
     writes: [
         FluidMobility, FluidHeld, FluidMoment, FluidRenormalisation, FluidRenormalisationBetween, ControlCompliance,
@@ -61,7 +61,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 
 /// How much the drag leaves of a change of the velocity of every particle, and what it hands on.
 fn mobilities(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let expected = &columns.controls.expected;
+    let material = &columns.controls.material;
     let Fluid { velocity, controls: lists, control_weights, drag_rate, mobility, held, .. } =
         &mut columns.fluid;
     mobility.resize(velocity.len(), [0.0; 4]);
@@ -77,7 +77,7 @@ fn mobilities(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let mut drawn = zero;
                 if !group.is_empty() {
                     let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
-                    let (u, inverse) = mean_inside(simd, expected, group, &weights[lists.range(row)]);
+                    let (u, inverse) = mean_inside(simd, material, group, &weights[lists.range(row)]);
                     let relative = minus([vx, vy, vz], u);
                     let [linear, inertial, _, _] = lanes::load_rows(simd, drag_rate, first + row);
                     let rate = (linear + inertial * dot(relative, relative).sqrt()) * params.step;
@@ -95,7 +95,7 @@ fn mobilities(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 /// What nodes respond to impulses with.
 fn compliances(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (held, nodes) = (&columns.fluid.held, &columns.nodes);
-    let Controls { node, position, expected, fluid: lists, fluid_weights, compliance, .. } =
+    let Controls { node, position, material, fluid: lists, fluid_weights, compliance, .. } =
         &mut columns.controls;
     compliance.clear();
     compliance.resize(position.len(), [0.0; 4]);
@@ -119,7 +119,7 @@ fn compliances(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let elastic = HELD_BY_NEIGHBORS * params.step * (params.step + sponge.damping) * stiffness;
             let response =
                 if inverse_mass > 0.0 { 1.0 / (1.0 / inverse_mass + drawn + elastic) } else { 0.0 };
-            let solid = expected[first + row][lane::controls::expected::VOLUME];
+            let solid = material[first + row][lane::controls::material::VOLUME];
             *compliance = [response, drawn * response, 0.0, solid];
         }
     });

@@ -27,7 +27,7 @@ declare! {
     needs: [Fluid, Sponge, Divergence, Porous],
     reads: [
         FluidPredicted, FluidVelocity, FluidCorrection, FluidRenormalisation, FluidRenormalisationBetween, FluidHeld,
-        ControlPosition, ControlFluid, ControlFluidWeights, ControlExpected, ControlCompliance, ControlKnown,
+        ControlPosition, ControlFluid, ControlFluidWeights, ControlMaterial, ControlCompliance, ControlExpected,
     ],
     writes: [FluidHeld, FluidUndragged, ControlForce, ControlImpulse, ControlSolved],
     oracle: crate::oracle::solid::response,
@@ -43,9 +43,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         position,
         fluid: lists,
         fluid_weights,
-        expected,
+        material,
         compliance,
-        known,
+        expected,
         force,
         impulse,
         solved,
@@ -82,9 +82,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let [compliance, _, _, volume] = lanes::load_rows(simd, compliance, first + row);
                 let own = times(sum, volume * kernel.gradient_scale() * mass);
                 let received = plus(times(own, step), [cx, cy, cz]);
-                let [kx, ky, kz, _] = lanes::load_rows(simd, known, first + row);
-                let [ux, uy, uz, _] = lanes::load_rows(simd, expected, first + row);
-                let [wx, wy, wz] = plus([ux, uy, uz], times(plus(received, [kx, ky, kz]), compliance));
+                let [qx, qy, qz, _] = lanes::load_rows(simd, expected, first + row);
+                let [ux, uy, uz, _] = lanes::load_rows(simd, material, first + row);
+                let [wx, wy, wz] = plus([ux, uy, uz], times(plus(received, [qx, qy, qz]), compliance));
                 lanes::store_rows(force, row, [own[0], own[1], own[2], zero]);
                 lanes::store_rows(impulse, row, [received[0], received[1], received[2], zero]);
                 lanes::store_rows(solved, row, [wx, wy, wz, volume]);

@@ -52,7 +52,7 @@ fn around(
 ) -> Vec<(usize, DVec3, f64, DVec3, f64)> {
     let mut all = Vec::new();
     for control in (0..columns.rows.nodes).filter(|control| pairs.are_near(particle, *control)) {
-        let volume = f64::from(columns.controls.expected[control][lane::controls::expected::VOLUME]);
+        let volume = f64::from(columns.controls.material[control][lane::controls::material::VOLUME]);
         for (place, signs) in seen(params, pairs.controls[control]) {
             let offset = place - pairs.particles[particle];
             let share = volume * smoothing(radius(params), offset.length());
@@ -76,20 +76,20 @@ pub(super) fn first_moments(params: &Params, columns: &Columns) -> Vec<DVec3> {
 
 pub(crate) fn expect(params: &Params, columns: &mut Columns) {
     let h = f64::from(params.step);
-    columns.controls.expected = vec![[0.0; 4]; columns.nodes.position.len()];
-    columns.controls.known = columns.controls.expected.clone();
+    columns.controls.material = vec![[0.0; 4]; columns.nodes.position.len()];
+    columns.controls.expected = columns.controls.material.clone();
     for control in 0..columns.rows.nodes {
         let (nodes, node) = (&columns.nodes, columns.controls.node[control] as usize);
         let v = nodes.velocity[node];
         let solid = 1.0 - f64::from(sponge(params, columns, control).porosity);
-        columns.controls.expected[control] = row(vector(v), solid * f64::from(nodes.volume[node]));
+        columns.controls.material[control] = row(vector(v), solid * f64::from(nodes.volume[node]));
         let inverse_mass = f64::from(nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         let Some(driven) = nodes.driven.get(node).filter(|row| row[lane::nodes::driven::STEP] > 0.0) else {
             continue;
         };
         if inverse_mass > 0.0 {
             let rate = (vector(v) - vector(*driven)) / f64::from(driven[lane::nodes::driven::STEP]);
-            columns.controls.known[control] = row(h * rate / inverse_mass, 0.0);
+            columns.controls.expected[control] = row(h * rate / inverse_mass, 0.0);
         }
     }
 }
@@ -107,7 +107,7 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
     let rows = columns.fluid.position.len();
     let none = vec![[0.0; 4]; rows];
     for particle in 0..particles {
-        let u = at_particle(columns, &pairs, particle, &columns.controls.expected);
+        let u = at_particle(columns, &pairs, particle, &columns.controls.material);
         let [linear, inertial, ..] = columns.fluid.drag_rate[particle].map(f64::from);
         let speed = (vector(columns.fluid.velocity[particle]) - u).length();
         let inverse = weight_inside(columns, particle);
@@ -132,7 +132,7 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let elastic = 0.25 * h * (h + f64::from(own.damping)) * stiffness;
         let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         let response = if inverse_mass > 0.0 { 1.0 / (1.0 / inverse_mass + drawn + elastic) } else { 0.0 };
-        let solid = columns.controls.expected[control][lane::controls::expected::VOLUME];
+        let solid = columns.controls.material[control][lane::controls::material::VOLUME];
         columns.controls.compliance[control] =
             row(DVec3::new(response, drawn * response, 0.0), f64::from(solid));
     }
@@ -205,9 +205,9 @@ pub(crate) fn response(params: &Params, columns: &mut Columns) {
         let held = |particle: usize| pairs.weight(particle, control) * vector(columns.fluid.held[particle]);
         let drawn: DVec3 = (0..columns.rows.fluid).map(held).sum();
         let received = h * *force + drawn;
-        let known = vector(controls.known[control]);
+        let expected = vector(controls.expected[control]);
         let [compliance, _, _, volume] = controls.compliance[control].map(f64::from);
-        let velocity = vector(controls.expected[control]) + compliance * (received + known);
+        let velocity = vector(controls.material[control]) + compliance * (received + expected);
         controls.force[control] = row(*force, 0.0);
         controls.impulse[control] = row(received, 0.0);
         controls.solved[control] = row(velocity, volume);

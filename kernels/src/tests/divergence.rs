@@ -166,7 +166,7 @@ fn asymmetry(fault: Fault) -> f64 {
         }
         fluid.velocity.iter_mut().for_each(|row| row[..3].fill(0.0));
         fluid.factors.iter_mut().for_each(|row| row[lane::fluid::factors::TARGET] = 0.0);
-        for rows in [&mut columns.controls.expected, &mut columns.controls.known] {
+        for rows in [&mut columns.controls.material, &mut columns.controls.expected] {
             rows.iter_mut().for_each(|row| row[..3].fill(0.0));
         }
         columns.bodies.expected.fill([0.0; 4]);
@@ -199,8 +199,8 @@ fn faults_of_drag_and_material_are_noticed() {
             scene.columns.fluid.mobility.iter_mut().for_each(|row| row[0] = 1.0);
         }),
         ("material of another volume on one side", |scene| {
-            for row in &mut scene.columns.controls.expected {
-                row[lane::controls::expected::VOLUME] = 0.0;
+            for row in &mut scene.columns.controls.material {
+                row[lane::controls::material::VOLUME] = 0.0;
             }
             for (row, compliance) in scene.columns.controls.compliance.iter_mut().enumerate() {
                 compliance[lane::controls::compliance::VOLUME] *= if row % 2 == 0 { 1.5 } else { 1.0 };
