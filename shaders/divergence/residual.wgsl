@@ -27,7 +27,8 @@ fn main(
     var sums = vec4<f32>(0.0);
     var others = vec4<f32>(0.0);
     if (row < rows) {
-        let scale = select(fluid_pressure_solve.target_scale, 1.0, fluid_moment[row].w > MINIMUM_MATERIAL);
+        let is_in_pores = fluid_moment[row].w > MINIMUM_MATERIAL;
+        let scale = select(fluid_pressure_solve.target_scale, 1.0, is_in_pores);
         let rest = fluid_factors[row].w * scale + fluid_rate[row] * clock.step;
         let left = select(rest, 0.0, fluid_renormalisation[row].w < SPARSE);
         let before = fluid_pressure_rows[row];
@@ -42,7 +43,8 @@ fn main(
             before.y * response,
             response * response / before.z,
         );
-        others = vec4<f32>(before.x * before.x, error * error * (error * error), 0.0, 0.0);
+        let weighted = before.x * select(1.0, PRESSURE_IN_PORES, is_in_pores);
+        others = vec4<f32>(weighted * weighted, error * error * (error * error), 0.0, 0.0);
         fluid_pressure_rows[row].w = left;
     }
     let all = group_row(lane, sums, false);

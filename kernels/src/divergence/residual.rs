@@ -16,7 +16,7 @@ use crate::{
     lanes::{self, LANES, select},
     params::Params,
     periodic::with_space,
-    sph::pressure_solve::Sums,
+    sph::pressure_solve::{PRESSURE_IN_PORES, Sums},
 };
 
 use super::{
@@ -62,7 +62,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let scale = pressure_solve.target_scale();
     let rows = (&mut pressure_rows[..], pressure_solve.sums(fluid.position.len()));
     cpu.for_chunks(rows, |first, (rows, sums)| {
-        let mut left = [0.0; crate::cpu::CHUNK];
+        let (mut left, mut weights) = ([0.0; crate::cpu::CHUNK], [0.0; crate::cpu::CHUNK]);
         with_space!(cpu, params, simd, space => {
             for row in (0..rows.len()).step_by(LANES) {
                 let rate = field.rate((simd, space), (first, row));
@@ -72,6 +72,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let is_in_pores = material.simd_gt(lanes::splat(simd, MINIMUM_MATERIAL));
                 let target = select(is_in_pores, target, target * scale);
                 lanes::store(&mut left, row, target + (rate + of_solid) * params.step);
+                let weight = select(is_in_pores, lanes::splat(simd, PRESSURE_IN_PORES), lanes::splat(simd, 1.0));
+                lanes::store(&mut weights, row, weight);
             }
         });
         let used = count.saturating_sub(first).min(rows.len());
@@ -80,7 +82,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 *left = 0.0;
             }
         }
-        sums.0[0] = Sums::of(&mut rows[..used], &left);
+        sums.0[0] = Sums::of(&mut rows[..used], &left, &weights);
     });
     pressure_solve.finish_round(count, incompressible);
     (fluid.image_vectors, fluid.pressure_rows, fluid.pressure_solve) =

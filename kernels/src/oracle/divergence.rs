@@ -349,7 +349,8 @@ pub(crate) fn residual(params: &Params, columns: &mut Columns) {
         sums[1] += step * step * diagonal;
         sums[2] += step * response;
         sums[3] += response * response / diagonal;
-        sums[4] += pressure * pressure;
+        let weight = if is_in_pores { 4.0 / 9.0 } else { 1.0 };
+        sums[4] += (weight * pressure).powi(2);
         sums[5] += error.powi(4);
         fluid.pressure_rows[i][lane::fluid::pressure_rows::COMPRESSION] = left as f32;
     }

@@ -60,7 +60,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             left.iter_mut().zip(solid_yield).for_each(|(left, yields)| *left += yields * square);
         }
         let used = count.saturating_sub(first).min(rows.len());
-        sums.0[0] = Sums::of(&mut rows[..used], &left);
+        sums.0[0] = Sums::of(&mut rows[..used], &left, &[1.0; crate::cpu::CHUNK]);
     });
     pressure_solve.finish_round(count, incompressible);
 }

@@ -43,6 +43,9 @@ constants! {
     const UNEVENNESS: f32 = 20.0;
     /// Speed that the mean target of the divergence may give all of a pool at rest, over that of a shallow wave on it.
     const MAXIMUM_RISE: f32 = 0.05;
+    /// Weight of the pressure of a particle in pores in the bound of the step. Drag and material keep the order of particles there, so that
+    /// steps of 0.6 instead of 0.4 of the time in which pressure moves a particle by a spacing are stable.
+    pub(crate) const PRESSURE_IN_PORES: f32 = 0.444_444_45;
     /// Least length of a step.
     const MINIMUM_LENGTH: f64 = 0.2;
     /// Greatest length of a step.
@@ -60,7 +63,7 @@ pub struct Sums {
     mixed: f32,
     /// y.(y / M)
     response: f32,
-    /// Square of the kinematic pressure.
+    /// Square of the kinematic pressure, weighted by [`PRESSURE_IN_PORES`] in pores.
     pressure: f32,
     /// Fourth power of the error.
     fourth: f32,
@@ -97,10 +100,10 @@ impl Beginning {
 }
 
 impl Sums {
-    /// Stores the remaining compression, and sums up.
-    pub(crate) fn of(rows: &mut [[f32; 4]], left: &[f32]) -> Self {
+    /// Stores the remaining compression, and sums up, with the weights of the pressures.
+    pub(crate) fn of(rows: &mut [[f32; 4]], left: &[f32], weights: &[f32]) -> Self {
         let mut sums = Self::default();
-        for (row, left) in rows.iter_mut().zip(left) {
+        for ((row, left), weight) in rows.iter_mut().zip(left).zip(weights) {
             let [pressure, change, diagonal, before] = *row;
             let response = before - left;
             let slack = pressure * diagonal;
@@ -111,7 +114,7 @@ impl Sums {
             sums.change += change * change * diagonal;
             sums.mixed += change * response;
             sums.response += response * response / diagonal;
-            sums.pressure += pressure * pressure;
+            sums.pressure += weight * pressure * (weight * pressure);
             row[lane::fluid::pressure_rows::COMPRESSION] = *left;
         }
         sums
@@ -180,7 +183,7 @@ impl PressureSolve {
         self.state.error
     }
 
-    /// Root mean square of the kinematic pressure \[m^2/s^2\].
+    /// Root mean square of the kinematic pressure, with its weight in pores \[m^2/s^2\].
     #[must_use]
     pub fn pressure(&self) -> f32 {
         self.state.pressure
