@@ -14,6 +14,7 @@ pub mod gpu;
 #[doc(hidden)]
 pub mod internal;
 mod measure;
+pub mod mesh;
 mod query;
 #[cfg(feature = "render")]
 pub mod render;

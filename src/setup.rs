@@ -3,6 +3,7 @@
 mod overlap;
 mod params;
 mod seed;
+mod shapes;
 
 use glam::{Quat, Vec3};
 use sorb_kernels::{
@@ -28,6 +29,7 @@ use crate::{
 };
 
 pub(crate) use seed::{Beside, jitter};
+use shapes::Mask;
 
 /// Tets of a chunk that one thread solves at a time.
 const TETS_PER_CHUNK: usize = 256;
@@ -62,14 +64,15 @@ impl Setup {
             None => engine(scene, &setups)?,
         };
         place_bodies(scene, &setups, &*engine, &mut columns);
-        let lattice = lattice(scene, &columns.bodies.states.0)?;
+        let masks = shapes::masks(&scene.sponges)?;
+        let lattice = lattice(scene, &masks, &columns.bodies.states.0)?;
         overlap::check(scene, &lattice)?;
         fill_nodes(scene, &params, &lattice, &mut columns);
         if scene.fluid.is_some() && !scene.sponges.is_empty() {
             columns.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &columns));
         }
         if !begin.is_dry {
-            seed::seed_fluid(scene, &params, &mut columns);
+            seed::seed_fluid(scene, &masks, &params, &mut columns);
         }
         Ok(Self { params, columns, lattice, engine })
     }
@@ -81,38 +84,29 @@ impl Setup {
 /// # Errors
 /// The corners of a hull span no volume, or hulls need the feature `rigid`.
 pub fn body_setups(scene: &Scene) -> Result<Vec<BodySetup>, WorldError> {
-    scene.bodies.iter().map(body_setup).collect()
+    scene.bodies.iter().map(|body| body_setup(body, spacing(scene))).collect()
 }
 
-fn body_setup(body: &scene::Body) -> Result<BodySetup, WorldError> {
-    let mut setup = BodySetup {
+/// Spacing of the particles; 0 without water \[m\].
+fn spacing(scene: &Scene) -> f32 {
+    scene.fluid.as_ref().map_or(0.0, |fluid| fluid.spacing)
+}
+
+fn body_setup(body: &scene::Body, spacing: f32) -> Result<BodySetup, WorldError> {
+    let (shape, centre) = shapes::shape_of(body, spacing)?;
+    let mut state = body.start();
+    state.position += state.rotation * centre;
+    Ok(BodySetup {
         name: body.name.clone(),
-        shape: sorb_kernels::body::Shape::Plane,
+        shape,
         kind: body.kind,
         density: body.density,
-        state: body.start(),
+        state,
         friction: body.friction,
         restitution: body.restitution,
         motions: body.motions.clone(),
-    };
-    match &body.shape {
-        #[cfg(feature = "rigid")]
-        scene::ShapeKind::Hull { vertices } => {
-            let hull = crate::rigid::convex_hull(vertices)
-                .map_err(|error| WorldError::Hull { body: body.name.clone(), source: error })?;
-            setup.shape = hull.shape;
-            setup.state.position += setup.state.rotation * hull.offset;
-        }
-        shape => match shape.primitive() {
-            Some(shape) => setup.shape = shape,
-            None => {
-                return Err(WorldError::NeedsRigid { body: body.name.clone() });
-            }
-        },
-    }
-    Ok(setup)
+    })
 }
-
 fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, WorldError> {
     #[cfg(feature = "rigid")]
     if setups.iter().any(|setup| setup.kind == sorb_kernels::body::BodyKind::Dynamic) {
@@ -131,7 +125,7 @@ fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, W
 }
 
 fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, columns: &mut Columns) {
-    let spacing = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.spacing);
+    let spacing = spacing(scene);
     let bodies = setups.iter().zip(&scene.bodies).enumerate().map(|(index, (setup, body))| Body {
         shape: setup.shape.clone(),
         kind: setup.kind,
@@ -147,21 +141,12 @@ fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, c
     columns.rows.bodies = setups.len();
 }
 
-fn mask(shape: scene::SpongeShape) -> Box<dyn Fn(Vec3) -> bool> {
-    match shape {
-        scene::SpongeShape::Block => Box::new(sponge::block),
-        scene::SpongeShape::Ellipsoid => Box::new(sponge::ellipsoid),
-        scene::SpongeShape::Cylinder { axis } => Box::new(sponge::cylinder(axis)),
-    }
-}
-
 /// Depth in a body at which a node may begin, over the edge of a cell: contact, and rounding.
 const TOUCH: f32 = 1.0e-3;
 
 /// The sponges, without cells that begin inside a body: these would be thrown out of it. Grips hold the nodes that they
 /// contain instead.
-fn lattice(scene: &Scene, bodies: &[Body]) -> Result<Lattice, WorldError> {
-    let masks: Vec<_> = scene.sponges.iter().map(|sponge| mask(sponge.shape)).collect();
+fn lattice(scene: &Scene, masks: &[Mask], bodies: &[Body]) -> Result<Lattice, WorldError> {
     let rooms: Vec<_> = scene
         .sponges
         .iter()

@@ -1,14 +1,17 @@
 //! Rigid bodies as the kernels see them: shapes with signed distances, poses and velocities.
 
+use std::sync::Arc;
+
 use glam::{Mat3, Quat, Vec3};
 
 use crate::{
-    lanes::{self, LANES, Simd, f32x8, select},
-    layout::constants,
+    lanes::{self, Simd, f32x8},
     rounding::Rounding,
-    vector::{self, Vec3x8, choose, cross, dot, minus, plus, times},
+    surface::surface,
+    vector::{self, Vec3x8, cross, dot, minus, plus, times},
 };
 
+pub use crate::compound::{Compound, Part, pieces};
 pub use crate::wrench::Wrench;
 pub(crate) use crate::wrench::by_chunk;
 
@@ -43,6 +46,8 @@ pub enum Shape {
         /// Faces as triangles of corners, outward winding.
         triangles: Vec<[u32; 3]>,
     },
+    /// Union of convex hulls, such as a cup.
+    Compound(Arc<Compound>),
 }
 
 impl Shape {
@@ -55,6 +60,7 @@ impl Shape {
             Self::Cuboid { half_extents } => half_extents.length(),
             Self::Capsule { half_height, radius } => half_height + radius,
             Self::Hull { vertices, .. } => vertices.iter().map(|vertex| vertex.length()).fold(0.0, f32::max),
+            Self::Compound(compound) => compound.bounding_radius(),
         }
     }
 }
@@ -69,6 +75,7 @@ impl Shape {
                 let minimum = planes.iter().map(|(_, offset)| *offset).fold(f32::INFINITY, f32::min);
                 if minimum > 0.0 { radius * (1.0 + range / minimum) } else { f32::INFINITY }
             }
+            Self::Compound(compound) => compound.reach(range),
             _ => radius + range,
         }
     }
@@ -134,13 +141,6 @@ impl Body {
         body
     }
 
-    /// The body with the core of its rounded shape, and the radius of the ball that sweeps that \[m\].
-    #[must_use]
-    pub fn core(&self) -> (Self, f32) {
-        let (shape, radius) = self.rounding.core_of(&self.shape);
-        (Self { shape, ..self.clone() }, radius)
-    }
-
     /// Largest speed of its surface \[m/s\]; of a plane, that of its reference point.
     #[must_use]
     pub fn fastest(&self) -> f32 {
@@ -175,6 +175,8 @@ pub(crate) struct Placed<'a, S: Simd> {
     simd: S,
     shape: &'a Shape,
     position: Vec3x8<S>,
+    /// Origin of the frame of the shape.
+    origin: Vec3x8<S>,
     /// Columns of the rotation matrix.
     axes: [Vec3x8<S>; 3],
     linear: Vec3x8<S>,
@@ -184,12 +186,20 @@ pub(crate) struct Placed<'a, S: Simd> {
 impl<'a, S: Simd> Placed<'a, S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, body: &'a Body) -> Self {
+        Self::of_piece(simd, body, (&body.shape, None))
+    }
+
+    /// A convex piece of the body, and its centre in the frame of the body if that is not its origin.
+    #[inline(always)]
+    pub(crate) fn of_piece(simd: S, body: &Body, (shape, centre): (&'a Shape, Option<Vec3>)) -> Self {
         let splat = |vector: Vec3| vector::splat(simd, vector.to_array());
         let matrix = Mat3::from_quat(body.state.rotation);
+        let position = body.state.position;
         Self {
             simd,
-            shape: &body.shape,
-            position: splat(body.state.position),
+            shape,
+            position: splat(position),
+            origin: splat(centre.map_or(position, |centre| position + matrix * centre)),
             axes: [splat(matrix.x_axis), splat(matrix.y_axis), splat(matrix.z_axis)],
             linear: splat(body.state.linear_velocity),
             angular: splat(body.state.angular_velocity),
@@ -211,12 +221,18 @@ impl<'a, S: Simd> Placed<'a, S> {
         (distance, self.turned(normal))
     }
 
-    /// World points in the body's frame.
+    /// World points in the frame of the shape.
     #[inline(always)]
     pub(crate) fn local(&self, point: Vec3x8<S>) -> Vec3x8<S> {
-        let arm = minus(point, self.position);
+        let arm = minus(point, self.origin);
         let [x, y, z] = self.axes;
         [dot(x, arm), dot(y, arm), dot(z, arm)]
+    }
+
+    /// Points of the frame of the shape in the world.
+    #[inline(always)]
+    pub(crate) fn world(&self, local: Vec3x8<S>) -> Vec3x8<S> {
+        plus(self.origin, self.turned(local))
     }
 
     /// Directions of the body's frame in the world.
@@ -237,92 +253,10 @@ impl<'a, S: Simd> Placed<'a, S> {
     }
 }
 
-/// Distances of eight points from a shape in its own frame, and the outward normals.
-///
-/// Compiled separately, with arrays at its interface: inlining the code of all shapes into every kernel with distances takes
-/// the compiler minutes.
-#[inline(never)]
-fn surface(level: fearless_simd::Level, shape: &Shape, [x, y, z]: &[[f32; LANES]; 3]) -> [[f32; LANES]; 4] {
-    lanes::dispatch!(level, simd => {
-        let local = [lanes::load_array(simd, x), lanes::load_array(simd, y), lanes::load_array(simd, z)];
-        let (distance, [nx, ny, nz]) = surface_lanes(simd, shape, local);
-        [distance.to_array(), nx.to_array(), ny.to_array(), nz.to_array()]
-    })
-}
-
-#[inline(always)]
-fn surface_lanes<S: Simd>(simd: S, shape: &Shape, local: Vec3x8<S>) -> (f32x8<S>, Vec3x8<S>) {
-    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    match shape {
-        Shape::Plane => (local[1], [zero, one, zero]),
-        Shape::Sphere { radius } => round(simd, local, *radius),
-        Shape::Capsule { half_height, radius } => {
-            let half = lanes::splat(simd, *half_height);
-            let y = local[1];
-            let on_axis = select(y.simd_gt(half), half, select(y.simd_lt(-half), -half, y));
-            round(simd, [local[0], y - on_axis, local[2]], *radius)
-        }
-        Shape::Cuboid { half_extents } => cuboid(simd, local, *half_extents),
-        Shape::Hull { planes, .. } => {
-            let mut nearest = lanes::splat(simd, f32::MIN);
-            let mut normal = [zero, one, zero];
-            for (plane, offset) in planes {
-                let direction = vector::splat(simd, plane.to_array());
-                let distance = dot(local, direction) - *offset;
-                let closer = distance.simd_gt(nearest);
-                nearest = select(closer, distance, nearest);
-                normal = choose(closer, direction, normal);
-            }
-            (nearest, normal)
-        }
-    }
-}
-
-constants! {
-    /// Distance from the centre of a ball below which there is no direction \[m\].
-    const MINIMUM_RADIUS: f32 = 1.0e-12;
-}
-
-/// Distance from a ball around the origin.
-#[inline(always)]
-fn round<S: Simd>(simd: S, local: Vec3x8<S>, radius: f32) -> (f32x8<S>, Vec3x8<S>) {
-    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let length = dot(local, local).sqrt();
-    let off_centre = length.simd_gt(lanes::splat(simd, MINIMUM_RADIUS));
-    let scale = one / select(off_centre, length, one);
-    (length - radius, choose(off_centre, times(local, scale), [zero, one, zero]))
-}
-
-#[inline(always)]
-fn cuboid<S: Simd>(simd: S, local: Vec3x8<S>, half_extents: Vec3) -> (f32x8<S>, Vec3x8<S>) {
-    let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-    let half = vector::splat(simd, half_extents.to_array());
-    let sign_of = |value: f32x8<S>| select(value.simd_lt(zero), -one, one);
-    let sign = [sign_of(local[0]), sign_of(local[1]), sign_of(local[2])];
-    let beyond = [local[0] * sign[0] - half[0], local[1] * sign[1] - half[1], local[2] * sign[2] - half[2]];
-    let outside = [
-        lanes::positive(simd, beyond[0]),
-        lanes::positive(simd, beyond[1]),
-        lanes::positive(simd, beyond[2]),
-    ];
-    let length = dot(outside, outside).sqrt();
-    let is_outside = length.simd_gt(zero);
-    let scale = one / select(is_outside, length, one);
-    // Inside, the nearest face.
-    let x_first = beyond[0].simd_ge(beyond[1]) & beyond[0].simd_ge(beyond[2]);
-    let y_first = !x_first & beyond[1].simd_ge(beyond[2]);
-    let z_first = !x_first & !y_first;
-    let face = [select(x_first, one, zero), select(y_first, one, zero), select(z_first, one, zero)];
-    let depth = select(x_first, beyond[0], select(y_first, beyond[1], beyond[2]));
-    let unsigned = choose(is_outside, times(outside, scale), face);
-    let normal = [sign[0] * unsigned[0], sign[1] * unsigned[1], sign[2] * unsigned[2]];
-    (select(is_outside, length, depth), normal)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{SimdLevel, dispatch};
+    use crate::lanes::{LANES, SimdLevel, dispatch};
 
     fn body(shape: Shape) -> Body {
         let state = BodyState {

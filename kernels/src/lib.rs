@@ -10,6 +10,7 @@ pub mod body;
 pub mod clock;
 pub mod column;
 pub mod columns;
+mod compound;
 pub mod contents;
 pub mod cpu;
 mod declaration;
@@ -29,6 +30,7 @@ pub mod smoothing;
 pub mod stage;
 mod state;
 pub mod step;
+mod surface;
 mod sweep;
 #[cfg(test)]
 mod testing;

@@ -38,6 +38,8 @@ impl Rounding {
             Shape::Capsule { half_height, radius } => Self { radius: *radius, core: Vec3::Y * *half_height },
             Shape::Cuboid { half_extents } => cuboid(*half_extents, spacing),
             Shape::Hull { planes, vertices, triangles } => hull(planes, vertices, triangles, spacing),
+            // Each part has its own.
+            Shape::Compound(_) => Self::default(),
         }
     }
 
@@ -45,7 +47,9 @@ impl Rounding {
     #[must_use]
     pub fn core_of(&self, shape: &Shape) -> (Shape, f32) {
         match shape {
-            Shape::Plane | Shape::Sphere { .. } | Shape::Capsule { .. } => (shape.clone(), 0.0),
+            Shape::Plane | Shape::Sphere { .. } | Shape::Capsule { .. } | Shape::Compound(_) => {
+                (shape.clone(), 0.0)
+            }
             Shape::Cuboid { .. } => (Shape::Cuboid { half_extents: self.core }, self.radius),
             Shape::Hull { planes, vertices, triangles } => {
                 let size = self.core.x;

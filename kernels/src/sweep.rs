@@ -8,8 +8,8 @@
 //! ```
 //!
 //! D is the distance from the surface less a margin, and n the normal there. The depth is that of q behind the tangent plane
-//! at x, `D(x) + (q - x) . n`, not the distance of q, which may have passed the body. Shapes are convex, so that a point
-//! outside of the plane is outside of the body, at any speed and thickness.
+//! at x, `D(x) + (q - x) . n`, not the distance of q, which may have passed the body. Pieces of bodies are convex, so that a point
+//! outside of the plane is outside of the piece, at any speed and thickness.
 //!
 //! For particles the body is at its place of the end of the step, and a particle that begins below the margin goes no
 //! deeper:
@@ -20,6 +20,7 @@
 
 use crate::{
     body::{Body, Placed},
+    compound::Piece,
     lanes::{self, Simd, f32x8, prelude::*, select},
     layout::constants,
     vector::{Vec3x8, dot, minus, plus, times},
@@ -73,7 +74,7 @@ pub(crate) fn met<S: Simd>(
     Met { distance, beyond: dot(minus(to, at), normal), normal }
 }
 
-/// A body before and after a step.
+/// A convex piece of a body before and after a step.
 pub(crate) struct Swept<'a, S: Simd> {
     simd: S,
     before: Placed<'a, S>,
@@ -84,12 +85,12 @@ pub(crate) struct Swept<'a, S: Simd> {
 impl<'a, S: Simd> Swept<'a, S> {
     /// Points keep a distance of `margin` from the surface \[m\].
     #[inline(always)]
-    pub(crate) fn new(simd: S, [before, after]: [&'a Body; 2], margin: f32) -> Self {
+    pub(crate) fn new(simd: S, [before, after]: [&Body; 2], piece: &'a Piece<'_>, margin: f32) -> Self {
         Self {
             simd,
-            before: Placed::new(simd, before),
-            after: Placed::new(simd, after),
-            margin: lanes::splat(simd, margin),
+            before: Placed::of_piece(simd, before, piece.geometry()),
+            after: Placed::of_piece(simd, after, piece.geometry()),
+            margin: lanes::splat(simd, margin + piece.radius),
         }
     }
 

@@ -196,23 +196,32 @@ fn react(quadratic: Quadratic, depth: f32, normal: vec3<f32>, slide: vec3<f32>, 
     return Reaction(quadratic.inverse * force, force);
 }
 
-// Contact of a point with one body.
+// Contact of a point with one body, piece by piece.
 fn push_by_body(
     body: Body,
     quadratic: Quadratic,
-    point: vec3<f32>,
+    start: vec3<f32>,
     old: vec3<f32>,
     clearance: f32,
     step: f32,
 ) -> Reaction {
-    let drift = body_velocity(body, point) * step;
-    // The body is at its place of the beginning of the step: so is the node, in the body's frame.
-    let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
-    let depth = -(met.distance + met.beyond);
-    if (depth <= 0.0 || body.touches_nodes == 0u) {
-        return Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
+    var point = start;
+    var all = Reaction(vec3<f32>(0.0), vec3<f32>(0.0));
+    for (var index = 0u; index < body.parts && body.touches_nodes != 0u; index += 1u) {
+        let piece = piece_of(body, index);
+        let drift = body_velocity(body, point) * step;
+        // The body is at its place of the beginning of the step: so is the node, in the body's frame.
+        let met = way_meets(piece, clearance, into_body(piece, old), into_body(piece, point - drift));
+        let depth = -(met.distance + met.beyond);
+        if (depth > 0.0) {
+            let normal = out_of_body(piece, met.normal);
+            let reaction = react(quadratic, depth, normal, point - old - drift, body.friction);
+            point += reaction.change;
+            all.change += reaction.change;
+            all.force += reaction.force;
+        }
     }
-    return react(quadratic, depth, out_of_body(body, met.normal), point - old - drift, body.friction);
+    return all;
 }
 
 // Position of a point after the walls, as `change` from it, and their force.

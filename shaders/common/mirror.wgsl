@@ -131,18 +131,46 @@ fn closest(body: Body, local: vec3<f32>, range: f32) -> Closest {
     }
 }
 
-// The image of a point outside of a body, if it is nearer than `reach`.
-fn image_in(body: Body, point: vec3<f32>, reach: f32) -> Mirrored {
-    var image = Mirrored(point, 1.0, vec3<f32>(1.0), false, vec3<f32>(0.0));
+fn place_in(body: Body, point: vec3<f32>) -> vec3<f32> {
     let arm = point - body.position;
-    let local = vec3<f32>(dot(body.x, arm), dot(body.y, arm), dot(body.z, arm));
-    let radius = body.rounding;
-    let found = closest(body, local, radius + reach);
+    return vec3<f32>(dot(body.x, arm), dot(body.y, arm), dot(body.z, arm));
+}
+
+// Whether the surface of a part of a compound is covered by another one where it is closest to a point.
+fn is_hidden(body: Body, index: u32, point: vec3<f32>, found: Closest, reach: f32) -> bool {
+    let length = sqrt(dot(found.away, found.away));
+    let own = length - piece_of(body, index).rounding;
+    let away = found.away * (own / length);
+    let foot = point - (away.x * body.x + away.y * body.y + away.z * body.z);
+    for (var other = 0u; other < body.parts; other += 1u) {
+        let piece = piece_of(body, other);
+        if (other == index || hull_surface(piece, place_in(piece, foot)).distance >= COVER * reach) {
+            continue;
+        }
+        let closest = closest_of_hull(piece, place_in(piece, point), piece.rounding + 2.0 * reach);
+        let distance = sqrt(dot(closest.away, closest.away)) - piece.rounding;
+        if (!closest.is_there || distance < own || (distance == own && other < index)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The image of a point outside of a convex piece of a body, if it is nearer than `reach`.
+fn image_in(body: Body, index: u32, point: vec3<f32>, reach: f32) -> Mirrored {
+    var image = Mirrored(point, 1.0, vec3<f32>(1.0), false, vec3<f32>(0.0));
+    let piece = piece_of(body, index);
+    let local = place_in(piece, point);
+    let radius = piece.rounding;
+    let found = closest(piece, local, radius + reach);
     let length = sqrt(dot(found.away, found.away));
     let distance = length - radius;
     let is_near = found.is_there && distance > 0.0 && distance < reach && length > 0.0;
     let is_shallow = found.curved == 0u || distance < DEEPEST * radius;
     if (!(is_near && is_shallow)) {
+        return image;
+    }
+    if (body.shape == SHAPE_KIND_COMPOUND && is_hidden(body, index, point, found, reach)) {
         return image;
     }
     let away = found.away / length;

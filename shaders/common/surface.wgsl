@@ -43,6 +43,38 @@ fn hull_surface(body: Body, local: vec3<f32>) -> Surface {
     return nearest;
 }
 
+// A convex piece of a body: a part of a compound as a hull about its own centre, or the body itself. Velocities and torques are those of
+// the body.
+fn piece_of(body: Body, index: u32) -> Body {
+    var piece = body;
+    if (body.shape == SHAPE_KIND_COMPOUND) {
+        let row = body.first_part + index * PART_ROWS;
+        let centre = planes[row].xyz;
+        let faces = planes[row + 1u];
+        piece.shape = SHAPE_KIND_HULL;
+        piece.position = body.position + (centre.x * body.x + centre.y * body.y + centre.z * body.z);
+        piece.core = vec3<f32>(1.0);
+        piece.rounding = faces.x;
+        piece.first_plane = u32(faces.y);
+        piece.planes = u32(faces.z);
+        piece.first_triangle = u32(faces.w);
+        piece.triangles = u32(planes[row + 2u].x);
+    }
+    return piece;
+}
+
+fn compound_surface(body: Body, local: vec3<f32>) -> Surface {
+    var nearest = Surface(vec3<f32>(0.0, 1.0, 0.0), 3.4e38);
+    for (var index = 0u; index < body.parts; index += 1u) {
+        let centre = planes[body.first_part + index * PART_ROWS].xyz;
+        let surface = hull_surface(piece_of(body, index), local - centre);
+        if (surface.distance < nearest.distance) {
+            nearest = surface;
+        }
+    }
+    return nearest;
+}
+
 fn local_surface(body: Body, local: vec3<f32>) -> Surface {
     switch (body.shape) {
         case SHAPE_KIND_PLANE: {
@@ -58,8 +90,11 @@ fn local_surface(body: Body, local: vec3<f32>) -> Surface {
             let on_axis = clamp(local.y, -body.extents.x, body.extents.x);
             return round_surface(vec3<f32>(local.x, local.y - on_axis, local.z), body.radius);
         }
-        default: {
+        case SHAPE_KIND_HULL: {
             return hull_surface(body, local);
+        }
+        default: {
+            return compound_surface(body, local);
         }
     }
 }

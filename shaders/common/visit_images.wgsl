@@ -38,10 +38,12 @@ fn visit_images(point: vec3<f32>) -> u32 {
         count = in_walls(Mirrored(point, 1.0, vec3<f32>(1.0), false, vec3<f32>(0.0)), NO_BODY, count);
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        let base = image_in(body_states[index], point, BODY_REACH * params.spacing);
-        let is_inside = all(base.position > params.wall_low) && all(base.position < params.wall_high);
-        if (base.is_there && (params.has_walls == 0u || is_inside)) {
-            count = in_walls(base, index, count);
+        for (var piece = 0u; piece < body_states[index].parts; piece += 1u) {
+            let base = image_in(body_states[index], piece, point, BODY_REACH * params.spacing);
+            let is_inside = all(base.position > params.wall_low) && all(base.position < params.wall_high);
+            if (base.is_there && (params.has_walls == 0u || is_inside)) {
+                count = in_walls(base, index, count);
+            }
         }
     }
     return count;

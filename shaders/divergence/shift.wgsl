@@ -11,6 +11,19 @@
 @group(0) @binding(7) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> fluid_position: array<vec4<f32>>;
 
+// The part of a shift that leads into none of the parts of a compound.
+fn beside_parts(body: Body, point: vec3<f32>, shift: vec3<f32>) -> vec3<f32> {
+    var along = shift;
+    for (var k = 0u; k < 2u * body.parts; k += 1u) {
+        let surface = body_surface(piece_of(body, k % body.parts), point);
+        let into = dot(along, surface.normal);
+        if (surface.distance < SHIFT_CLEARANCE * params.spacing && into < 0.0) {
+            along = select(vec3<f32>(0.0), along - into * surface.normal, k < body.parts);
+        }
+    }
+    return along;
+}
+
 @compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -42,6 +55,9 @@ fn main(
         let surface = body_surface(body_states[body], own.xyz);
         if (surface.distance < SHIFT_ALONG * params.spacing) {
             shift -= dot(shift, surface.normal) * surface.normal;
+        }
+        if (body_states[body].shape == SHAPE_KIND_COMPOUND) {
+            shift = beside_parts(body_states[body], own.xyz, shift);
         }
     }
     let most = MAXIMUM_SHIFT * params.spacing;

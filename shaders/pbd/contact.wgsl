@@ -71,18 +71,24 @@ fn main(
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = body_states[index];
-        let drift = body_velocity(body, point) * clock.step;
-        // The body is at its place of the beginning of the step: so is the node, in the body's frame.
-        let met = way_meets(body, clearance, into_body(body, old), into_body(body, point - drift));
-        let depth = select(0.0, max(-(met.distance + met.beyond), 0.0), moves && body.touches_nodes != 0u);
-        let change = contact(depth, out_of_body(body, met.normal), point - old - drift, body.friction);
-        point += change;
-        if (group_touches(lane, depth > 0.0)) {
-            var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
+        var touches = false;
+        var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
+        for (var index_of_piece = 0u; index_of_piece < body.parts; index_of_piece += 1u) {
+            let piece = piece_of(body, index_of_piece);
+            let drift = body_velocity(body, point) * clock.step;
+            // The body is at its place of the beginning of the step: so is the node, in the body's frame.
+            let met = way_meets(piece, clearance, into_body(piece, old), into_body(piece, point - drift));
+            let depth = select(0.0, max(-(met.distance + met.beyond), 0.0), moves && body.touches_nodes != 0u);
+            let change = contact(depth, out_of_body(piece, met.normal), point - old - drift, body.friction);
+            point += change;
             if (depth > 0.0) {
-                own.impulse = change * (-1.0 / (w * clock.step));
-                own.angular = cross(point - body.position, own.impulse);
+                touches = true;
+                let impulse = change * (-1.0 / (w * clock.step));
+                own.impulse += impulse;
+                own.angular += cross(point - body.position, impulse);
             }
+        }
+        if (group_touches(lane, touches)) {
             let all = group_sum(lane, own);
             let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
             if (lane == 0u) {

@@ -1,7 +1,7 @@
 //! Intersection of rays with the shapes of bodies.
 
 use super::{DrawnBody, Look};
-use crate::rigid::Shape;
+use crate::rigid::{Compound, Shape};
 use glam::{Mat3, Vec3};
 
 /// A body prepared for intersection.
@@ -47,7 +47,7 @@ impl<'a> Solid<'a> {
             Shape::Sphere { radius } => *radius,
             Shape::Cuboid { half_extents } => half_extents.length(),
             Shape::Capsule { half_height, radius } => half_height + radius,
-            Shape::Hull { vertices, .. } => vertices.iter().map(|v| v.length()).fold(0.0, f32::max),
+            shape @ (Shape::Hull { .. } | Shape::Compound(_)) => shape.bounding_radius(),
         };
         let rotation = body.state.rotation;
         let usable = body.state.position.is_finite()
@@ -98,6 +98,7 @@ impl<'a> Solid<'a> {
             Shape::Cuboid { half_extents } => cuboid(o, d, *half_extents),
             Shape::Capsule { half_height, radius } => capsule(o, d, *half_height, *radius),
             Shape::Hull { planes, .. } => hull(o, d, planes),
+            Shape::Compound(compound) => union(o, d, compound),
         }?;
         (span.enter > 0.0).then(|| Span {
             normal: self.rotation * span.normal,
@@ -122,6 +123,9 @@ impl<'a> Solid<'a> {
             Shape::Hull { planes, .. } => {
                 planes.iter().map(|(normal, offset)| normal.dot(p) - offset).fold(f32::MIN, f32::max)
             }
+            Shape::Compound(compound) => {
+                compound.parts.iter().map(|part| part.distance(p)).fold(f32::MAX, f32::min)
+            }
         }
     }
 
@@ -129,7 +133,7 @@ impl<'a> Solid<'a> {
     pub(super) fn wire_distance(&self, point: Vec3) -> f32 {
         let p = self.local(point);
         match self.shape {
-            Shape::Plane => f32::INFINITY,
+            Shape::Plane | Shape::Compound(_) => f32::INFINITY,
             Shape::Cuboid { .. } => self.edge_distance(point),
             Shape::Sphere { .. } => p.abs().min_element(),
             Shape::Capsule { half_height, .. } => {
@@ -199,6 +203,19 @@ fn hull(o: Vec3, d: Vec3, planes: &[(Vec3, f32)]) -> Option<Span> {
         clip(&mut span, normal, offset, o, d)?;
     }
     (span.enter > f32::MIN && span.exit < f32::MAX).then_some(span)
+}
+
+/// From where a ray first enters a part to where it leaves that and all that overlap it: the wall of a cup, not its hollow.
+fn union(o: Vec3, d: Vec3, compound: &Compound) -> Option<Span> {
+    let parts = compound.parts.iter();
+    let spans =
+        parts.filter_map(|part| hull(o - part.centre, d, part.planes()).filter(|span| span.enter > 0.0));
+    let mut spans: Vec<Span> = spans.collect();
+    spans.sort_by(|a, b| a.enter.total_cmp(&b.enter));
+    spans.into_iter().reduce(|a, b| {
+        let goes_on = b.enter <= a.exit && b.exit > a.exit;
+        if goes_on { Span { exit: b.exit, exit_normal: b.exit_normal, ..a } } else { a }
+    })
 }
 
 /// Clips a span at the half-space `normal . x <= offset`.

@@ -23,6 +23,10 @@ impl MassProperties {
             Shape::Sphere { radius } => sphere(f64::from(*radius)),
             Shape::Cuboid { half_extents } => cuboid(half_extents.as_dvec3()),
             Shape::Capsule { half_height, radius } => capsule(f64::from(*half_height), f64::from(*radius)),
+            Shape::Compound(compound) => {
+                let solid = Solid::new(|i| compound.vertices[i as usize].as_dvec3(), &compound.triangles);
+                Self { mass: solid.volume, inertia: solid.inertia() }
+            }
             Shape::Hull { vertices, triangles, .. } => {
                 let solid = Solid::new(|i| vertices[i as usize].as_dvec3(), triangles);
                 Self { mass: solid.volume, inertia: solid.inertia() }

@@ -8,6 +8,8 @@
 //! The same inputs give the same bits on every run. Bodies are inserted in the order given, and nothing sleeps by itself.
 //! Scripted poses are closed forms of the time, with trigonometry that does not depend on the platform.
 
+#[cfg(feature = "rigid")]
+mod compound;
 mod error;
 mod foreign;
 #[cfg(feature = "rigid")]
@@ -15,6 +17,8 @@ mod hull;
 mod light;
 mod mass;
 mod mechanics;
+#[cfg(feature = "rigid")]
+mod parts;
 #[cfg(feature = "rigid")]
 mod rapier;
 mod saved;
@@ -26,11 +30,13 @@ mod target;
 mod tests;
 
 // The interface shared with the kernels and the scene. The files of this folder import these types from here.
-pub use sorb_kernels::body::{Body, BodyKind, BodyState, Shape, Wrench};
+pub use sorb_kernels::body::{Body, BodyKind, BodyState, Compound, Part, Shape, Wrench};
 
 use crate::scene::Motion;
 
 pub use crate::setup::body_setups;
+#[cfg(feature = "rigid")]
+pub(crate) use compound::cup;
 pub use error::RigidError;
 pub(crate) use foreign::{check_engine, check_state};
 #[cfg(feature = "rigid")]
@@ -38,6 +44,8 @@ pub use hull::{ConvexHull, HullError, MAX_HULL_VERTICES, convex_hull};
 pub(crate) use light::LightBodies;
 pub use mass::MassProperties;
 pub use mechanics::Mechanics;
+#[cfg(feature = "rigid")]
+pub(crate) use parts::mesh_body;
 #[cfg(feature = "rigid")]
 pub use rapier::RapierEngine;
 pub(crate) use script::Script;

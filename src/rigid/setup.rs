@@ -64,7 +64,7 @@ impl BodySetup {
 /// Checks a body and returns its state with a rotation of unit length.
 pub(super) fn checked_state(body: &BodySetup) -> Result<BodyState, RigidError> {
     let dynamic = body.kind == BodyKind::Dynamic;
-    check_shape(body)?;
+    check_shape(body, &body.shape)?;
     let density = body.density;
     body.number("density", density, density.is_finite() && density >= 0.0, NOT_BELOW_ZERO)?;
     body.number("density", density, !dynamic || density > 0.0, ABOVE_ZERO)?;
@@ -95,10 +95,10 @@ pub(super) fn checked_state(body: &BodySetup) -> Result<BodyState, RigidError> {
     Ok(BodyState { rotation: state.rotation.as_dquat().normalize().as_quat(), ..state })
 }
 
-fn check_shape(body: &BodySetup) -> Result<(), RigidError> {
+fn check_shape(body: &BodySetup, shape: &Shape) -> Result<(), RigidError> {
     let length =
         |key: &str, value: f32| body.number(key, value, value.is_finite() && value > 0.0, ABOVE_ZERO);
-    match &body.shape {
+    match shape {
         Shape::Plane if body.kind == BodyKind::Dynamic => {
             Err(body.bad_kind("shape", "a plane has no finite mass"))
         }
@@ -112,6 +112,18 @@ fn check_shape(body: &BodySetup) -> Result<(), RigidError> {
         Shape::Capsule { half_height, radius } => {
             length("shape.half_height", *half_height)?;
             length("shape.radius", *radius)
+        }
+        Shape::Compound(compound) => {
+            body.number(
+                "shape.parts",
+                compound.parts.len() as f32,
+                !compound.parts.is_empty(),
+                "at least 1",
+            )?;
+            compound.parts.iter().try_for_each(|part| {
+                body.finite("shape.parts.centre", part.centre)?;
+                check_shape(body, &part.hull)
+            })
         }
         Shape::Hull { planes, vertices, triangles } => {
             for (index, vertex) in vertices.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::{BodyKind, Motion, Shape};
+use super::{BodyKind, Mesh, Motion, Shape};
 
 /// A rigid body.
 ///
@@ -156,10 +156,32 @@ pub enum ShapeKind {
         #[cfg_attr(feature = "serde", schemars(with = "Vec<[f32; 3]>"))]
         vertices: Vec<Vec3>,
     },
+    /// Open cup along local y, which holds water: a prism of 24 sides that stands on the body's position.
+    Cup {
+        /// Inner radius, of a round cup that holds as much. Range 1e-4 to 100 m.
+        radius: f32,
+        /// Height in all, above `thickness`. Range 1e-4 to 100 m.
+        height: f32,
+        /// Thickness of wall and bottom; 1.6 times `fluid.spacing` keeps the water on both sides apart. Range 1e-4 to 100 m.
+        thickness: f32,
+    },
+    /// Convex parts of a mesh.
+    Mesh {
+        /// The surface, about the body's position.
+        mesh: Mesh,
+        /// Most convex parts that it is taken apart into; with 1 the body is the convex hull. Range 1 to 256; default 1.
+        #[cfg_attr(feature = "serde", serde(default = "one"))]
+        parts: u32,
+    },
+}
+
+#[cfg(feature = "serde")]
+fn one() -> u32 {
+    1
 }
 
 impl ShapeKind {
-    /// The solver's shape, or `None` for a hull, whose faces must be computed first.
+    /// The solver's shape, or `None` for those whose faces must be computed first: hulls, cups and meshes.
     #[must_use]
     pub fn primitive(&self) -> Option<Shape> {
         match *self {
@@ -167,7 +189,7 @@ impl ShapeKind {
             Self::Sphere { radius } => Some(Shape::Sphere { radius }),
             Self::Cuboid { half_extents } => Some(Shape::Cuboid { half_extents }),
             Self::Capsule { half_height, radius } => Some(Shape::Capsule { half_height, radius }),
-            Self::Hull { .. } => None,
+            Self::Hull { .. } | Self::Cup { .. } | Self::Mesh { .. } => None,
         }
     }
 
@@ -182,6 +204,10 @@ impl ShapeKind {
             Self::Hull { vertices } => {
                 Some(vertices.iter().map(|vertex| vertex.length()).fold(0.0, f32::max))
             }
+            Self::Cup { radius, height, thickness } => {
+                Some(Vec3::new(radius + thickness, *height, 0.0).length())
+            }
+            Self::Mesh { mesh, .. } => Some(mesh.reach()),
         }
     }
 }

@@ -48,6 +48,12 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
             broken("shape.vertices", format!("({} points)", vertices.len()), "all points lie in one plane");
         }
     }
+    if let ShapeKind::Cup { height, thickness, .. } = body.shape
+        && height <= thickness
+    {
+        let rule = format!("must be above `shape.thickness` = {}", number_text(thickness));
+        broken("shape.height", number_text(height), &rule);
+    }
     for (index, motion) in body.motions.iter().enumerate() {
         let (start, end) = motion.interval();
         if start >= end {
@@ -65,6 +71,9 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
         {
             broken(&format!("motions[{index}].axis"), vector_text(*axis), "must not be zero");
         }
+    }
+    if let ShapeKind::Mesh { mesh, .. } = &body.shape {
+        mesh.rules(&format!("{table}.shape.mesh"), problems);
     }
     if dynamic {
         inside(&format!("{table}.position"), body.position, body.position, 0.0, scene, problems);

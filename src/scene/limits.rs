@@ -2,7 +2,9 @@
 
 use super::flows::{DRAIN, EMITTER};
 use super::number::Numbers;
-use super::{Body, Camera, Domain, Fluid, FluidBlock, Motion, Rotation, Scene, ShapeKind, Sponge, Time};
+use super::{
+    Body, Camera, Domain, Fluid, FluidBlock, Mesh, Motion, Rotation, Scene, ShapeKind, Sponge, Time,
+};
 
 /// Allowed range of one key; both ends are included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +49,7 @@ pub fn limits() -> impl Iterator<Item = &'static Limit> {
         .chain(of(SPONGE))
         .chain(of(BODY))
         .chain(of(SHAPE))
+        .chain(of(MESH))
         .chain(of(ROTATION))
         .chain(of(MOTION))
         .chain(of(CAMERA))
@@ -184,10 +187,19 @@ pub(super) const BODY: &[Row<Body>] = fields! { Body, "bodies[].";
 };
 
 pub(super) const SHAPE: &[Row<ShapeKind>] = variants! { ShapeKind, "bodies[].shape.";
-    radius in Sphere | Capsule: 1e-4 to 100.0, "m";
+    radius in Sphere | Capsule | Cup: 1e-4 to 100.0, "m";
     half_extents in Cuboid: 1e-4 to 100.0, "m";
     half_height in Capsule: 0.0 to 100.0, "m";
     vertices in Hull: -100.0 to 100.0, "m";
+    height in Cup: 1e-4 to 100.0, "m";
+    thickness in Cup: 1e-4 to 100.0, "m";
+    parts in Mesh: 1.0 to 256.0, "1";
+};
+
+pub(super) const MESH: &[Row<Mesh>] = fields! { Mesh, "bodies[].shape.mesh.";
+    scale: 1e-6 to 1e6, "1";
+    vertices: -1000.0 to 1000.0, "m";
+    triangles: 0.0 to 1e7, "1";
 };
 
 pub(super) const ROTATION: &[Row<Rotation>] = fields! { Rotation, "bodies[].rotation.";

@@ -29,6 +29,7 @@ mod estimate;
 mod flows;
 mod fluid;
 mod limits;
+mod mesh;
 mod motion;
 mod number;
 mod scaled;
@@ -68,6 +69,7 @@ pub use fluid::{
 };
 pub(crate) use limits::limit;
 pub use limits::{Limit, limits};
+pub use mesh::Mesh;
 pub use motion::Motion;
 pub(crate) use number::number_text;
 #[cfg(feature = "serde")]

@@ -37,6 +37,12 @@ impl<T: Numbers> Numbers for [T] {
     }
 }
 
+impl<T: Numbers, const COUNT: usize> Numbers for [T; COUNT] {
+    fn numbers(&self, key: &str, each: &mut dyn FnMut(&str, f32)) {
+        self.as_slice().numbers(key, each);
+    }
+}
+
 impl<T: Numbers> Numbers for Vec<T> {
     fn numbers(&self, key: &str, each: &mut dyn FnMut(&str, f32)) {
         self.as_slice().numbers(key, each);

@@ -22,7 +22,7 @@ pub struct Preset {
 macro_rules! for_every_preset {
     ($macro:ident $($other:ident)*) => {
         $macro! {
-            standing ball_drop squish dam_break wring wipe life stack bobbing water dry empty $($other)*
+            standing ball_drop squish dam_break wring wipe life stack bobbing tap cup water dry empty $($other)*
         }
     };
 }

@@ -2,6 +2,8 @@
 
 use glam::{UVec3, Vec3};
 
+use super::Mesh;
+
 /// A coordinate axis; Y is up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
@@ -17,7 +19,7 @@ pub enum Axis {
 }
 
 /// Shape that is cut out of the lattice block.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
@@ -32,16 +34,26 @@ pub enum SpongeShape {
         /// Axis of the cylinder.
         axis: Axis,
     },
+    /// What a mesh encloses: as large as fits into the block, in its middle, without distortion.
+    Mesh {
+        /// The surface.
+        mesh: Mesh,
+    },
 }
 
 impl SpongeShape {
     /// Volume of the ideal shape over that of its block \[1\].
     #[must_use]
-    pub fn fraction(self) -> f64 {
+    pub fn fraction(&self) -> f64 {
         match self {
             Self::Block => 1.0,
             Self::Ellipsoid => std::f64::consts::PI / 6.0,
             Self::Cylinder { .. } => std::f64::consts::PI / 4.0,
+            // An estimate: the proportions of the block may be others.
+            Self::Mesh { mesh } => mesh.solid().map_or(1.0, |mesh| {
+                let (low, high) = mesh.bounds();
+                (mesh.volume() / (high - low).as_dvec3().element_product()).clamp(0.0, 1.0)
+            }),
         }
     }
 }

@@ -101,11 +101,12 @@ impl Scene {
             }
             return Err(invalid(problems));
         }
-        let scene: Self = value.try_into().map_err(|error: toml::de::Error| {
+        let mut scene: Self = value.try_into().map_err(|error: toml::de::Error| {
             // The schema accepted it, so that only the message of serde tells what is wrong.
             let defect = Defect::Rule(error.message().to_owned());
             invalid(vec![Problem { key: "scene".to_owned(), value: None, defect, place: None }])
         })?;
+        scene.read_meshes(Path::new(file).parent().unwrap_or(Path::new(""))).map_err(invalid)?;
         let problems = scene.problems();
         if problems.is_empty() { Ok(scene) } else { Err(invalid(problems)) }
     }

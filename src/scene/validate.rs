@@ -7,8 +7,8 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Coupling, Domain, Fluid, FluidSolver, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, Solver,
-    Sponge, SpongeShape, VERSION,
+    Coupling, Domain, Fluid, FluidSolver, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, ShapeKind,
+    Solver, Sponge, SpongeShape, VERSION,
 };
 
 /// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
@@ -62,10 +62,16 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
     }
     for (index, sponge) in scene.sponges.iter().enumerate() {
         check(sponge, limits::SPONGE, &format!("sponges[{index}]."), problems);
+        if let SpongeShape::Mesh { mesh } = &sponge.shape {
+            check(mesh, limits::MESH, &format!("sponges[{index}].shape.mesh."), problems);
+        }
     }
     for (index, body) in scene.bodies.iter().enumerate() {
         check(body, limits::BODY, &format!("bodies[{index}]."), problems);
         check(&body.shape, limits::SHAPE, &format!("bodies[{index}].shape."), problems);
+        if let ShapeKind::Mesh { mesh, .. } = &body.shape {
+            check(mesh, limits::MESH, &format!("bodies[{index}].shape.mesh."), problems);
+        }
         check(&body.rotation, limits::ROTATION, &format!("bodies[{index}].rotation."), problems);
         for (motion_index, motion) in body.motions.iter().enumerate() {
             let table = format!("bodies[{index}].motions[{motion_index}].");
@@ -248,6 +254,9 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
                 ));
             }
             None => {}
+        }
+        if let SpongeShape::Mesh { mesh } = &sponge.shape {
+            mesh.rules(&format!("{table}.shape.mesh"), problems);
         }
         wetting(sponge, &table, scene, problems);
         if sponge.self_contact && sponge.solver != Solver::Vbd {

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use glam::Vec3;
 use sorb_kernels::{
-    body::Body,
+    body::{Body, pieces},
     column::{FAR_ROW, padded},
     columns::{Columns, lane},
     params::Params,
 };
 
-use super::mask;
+use super::shapes::Mask;
 use crate::scene::{self, Scene};
 
 /// Displacement of initial particles over the spacing: a perfect lattice hides errors that depend on the order of particles.
@@ -21,7 +21,7 @@ const CLEARANCE: f32 = 0.4;
 /// them, and those nearer than this are moved away.
 const MARGIN: f32 = 0.1;
 
-pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) {
+pub(super) fn seed_fluid(scene: &Scene, masks: &[Mask], params: &Params, columns: &mut Columns) {
     let Some(fluid) = &scene.fluid else { return };
     let spacing = fluid.spacing;
     let room = Beside::new(params, &columns.bodies.states.0);
@@ -29,7 +29,8 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
     for block in &fluid.blocks {
         let (counts, pitch) = block.lattice(scene, spacing);
         // The saturation of a sponge is its initial water, whatever block of water it stands in.
-        let dry = |point: Vec3| !scene.sponges.iter().any(|sponge| holds(sponge, point));
+        let dry =
+            |point: Vec3| !scene.sponges.iter().zip(masks).any(|(sponge, mask)| holds(sponge, mask, point));
         seeds.fill(block.minimum, pitch, counts, block.velocity, dry);
     }
     let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
@@ -45,9 +46,10 @@ pub(super) fn seed_fluid(scene: &Scene, params: &Params, columns: &mut Columns) 
             _ => filling(wanted),
         };
         let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
-        let first_of = |other: &scene::Sponge, point: Vec3| other.saturation > 0.0 && holds(other, point);
+        let before =
+            || scene.sponges.iter().zip(masks).take(index).filter(|(other, _)| other.saturation > 0.0);
         let keep = |point: Vec3| {
-            holds(sponge, point) && !scene.sponges[..index].iter().any(|other| first_of(other, point))
+            holds(sponge, &masks[index], point) && !before().any(|(other, mask)| holds(other, mask, point))
         };
         seeds.fill(sponge.position, pitch, counts, sponge.velocity, keep);
     }
@@ -112,16 +114,16 @@ fn filling(wanted: [f32; 3]) -> [u32; 3] {
 }
 
 /// Whether a point lies inside the outline of a sponge.
-fn holds(sponge: &scene::Sponge, point: Vec3) -> bool {
+fn holds(sponge: &scene::Sponge, mask: &Mask, point: Vec3) -> bool {
     let relative = (point - sponge.position) / sponge.size();
     let inside = relative.cmpge(Vec3::ZERO).all() && relative.cmple(Vec3::ONE).all();
-    inside && mask(sponge.shape)(relative)
+    inside && mask(relative)
 }
 
 /// The room for new particles beside bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Beside {
-    /// Bodies, and the radius of the balls that sweep them \[m\].
+    /// Convex pieces of bodies, and the radius of the balls that sweep them \[m\].
     bodies: Vec<(Body, f32)>,
     /// Distance from bodies within which there are no particles \[m\], and to which those that are nearer are moved.
     clearance: f32,
@@ -131,11 +133,9 @@ pub(crate) struct Beside {
 impl Beside {
     pub(crate) fn new(params: &Params, bodies: &[Body]) -> Self {
         let spacing = params.fluid.spacing;
-        let (bodies, clearance) = if params.fluid.divergence().is_some() {
-            (bodies.iter().map(Body::core).collect(), 0.0)
-        } else {
-            (bodies.iter().map(|body| (body.clone(), 0.0)).collect(), CLEARANCE * spacing)
-        };
+        let as_cores = params.fluid.divergence().is_some();
+        let clearance = if as_cores { 0.0 } else { CLEARANCE * spacing };
+        let bodies = pieces(bodies, as_cores);
         let margin = if clearance > 0.0 { 0.0 } else { MARGIN * spacing };
         Self { bodies, clearance, margin }
     }

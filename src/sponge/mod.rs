@@ -28,6 +28,8 @@ mod locate;
 mod mask;
 mod pieces;
 mod pits;
+#[cfg(feature = "rigid")]
+mod solid;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -43,3 +45,5 @@ pub use limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
 pub(crate) use locate::{Located, TetGrid};
 pub use mask::{block, cylinder, ellipsoid};
 pub use pieces::{Pieces, pieces};
+#[cfg(feature = "rigid")]
+pub(crate) use solid::solid;

@@ -23,8 +23,16 @@ pub enum WorldError {
         /// The defect.
         source: crate::rigid::HullError,
     },
-    /// A body needs rapier3d.
-    #[error("body `{body}`: convex hulls need the feature `rigid`")]
+    /// A mesh is of no use.
+    #[error("{what}: {source}")]
+    Mesh {
+        /// Such as "body `cup`".
+        what: String,
+        /// The defect.
+        source: crate::mesh::MeshError,
+    },
+    /// A body or a sponge needs rapier3d, or its parry3d.
+    #[error("`{body}`: convex hulls, cups and meshes need the feature `rigid`")]
     NeedsRigid {
         /// Name of the body.
         body: String,

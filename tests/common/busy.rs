@@ -102,6 +102,18 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
             scene.sponges[0].saturation = 0.3;
             start_flow(&mut scene);
         }
+        "tap" | "cup" => {
+            scene.sponges[0].saturation = 0.3;
+            scene.emitters.iter_mut().for_each(|emitter| (emitter.start, emitter.end) = (0.0, 10.0));
+            // The stream falls on the pipe.
+            for body in scene.bodies.iter_mut().filter(|body| body.kind == BodyKind::Fixed) {
+                body.position.y = scene.emitters[0].position.y - 0.038;
+            }
+            for body in scene.bodies.iter_mut().filter(|body| body.kind == BodyKind::Kinematic) {
+                let velocity = Vec3::new(0.5, -0.3, 0.1);
+                body.motions = vec![Motion::Linear { velocity, start: 0.0, end: 0.05, ease: 0.0 }];
+            }
+        }
         "bobbing" => {
             for body in &mut scene.bodies {
                 body.position.y -= 0.045;

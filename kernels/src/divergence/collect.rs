@@ -172,11 +172,11 @@ impl<'a> Mirrors<'a> {
     fn visit(&self, point: Vec3, mut visit: impl FnMut(u32, Mirrored)) {
         let within = |(low, high): (Vec3, Vec3), x: Vec3| x.cmpgt(low).all() && x.cmplt(high).all();
         for (index, mirror) in &self.bodies {
-            let image = mirror.image(point, BODY_REACH * self.params.fluid.spacing);
-            let is_inside = |x: Vec3| self.params.walls.is_none_or(|walls| within(walls, x));
-            if let Some(image) = image.filter(|image| is_inside(image.position)) {
-                visit(*index, image);
-            }
+            mirror.images(point, BODY_REACH * self.params.fluid.spacing, |image| {
+                if self.params.walls.is_none_or(|walls| within(walls, image.position)) {
+                    visit(*index, image);
+                }
+            });
         }
     }
 }

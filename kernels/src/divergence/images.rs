@@ -1,8 +1,8 @@
 //! Rows of images: walls and bodies as mirrors of the particles near them, and the lists of neighbours between both.
 //!
-//! A particle has an image in every body nearer than 1.6 spacings (`mirror`). It and those have images by all combinations of the walls
-//! nearer than the support radius: edges and corners are products. Images give density, pressure and velocities beside a wall what water
-//! on both sides of it would.
+//! A particle has an image in every body nearer than 1.6 spacings (`mirror`), of a compound in every part whose surface it sees.
+//! It and those have images by all combinations of the walls nearer than the support radius: edges and corners are products. Images give
+//! density, pressure and velocities beside a wall what water on both sides of it would.
 //!
 //! The moments of the neighbourhoods begin at zero; `couple::solid_moments` adds the material of sponges.
 

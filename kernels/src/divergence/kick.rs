@@ -8,6 +8,7 @@
 //! body it is along the surface alone.
 
 use crate::{
+    body::{Body, BodyState, Compound, Shape},
     columns::{Columns, Fluid, lane},
     cpu::{Cpu, PerChunk},
     kernel::declare,
@@ -45,6 +46,8 @@ declare! {
         const SHIFT_END: f32 = 0.5;
         /// Distance from a body over the spacing within which the shift is along its surface.
         const SHIFT_ALONG: f32 = 2.0;
+        /// Distance from a part of a compound over the spacing within which there is no shift towards it.
+        const SHIFT_CLEARANCE: f32 = 0.3;
     },
 }
 
@@ -95,7 +98,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
 fn along_bodies(
     mut shift: Vec3,
     (images, row): (&Images, usize),
-    (bodies, point): (&[crate::body::Body], Vec3),
+    (bodies, point): (&[Body], Vec3),
     spacing: f32,
 ) -> Vec3 {
     let mut last = NO_BODY;
@@ -109,6 +112,26 @@ fn along_bodies(
         if distance < SHIFT_ALONG * spacing {
             shift -= shift.dot(normal) * normal;
         }
+        if let Shape::Compound(compound) = &bodies[body as usize].shape {
+            shift = beside_parts(shift, compound, &bodies[body as usize].state, point, spacing);
+        }
     }
     shift
+}
+
+/// The part of a shift that leads into none of the parts of a compound: edges between them have no normal of their own.
+fn beside_parts(shift: Vec3, compound: &Compound, state: &BodyState, point: Vec3, spacing: f32) -> Vec3 {
+    let inverse = state.rotation.conjugate();
+    let local = inverse * (point - state.position);
+    let mut along = inverse * shift;
+    for is_again in [false, true] {
+        for part in &compound.parts {
+            let (distance, normal) = part.distance_and_normal(local);
+            let into = along.dot(normal);
+            if distance < SHIFT_CLEARANCE * spacing && into < 0.0 {
+                along = if is_again { Vec3::ZERO } else { along - into * normal };
+            }
+        }
+    }
+    state.rotation * along
 }

@@ -14,7 +14,7 @@
 use glam::{Mat3, Vec3};
 
 use crate::{
-    body::{Body, Shape},
+    body::{Body, Compound, Part, Shape},
     layout::constants,
 };
 
@@ -23,6 +23,8 @@ constants! {
     const DEEPEST: f32 = 0.95;
     /// Relative difference of squared distances below which a face is preferred to an edge.
     const TIE: f32 = 1e-5;
+    /// Distance above a part of a compound up to which it covers others, over the distance at which there are images.
+    const COVER: f32 = 0.06;
 }
 
 /// What a surface is like where it is closest to a point.
@@ -66,11 +68,35 @@ impl<'a> Mirror<'a> {
         Self { body, axes: Mat3::from_quat(body.state.rotation) }
     }
 
-    /// The image of a point outside, if it is nearer than `reach`.
-    pub(super) fn image(&self, point: Vec3, reach: f32) -> Option<Mirrored> {
+    /// The images of a point outside in all convex pieces of the body that are nearer than `reach`.
+    pub(super) fn images(&self, point: Vec3, reach: f32, mut visit: impl FnMut(Mirrored)) {
         let local = self.axes.transpose() * (point - self.body.state.position);
+        if let Shape::Compound(compound) = &self.body.shape {
+            for (index, part) in compound.parts.iter().enumerate() {
+                let Some((away, curvature)) = closest_of_part(part, local, reach) else { continue };
+                let found = (away, curvature);
+                let Some(image) = self.mirrored(point, found, part.radius, reach) else { continue };
+                if !is_hidden(compound, index, (local, away), reach) {
+                    visit(image);
+                }
+            }
+            return;
+        }
         let radius = self.body.rounding.radius;
-        let (away, curvature) = self.closest(local, radius + reach)?;
+        let found = closest(&self.body.shape, self.body.rounding.core, local, radius + reach);
+        if let Some(image) = found.and_then(|found| self.mirrored(point, found, radius, reach)) {
+            visit(image);
+        }
+    }
+
+    /// The image of a point in a piece that is swept by a ball, from the closest point of its core in the frame of the body.
+    fn mirrored(
+        &self,
+        point: Vec3,
+        (away, curvature): (Vec3, Curvature),
+        radius: f32,
+        reach: f32,
+    ) -> Option<Mirrored> {
         let length = away.length();
         let distance = length - radius;
         let is_near = distance > 0.0 && distance < reach && length > 0.0;
@@ -96,38 +122,59 @@ impl<'a> Mirror<'a> {
             volume_ratio,
         })
     }
+}
 
-    /// From the closest point of the core to a point in the body's frame, and the curvature there; none if it is farther than
-    /// `range` for certain.
-    fn closest(&self, local: Vec3, range: f32) -> Option<(Vec3, Curvature)> {
-        let core = self.body.rounding.core;
-        match &self.body.shape {
-            Shape::Plane => Some((Vec3::Y * local.y.max(0.0), Curvature::Flat)),
-            Shape::Sphere { .. } => Some((local, Curvature::Around)),
-            Shape::Capsule { .. } => {
-                let nearest = local.y.clamp(-core.y, core.y);
-                let curvature =
-                    if nearest == local.y { Curvature::Along(Vec3::Y) } else { Curvature::Around };
-                Some((local - Vec3::Y * nearest, curvature))
-            }
-            Shape::Cuboid { .. } => {
-                let away = local - local.clamp(-core, core);
-                let beyond = away.cmpne(Vec3::ZERO);
-                let curvature = match beyond.bitmask().count_ones() {
-                    0 => return None,
-                    1 => Curvature::Flat,
-                    2 => Curvature::Along(Vec3::select(beyond, Vec3::ZERO, Vec3::ONE)),
-                    _ => Curvature::Around,
-                };
-                Some((away, curvature))
-            }
-            Shape::Hull { planes, vertices, triangles } => {
-                let is_far =
-                    planes.iter().any(|(normal, offset)| normal.dot(local) > core.x * offset + range);
-                if is_far { None } else { closest_of_hull(local, core.x, vertices, triangles) }
-            }
+/// From the closest point of the core of a shape to a point in its frame, and the curvature there; none if it is farther than `range`
+/// for certain.
+fn closest(shape: &Shape, core: Vec3, local: Vec3, range: f32) -> Option<(Vec3, Curvature)> {
+    match shape {
+        Shape::Plane => Some((Vec3::Y * local.y.max(0.0), Curvature::Flat)),
+        Shape::Sphere { .. } => Some((local, Curvature::Around)),
+        Shape::Capsule { .. } => {
+            let nearest = local.y.clamp(-core.y, core.y);
+            let curvature = if nearest == local.y { Curvature::Along(Vec3::Y) } else { Curvature::Around };
+            Some((local - Vec3::Y * nearest, curvature))
         }
+        Shape::Cuboid { .. } => {
+            let away = local - local.clamp(-core, core);
+            let beyond = away.cmpne(Vec3::ZERO);
+            let curvature = match beyond.bitmask().count_ones() {
+                0 => return None,
+                1 => Curvature::Flat,
+                2 => Curvature::Along(Vec3::select(beyond, Vec3::ZERO, Vec3::ONE)),
+                _ => Curvature::Around,
+            };
+            Some((away, curvature))
+        }
+        Shape::Hull { planes, vertices, triangles } => {
+            let is_far = planes.iter().any(|(normal, offset)| normal.dot(local) > core.x * offset + range);
+            if is_far { None } else { closest_of_hull(local, core.x, vertices, triangles) }
+        }
+        // Its parts are asked one by one.
+        Shape::Compound(_) => None,
     }
+}
+
+/// The same for a part of a compound, and a point in the frame of the body that has to be nearer than `reach`.
+fn closest_of_part(part: &Part, local: Vec3, reach: f32) -> Option<(Vec3, Curvature)> {
+    closest(&part.core, Vec3::ONE, local - part.centre, part.radius + reach)
+}
+
+/// Whether the surface of a part is covered by another one where it is closest to a point: that has the image then. Of two that cover each
+/// other the nearer one has it.
+fn is_hidden(compound: &Compound, index: usize, (local, away): (Vec3, Vec3), reach: f32) -> bool {
+    let length = away.length();
+    let own = length - compound.parts[index].radius;
+    let foot = local - away * (own / length);
+    compound.parts.iter().enumerate().any(|(other, part)| {
+        if other == index || part.distance(foot) >= COVER * reach {
+            return false;
+        }
+        // None of those whose surface is that near is farther than this.
+        let distance = closest_of_part(part, local, 2.0 * reach)
+            .map_or(f32::NEG_INFINITY, |(away, _)| away.length() - part.radius);
+        distance < own || distance == own && other < index
+    })
 }
 
 /// The same for a hull of a certain size; none inside of it.
@@ -245,7 +292,11 @@ mod tests {
             let point = body.state.position + 0.1 * Vec3::new(unit(), unit(), unit());
             // Where all are on the same kind of face or edge the derivative is a difference.
             let step = 1e-4;
-            let at = |offset: Vec3| mirror.image(point + offset, 1.6 * SPACING);
+            let at = |offset: Vec3| {
+                let mut found = None;
+                mirror.images(point + offset, 1.6 * SPACING, |image| found = Some(image));
+                found
+            };
             let ends = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| (at(step * axis), at(-step * axis)));
             let Some(image) = at(Vec3::ZERO) else { continue };
             let columns = ends.map(|(a, b)| Some((a?, b?)));

@@ -4,9 +4,15 @@ use glam::{Mat3, Vec3};
 
 use super::layout::Value;
 use crate::{
-    body::{Body, Shape},
-    layout::{enumeration, layout},
+    body::{Body, Part, Shape},
+    layout::{constants, enumeration, layout},
 };
+
+constants! {
+    /// Rows of a part of a compound: its centre; radius of the ball of its core, first plane and number of planes of the hull, first
+    /// triangle of the core; number of triangles. Numbers of rows are exact as f32.
+    const PART_ROWS: u32 = 3;
+}
 
 /// Bytes of a body that go up before a step.
 pub const BODY_BYTES: u64 = DeviceBody::BYTES;
@@ -25,6 +31,8 @@ enumeration! {
         Capsule,
         /// Convex hull.
         Hull,
+        /// Union of convex hulls.
+        Compound,
     }
 }
 
@@ -64,6 +72,10 @@ layout! {
         friction: f32,
         /// Whether the fluid does not slide along it.
         no_slip: bool,
+        /// Of a compound: rows of its parts behind the planes of others, [`PART_ROWS`] each.
+        first_part: u32,
+        /// Convex pieces that it consists of.
+        parts: u32,
     }
 }
 
@@ -71,19 +83,21 @@ impl DeviceBody {
     /// A body; its face planes and triangles are put behind those of the others.
     fn new(body: &Body, planes: &mut Vec<[f32; 4]>) -> Self {
         let first_plane = planes.len() as u32;
-        let (mut first_triangle, mut triangles) = (first_plane, 0);
+        let (mut faces, mut first_part, mut parts) = (Faces { first_plane, ..Faces::default() }, 0, 1);
         let (shape, extents, radius) = match &body.shape {
             Shape::Plane => (ShapeKind::Plane, Vec3::ZERO, 0.0),
             Shape::Sphere { radius } => (ShapeKind::Sphere, Vec3::ZERO, *radius),
             Shape::Cuboid { half_extents } => (ShapeKind::Cuboid, *half_extents, 0.0),
             Shape::Capsule { half_height, radius } => (ShapeKind::Capsule, Vec3::X * *half_height, *radius),
-            Shape::Hull { planes: faces, vertices, triangles: corners } => {
-                planes.extend(faces.iter().map(|(normal, offset)| [normal.x, normal.y, normal.z, *offset]));
-                first_triangle = planes.len() as u32;
-                let corner = |index: &u32| vertices[*index as usize].extend(0.0).to_array();
-                planes.extend(corners.iter().flatten().map(corner));
-                triangles = corners.len() as u32;
+            Shape::Hull { .. } => {
+                faces = Faces::put(&body.shape, &body.shape, planes);
                 (ShapeKind::Hull, Vec3::ZERO, 0.0)
+            }
+            Shape::Compound(compound) => {
+                first_part = planes.len() as u32;
+                parts = compound.parts.len() as u32;
+                put_parts(&compound.parts, planes);
+                (ShapeKind::Compound, Vec3::ZERO, 0.0)
             }
         };
         let (state, axes) = (&body.state, Mat3::from_quat(body.state.rotation));
@@ -103,15 +117,55 @@ impl DeviceBody {
             inverse_inertia_y: body.inverse_inertia.y_axis.to_array(),
             shape,
             inverse_inertia_z: body.inverse_inertia.z_axis.to_array(),
-            first_plane,
-            planes: if shape == ShapeKind::Hull { first_triangle - first_plane } else { 0 },
-            first_triangle,
-            triangles,
+            first_plane: faces.first_plane,
+            planes: faces.planes,
+            first_triangle: faces.first_triangle,
+            triangles: faces.triangles,
             size: 1.0,
             touches_nodes: body.touches_nodes,
             friction: body.friction,
             no_slip: body.no_slip,
+            first_part,
+            parts,
         }
+    }
+}
+
+/// Where planes and triangles of a hull are.
+#[derive(Clone, Copy, Debug, Default)]
+struct Faces {
+    first_plane: u32,
+    planes: u32,
+    first_triangle: u32,
+    triangles: u32,
+}
+
+impl Faces {
+    /// Puts the planes of a hull and the triangles of another one behind others.
+    fn put(hull: &Shape, core: &Shape, rows: &mut Vec<[f32; 4]>) -> Self {
+        let first_plane = rows.len() as u32;
+        let Shape::Hull { planes, .. } = hull else { return Self::default() };
+        let Shape::Hull { vertices, triangles, .. } = core else { return Self::default() };
+        rows.extend(planes.iter().map(|(normal, offset)| [normal.x, normal.y, normal.z, *offset]));
+        let first_triangle = rows.len() as u32;
+        let corner = |index: &u32| vertices[*index as usize].extend(0.0).to_array();
+        rows.extend(triangles.iter().flatten().map(corner));
+        let (planes, triangles) = (planes.len() as u32, triangles.len() as u32);
+        Self { first_plane, planes, first_triangle, triangles }
+    }
+}
+
+/// Puts the table of the parts behind other rows, and their faces behind it.
+fn put_parts(parts: &[Part], rows: &mut Vec<[f32; 4]>) {
+    let first = rows.len();
+    rows.resize(first + parts.len() * PART_ROWS as usize, [0.0; 4]);
+    for (index, part) in parts.iter().enumerate() {
+        let Faces { first_plane, planes, first_triangle, triangles } =
+            Faces::put(&part.hull, &part.core, rows);
+        let row = first + index * PART_ROWS as usize;
+        rows[row] = part.centre.extend(0.0).to_array();
+        rows[row + 1] = [part.radius, first_plane as f32, planes as f32, first_triangle as f32];
+        rows[row + 2][0] = triangles as f32;
     }
 }
 
@@ -124,9 +178,16 @@ pub(super) fn pack(bodies: &[Body]) -> (Vec<u32>, Vec<[f32; 4]>) {
 
 /// Rows of the face planes and triangles of all hulls.
 pub(super) fn plane_count(bodies: &[Body]) -> usize {
-    let planes = |body: &Body| match &body.shape {
-        Shape::Hull { planes, triangles, .. } => planes.len() + 3 * triangles.len(),
+    let rows = |hull: &Shape, core: &Shape| match (hull, core) {
+        (Shape::Hull { planes, .. }, Shape::Hull { triangles, .. }) => planes.len() + 3 * triangles.len(),
         _ => 0,
+    };
+    let planes = |body: &Body| match &body.shape {
+        Shape::Compound(compound) => {
+            let parts = compound.parts.iter();
+            parts.map(|part| PART_ROWS as usize + rows(&part.hull, &part.core)).sum()
+        }
+        shape => rows(shape, shape),
     };
     bodies.iter().map(planes).sum()
 }

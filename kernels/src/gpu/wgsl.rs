@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::{
     answer::{Clock, Extreme, Status},
-    bodies::{DeviceBody, ShapeKind},
+    bodies::{self, DeviceBody, ShapeKind},
     cells::{self, Grid},
     groups,
     images::DeviceImage,
@@ -14,19 +14,19 @@ use super::{
     sums::{self, GroupSums},
 };
 use crate::{
-    KERNELS, body,
+    KERNELS,
     clock::{self, Bound},
     couple, divergence,
     params::{self, EquationOfState, Solver, SpongeParams, WettingParams},
     pbd,
     smoothing::{self, Wendland},
     sph::{self, pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
-    sweep,
+    surface, sweep,
 };
 
 /// Constants of modules that are no kernels.
 const CONSTANTS: &[&[Constant]] = &[
-    body::CONSTANTS,
+    bodies::CONSTANTS,
     cells::CONSTANTS,
     clock::CONSTANTS,
     couple::compliance::CONSTANTS,
@@ -51,6 +51,7 @@ const CONSTANTS: &[&[Constant]] = &[
     sph::pressure_solve::CONSTANTS,
     stars::CONSTANTS,
     sums::CONSTANTS,
+    surface::CONSTANTS,
     sweep::CONSTANTS,
 ];
 

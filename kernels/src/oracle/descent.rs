@@ -133,14 +133,16 @@ fn push(
     let friction = f64::from(params.sponges[columns.nodes.sponge[node] as usize].friction);
     let mut by_walls = push_by_walls(params, stiffness, friction, old, point);
     let mut by_bodies = Vec::new();
-    for body in &columns.bodies.states.0 {
+    let bodies = &columns.bodies.states.0;
+    let pieces = obstacles::convex(bodies);
+    for (index, body) in bodies.iter().enumerate() {
         let mut force = DVec3::ZERO;
-        if body.touches_nodes {
+        for (_, piece) in pieces.iter().filter(|(of, _)| *of == index && body.touches_nodes) {
             let drift = h * shapes::velocity(body, *point);
             let clearance = 1e-3 * f64::from(params.sponges[columns.nodes.sponge[node] as usize].edge);
-            let (distance, beyond, normal) = obstacles::met(body, clearance, old, *point - drift);
+            let (distance, beyond, normal) = obstacles::met(piece, clearance, old, *point - drift);
             let (depth, slide) = (-(distance + beyond), *point - old - drift);
-            force = react(stiffness, depth, normal, slide, f64::from(body.friction), point);
+            force += react(stiffness, depth, normal, slide, f64::from(body.friction), point);
         }
         by_bodies.push(force);
     }

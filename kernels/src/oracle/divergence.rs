@@ -377,6 +377,9 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
             if has_image && distance < 2.0 * spacing {
                 shift -= shift.dot(normal) * normal;
             }
+            if has_image {
+                shift = super::obstacles::beside_parts((bodies, index), x, shift, 0.3 * spacing);
+            }
         }
         fluid.position[i] = keep(fluid.position[i], x + shift.clamp_length_max(0.1 * spacing));
     }

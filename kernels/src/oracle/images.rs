@@ -1,10 +1,10 @@
 //! Images of particles in walls and bodies.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use super::{apart, incompressible::factor, row, shapes, vector, vectors};
 use crate::{
-    body::{Body, Shape},
+    body::{Body, Part, Shape},
     columns::{Columns, Fluid},
     divergence::{
         image_rows::{Image, Images, NO_BODY},
@@ -26,9 +26,8 @@ fn outer(v: DVec3) -> DMat3 {
 }
 
 /// The closest point of a core, and the directions in which the surface is curved there: none, all but one, all.
-fn closest(body: &Body, point: DVec3) -> Option<Closest> {
-    let core = body.rounding.core.as_dvec3();
-    match &body.shape {
+fn closest(shape: &Shape, core: DVec3, point: DVec3) -> Option<Closest> {
+    match shape {
         Shape::Plane => Some((DVec3::new(point.x, 0.0, point.z), None, false)),
         Shape::Sphere { .. } => Some((DVec3::ZERO, None, true)),
         Shape::Capsule { .. } => {
@@ -52,6 +51,7 @@ fn closest(body: &Body, point: DVec3) -> Option<Closest> {
             let corners: Vec<DVec3> = vertices.iter().map(|vertex| core.x * vertex.as_dvec3()).collect();
             of_hull(point, &corners, triangles)
         }
+        Shape::Compound(_) => None,
     }
 }
 
@@ -89,18 +89,62 @@ fn of_hull(point: DVec3, corners: &[DVec3], triangles: &[[u32; 3]]) -> Option<Cl
     best.map(|(_, found)| found)
 }
 
-fn in_body(params: &Params, body: &Body, x: DVec3) -> Option<InBody> {
+/// From the closest point of the core of a piece to a point in the frame of the body, and the directions as in [`closest`].
+struct Reached {
+    away: DVec3,
+    straight: Option<DVec3>,
+    is_curved: bool,
+    radius: f64,
+}
+
+impl Reached {
+    fn of(shape: &Shape, (core, radius): (Vec3, f32), local: DVec3) -> Option<Self> {
+        let (nearest, straight, is_curved) = closest(shape, core.as_dvec3(), local)?;
+        Some(Self { away: local - nearest, straight, is_curved, radius: f64::from(radius) })
+    }
+
+    fn distance(&self) -> f64 {
+        self.away.length() - self.radius
+    }
+}
+
+/// The images of a point in a body.
+fn in_body(params: &Params, body: &Body, x: DVec3) -> Vec<InBody> {
     let rotation = shapes::rotation(body);
     let local = rotation.transpose() * (x - body.state.position.as_dvec3());
-    let (nearest, straight, is_curved) = closest(body, local)?;
-    let (radius, away) = (f64::from(body.rounding.radius), local - nearest);
-    let distance = away.length() - radius;
+    let Shape::Compound(compound) = &body.shape else {
+        let found = Reached::of(&body.shape, (body.rounding.core, body.rounding.radius), local);
+        return found.and_then(|found| mirrored(params, &rotation, x, &found)).into_iter().collect();
+    };
+    let reached =
+        |part: &Part| Reached::of(&part.core, (Vec3::ONE, part.radius), local - part.centre.as_dvec3());
+    let cover = 0.06 * 1.6 * f64::from(params.fluid.spacing);
+    let mut found = Vec::new();
+    for (index, part) in compound.parts.iter().enumerate() {
+        let Some(own) = reached(part) else { continue };
+        let foot = local - own.away * (own.distance() / own.away.length());
+        let covers = |(other, part): (usize, &Part)| {
+            let depth = shapes::local(&part.hull, foot - part.centre.as_dvec3()).0;
+            let distance = reached(part).map_or(f64::MIN, |of| of.distance());
+            let is_nearer = distance < own.distance() || distance == own.distance() && other < index;
+            other != index && depth < cover && is_nearer
+        };
+        if !compound.parts.iter().enumerate().any(covers) {
+            found.extend(mirrored(params, &rotation, x, &own));
+        }
+    }
+    found
+}
+
+fn mirrored(params: &Params, rotation: &DMat3, x: DVec3, found: &Reached) -> Option<InBody> {
+    let Reached { away, straight, is_curved, radius } = *found;
+    let distance = found.distance();
     let reach = 1.6 * f64::from(params.fluid.spacing);
     if distance <= 0.0 || distance >= reach || (is_curved && distance >= 0.95 * radius) {
         return None;
     }
-    let normal = rotation * away.normalize();
-    let straight = straight.map(|direction| rotation * direction);
+    let normal = *rotation * away.normalize();
+    let straight = straight.map(|direction| *rotation * direction);
     let ratio = (radius - distance) / (radius + distance);
     let across = DMat3::IDENTITY - outer(normal);
     let (volume, tangential) = match (is_curved, straight) {
@@ -117,9 +161,8 @@ fn images_of(params: &Params, bodies: &[Body], x: DVec3) -> Vec<Image> {
     let inside = |x: DVec3| corners.is_none_or(|(low, high)| x.cmpgt(low).all() && x.cmplt(high).all());
     let mut bases = vec![(NO_BODY, (x, DMat3::IDENTITY, 1.0))];
     for (index, body) in bodies.iter().enumerate() {
-        bases.extend(
-            in_body(params, body, x).filter(|image| inside(image.0)).map(|image| (index as u32, image)),
-        );
+        let found = in_body(params, body, x).into_iter().filter(|image| inside(image.0));
+        bases.extend(found.map(|image| (index as u32, image)));
     }
     let reach = f64::from(params.fluid.smoothing.support_radius);
     let mut found = Vec::new();

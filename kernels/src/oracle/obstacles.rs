@@ -1,11 +1,12 @@
 //! Swept contact of particles with bodies, and friction at walls, one by one.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::{keep, row, shapes, vector};
 use crate::{
-    body::{Body, Wrench},
+    body::{Body, Shape, Wrench},
     columns::{Columns, lane},
+    compound::Piece,
     params::Params,
     sweep,
 };
@@ -57,25 +58,89 @@ fn correction([before, after]: [&Body; 2], margin: f64, from: DVec3, to: DVec3) 
     turned * -beyond
 }
 
-/// Bodies before and after the step, and the radius of the balls that sweep them.
-fn pairs(params: &Params, columns: &Columns) -> Vec<([Body; 2], f64)> {
-    let (bodies, radii) = crate::sph::sweep::obstacles(params, &columns.bodies.states.0);
-    let pair = |(body, radius): (Body, f32)| ([body.clone(), body.at_end(params.step)], f64::from(radius));
-    bodies.into_iter().zip(radii).map(pair).collect()
+/// The convex pieces of bodies as bodies of their own, with the numbers of those.
+pub(super) fn convex(bodies: &[Body]) -> Vec<(usize, Body)> {
+    let of = |piece: Piece<'_>| {
+        let mut body = bodies[piece.body].clone();
+        body.shape = piece.shape.into_owned();
+        body.state.position += piece.centre.map_or(Vec3::ZERO, |centre| body.state.rotation * centre);
+        (piece.body, body)
+    };
+    Piece::of_all(bodies).map(of).collect()
+}
+
+/// The part of a shift that does not lead into the parts of a compound that are nearer than some distance.
+pub(super) fn beside_parts(
+    (bodies, index): (&[Body], usize),
+    x: DVec3,
+    mut shift: DVec3,
+    nearest: f64,
+) -> DVec3 {
+    if !matches!(bodies[index].shape, Shape::Compound(_)) {
+        return shift;
+    }
+    let pieces = convex(bodies);
+    for is_again in [false, true] {
+        for (_, piece) in pieces.iter().filter(|(of, _)| *of == index) {
+            let (distance, normal) = shapes::distance(piece, x);
+            let into = shift.dot(normal);
+            if distance < nearest && into < 0.0 {
+                shift = if is_again { DVec3::ZERO } else { shift - into * normal };
+            }
+        }
+    }
+    shift
+}
+
+/// A convex piece before and after the step, with the number of its body and the radius of the ball that sweeps it.
+struct Swept {
+    pair: [Body; 2],
+    body: usize,
+    radius: f64,
+}
+
+/// The pieces of all bodies.
+fn pieces(params: &Params, bodies: &[Body]) -> Vec<Swept> {
+    let swept = |piece: &Piece<'_>| {
+        let whole = &bodies[piece.body];
+        let pair = [whole.clone(), whole.at_end(params.step)].map(|mut body| {
+            body.shape = piece.shape.clone().into_owned();
+            body.state.position += piece.centre.map_or(Vec3::ZERO, |centre| body.state.rotation * centre);
+            body
+        });
+        Swept { pair, body: piece.body, radius: f64::from(piece.radius) }
+    };
+    crate::sph::sweep::obstacles(params, bodies).iter().map(swept).collect()
 }
 
 pub(crate) fn sweep_fluid(params: &Params, columns: &mut Columns) {
-    let pairs = pairs(params, columns);
-    let mut wrenches = given(&columns.bodies.fluid_wrenches.0, pairs.len());
+    let bodies = &columns.bodies.states.0;
+    let pieces = pieces(params, bodies);
+    let mut wrenches = given(&columns.bodies.fluid_wrenches.0, bodies.len());
     let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
     let spacing = f64::from(params.fluid.spacing);
     for i in 0..columns.rows.fluid {
         let x = vector(columns.fluid.position[i]);
         let mut v = vector(columns.fluid.velocity[i]);
-        for (wrench, (pair, radius)) in wrenches.iter_mut().zip(&pairs) {
+        for Swept { pair, body, radius } in &pieces {
             let moved = correction(pair.each_ref(), 0.05 * spacing + radius, x, x + h * v);
             v += moved / h;
-            wrench.add(-mass * moved / h, x + h * v - pair[1].state.position.as_dvec3());
+            let centre = bodies[*body].at_end(params.step).state.position.as_dvec3();
+            wrenches[*body].add(-mass * moved / h, x + h * v - centre);
+        }
+        for (index, body) in bodies.iter().enumerate() {
+            let parts = pieces.iter().filter(|piece| piece.body == index);
+            let deepest = parts.map(|Swept { pair, radius, .. }| {
+                correction(pair.each_ref(), 0.05 * spacing + radius, x, x + h * v).length()
+            });
+            let is_compound = matches!(body.shape, Shape::Compound(_));
+            if is_compound && deepest.fold(0.0, f64::max) > 2e-5 * spacing {
+                let end = body.at_end(params.step);
+                let carried = carried(body, &end, x);
+                wrenches[index]
+                    .add(-mass * (carried - x - h * v) / h, carried - end.state.position.as_dvec3());
+                v = (carried - x) / h;
+            }
         }
         columns.fluid.velocity[i] = keep(columns.fluid.velocity[i], v);
     }

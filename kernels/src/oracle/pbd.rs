@@ -165,6 +165,7 @@ impl Tet {
 
 pub(crate) fn contact(params: &Params, columns: &mut Columns) {
     let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
+    let pieces = obstacles::convex(bodies);
     let h = f64::from(params.step);
     // Wrenches of previous kernels, in one chunk.
     let mut wrenches = vec![Wrench::default(); bodies.len()];
@@ -189,9 +190,10 @@ pub(crate) fn contact(params: &Params, columns: &mut Columns) {
                 }
             }
         }
-        for (body, wrench) in bodies.iter().zip(&mut wrenches).filter(|(body, _)| body.touches_nodes) {
+        for (index, piece) in pieces.iter().filter(|(_, piece)| piece.touches_nodes) {
+            let (body, wrench) = (&bodies[*index], &mut wrenches[*index]);
             let clearance = 1e-3 * f64::from(params.sponges[nodes.sponge[node] as usize].edge);
-            let change = touch(body, clearance, [point, old], h);
+            let change = touch((body, piece), clearance, [point, old], h);
             point += change;
             wrench.add(change / (-w * h), point - body.state.position.as_dvec3());
         }
@@ -203,10 +205,10 @@ pub(crate) fn contact(params: &Params, columns: &mut Columns) {
     columns.bodies.node_wrenches.0 = wrenches;
 }
 
-/// Change of position by one body, at its place of the beginning of the step.
-fn touch(body: &Body, clearance: f64, [point, old]: [DVec3; 2], h: f64) -> DVec3 {
+/// Change of position by a piece of a body, at its place of the beginning of the step.
+fn touch((body, piece): (&Body, &Body), clearance: f64, [point, old]: [DVec3; 2], h: f64) -> DVec3 {
     let drift = h * shapes::velocity(body, point);
-    let (distance, beyond, normal) = obstacles::met(body, clearance, old, point - drift);
+    let (distance, beyond, normal) = obstacles::met(piece, clearance, old, point - drift);
     resolve(-(distance + beyond), normal, point - old - drift, f64::from(body.friction))
 }
 

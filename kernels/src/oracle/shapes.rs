@@ -23,7 +23,7 @@ pub(super) fn distance(body: &Body, point: DVec3) -> (f64, DVec3) {
     (distance, rotation * normal)
 }
 
-fn local(shape: &Shape, point: DVec3) -> (f64, DVec3) {
+pub(super) fn local(shape: &Shape, point: DVec3) -> (f64, DVec3) {
     match shape {
         Shape::Plane => (point.y, DVec3::Y),
         Shape::Sphere { radius } => ball(point, f64::from(*radius)),
@@ -32,6 +32,10 @@ fn local(shape: &Shape, point: DVec3) -> (f64, DVec3) {
             ball(point - DVec3::Y * point.y.clamp(-half, half), f64::from(*radius))
         }
         Shape::Cuboid { half_extents } => cuboid(point, half_extents.as_dvec3()),
+        Shape::Compound(compound) => {
+            let parts = compound.parts.iter().map(|part| local(&part.hull, point - part.centre.as_dvec3()));
+            parts.fold((f64::MAX, DVec3::Y), |best, part| if part.0 < best.0 { part } else { best })
+        }
         Shape::Hull { planes, .. } => {
             let faces = planes.iter().map(|(normal, offset)| {
                 let normal = normal.as_dvec3();

@@ -9,6 +9,7 @@ use glam::{DVec3, Vec3};
 use crate::{
     body::{Body, Placed, Wrench, by_chunk},
     columns::{Columns, Nodes},
+    compound::Piece,
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
@@ -50,9 +51,11 @@ struct Task<'a> {
 impl Task<'_> {
     #[inline(always)]
     fn chunk<S: Simd>(&self, simd: S, first: usize, predicted: &mut [[f32; 4]], wrenches: &mut [Wrench]) {
-        let placed: Vec<(usize, Placed<'_, S>)> = (0..self.bodies.len())
-            .filter(|body| self.bodies[*body].touches_nodes)
-            .map(|body| (body, Placed::new(simd, &self.bodies[body])))
+        let pieces: Vec<Piece<'_>> =
+            Piece::of_all(self.bodies).filter(|piece| self.bodies[piece.body].touches_nodes).collect();
+        let placed: Vec<(usize, Placed<'_, S>)> = pieces
+            .iter()
+            .map(|piece| (piece.body, Placed::of_piece(simd, &self.bodies[piece.body], piece.geometry())))
             .collect();
         for row in (0..predicted.len()).step_by(LANES) {
             if self.params.asleep.has_all(first + row..first + row + LANES) {

@@ -14,6 +14,7 @@ use glam::{DVec3, Vec3};
 
 use crate::{
     body::{Body, BodyState, Placed, Wrench},
+    compound::Piece,
     cpu::Cpu,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     layout::constants,
@@ -50,6 +51,7 @@ pub(super) struct Obstacles<'a> {
     walls: Vec<(usize, f32, f32)>,
     bodies: &'a [Body],
     spheres: Vec<Sphere>,
+    pieces: Vec<Piece<'a>>,
 }
 
 /// Region that a body may reach within a step.
@@ -101,7 +103,9 @@ pub(super) struct Contact {
 impl<'a> Obstacles<'a> {
     pub(super) fn new(cpu: &'a Cpu, params: &Params, bodies: &'a [Body]) -> Self {
         let spheres = bodies.iter().map(|body| Sphere::of(body, params.step)).collect();
-        Self { cpu, step: params.step, walls: params.walls.map_or_else(Vec::new, walls), bodies, spheres }
+        let pieces = Piece::of_all(bodies).collect();
+        let walls = params.walls.map_or_else(Vec::new, walls);
+        Self { cpu, step: params.step, walls, bodies, spheres, pieces }
     }
 
     /// 1 for points that may have come closer than `margin` to an obstacle on the path from `old`, else 0.
@@ -162,16 +166,18 @@ impl<'a> Obstacles<'a> {
         // A node that sticks to the floor must not resist a plate: bodies come after the walls. A node that they push into a
         // wall slides along it.
         let walls = self.walls.len();
-        for index in 0..2 * walls + self.bodies.len() {
-            let is_again = index >= walls + self.bodies.len();
-            let body = index.checked_sub(walls).filter(|_| !is_again);
+        for index in 0..2 * walls + self.pieces.len() {
+            let is_again = index >= walls + self.pieces.len();
+            let piece = index.checked_sub(walls).filter(|_| !is_again).map(|index| &self.pieces[index]);
+            let body = piece.map(|piece| piece.body);
             let mut drift = [zero; 3];
             let (distance, normal, friction);
-            if let Some((body, sphere)) = body.map(|body| (&self.bodies[body], &self.spheres[body])) {
+            if let Some(piece) = piece {
+                let (body, sphere) = (&self.bodies[piece.body], &self.spheres[piece.body]);
                 if !body.touches_nodes || sphere.is_far(simd, [point, old], clearance) {
                     continue;
                 }
-                let placed = Placed::new(simd, body);
+                let placed = Placed::of_piece(simd, body, piece.geometry());
                 drift = times(placed.velocity(point), lanes::splat(simd, self.step));
                 // The body is at its place of the beginning of the step: so is the node, in the body's frame.
                 let way = [placed.local(old), placed.local(minus(point, drift))];
@@ -179,7 +185,7 @@ impl<'a> Obstacles<'a> {
                 (distance, normal) = (met.distance + met.beyond, placed.turned(met.normal));
                 friction = lanes::splat(simd, body.friction);
             } else {
-                let (axis, sign, wall) = self.walls[index % (walls + self.bodies.len())];
+                let (axis, sign, wall) = self.walls[index % (walls + self.pieces.len())];
                 distance = (point[axis] - wall) * sign;
                 let mut along = [zero; 3];
                 along[axis] = lanes::splat(simd, sign);

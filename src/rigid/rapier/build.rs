@@ -5,7 +5,7 @@ use super::super::mass::principal_moments;
 use super::super::{BodyKind, BodySetup, HullError, MassProperties, RigidError, Shape};
 use glam::Vec3;
 use rapier3d::parry::mass_properties::MassProperties as RapierMass;
-use rapier3d::prelude::{FrictionModel, IntegrationParameters, Real, SharedShape, SpringCoefficients};
+use rapier3d::prelude::{FrictionModel, IntegrationParameters, Pose, Real, SharedShape, SpringCoefficients};
 
 /// Speed limit that rapier3d would apply silently; a body that fast is reported as diverged instead.
 const NO_SPEED_LIMIT: Real = Real::MAX;
@@ -45,6 +45,9 @@ fn thickness(shape: &Shape) -> f32 {
         Shape::Hull { planes, .. } => {
             planes.iter().map(|&(_, offset)| 2.0 * offset).fold(f32::INFINITY, f32::min)
         }
+        Shape::Compound(compound) => {
+            compound.parts.iter().map(|part| thickness(&part.hull)).fold(f32::INFINITY, f32::min)
+        }
     }
 }
 
@@ -64,8 +67,8 @@ pub(super) fn check_container((low, high): (Vec3, Vec3), bodies: &[BodySetup]) -
     Ok(())
 }
 
-pub(super) fn collision_shape(body: &BodySetup) -> Result<SharedShape, RigidError> {
-    let shape = match &body.shape {
+pub(super) fn collision_shape(body: &BodySetup, shape: &Shape) -> Result<SharedShape, RigidError> {
+    let shape = match shape {
         Shape::Plane => SharedShape::halfspace(Vec3::Y),
         Shape::Sphere { radius } => SharedShape::ball(*radius),
         Shape::Cuboid { half_extents } => SharedShape::cuboid(half_extents.x, half_extents.y, half_extents.z),
@@ -76,6 +79,13 @@ pub(super) fn collision_shape(body: &BodySetup) -> Result<SharedShape, RigidErro
             SharedShape::convex_mesh(vertices.clone(), triangles)
                 .ok_or(HullError::NotClosed)
                 .map_err(refused)?
+        }
+        Shape::Compound(compound) => {
+            let parts = compound
+                .parts
+                .iter()
+                .map(|part| Ok((Pose::from_translation(part.centre), collision_shape(body, &part.hull)?)));
+            SharedShape::compound(parts.collect::<Result<_, RigidError>>()?)
         }
     };
     Ok(shape)

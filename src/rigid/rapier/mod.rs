@@ -124,7 +124,7 @@ impl RapierEngine {
 
     fn add(&mut self, body: &BodySetup) -> Result<(), RigidError> {
         let state = checked_state(body)?;
-        let shape = collision_shape(body)?;
+        let shape = collision_shape(body, &body.shape)?;
         let mass = rapier_mass(body)?;
         let builder = match body.kind {
             BodyKind::Dynamic => RigidBodyBuilder::dynamic()

@@ -118,6 +118,7 @@ fn mass_properties_agree_with_sums_over_a_grid() {
                 (x - DVec3::Y * x.y.clamp(-h, h)).length() <= f64::from(*radius)
             }
             Shape::Hull { planes, .. } => planes.iter().all(|(n, d)| n.as_dvec3().dot(x) <= f64::from(*d)),
+            Shape::Compound(compound) => compound.parts.iter().any(|part| part.distance(x.as_vec3()) <= 0.0),
         };
         let (cells, half) = (80_i32, 0.0443);
         let edge = 2.0 * half / f64::from(cells);

@@ -1,7 +1,7 @@
 use super::super::*;
 
 /// Fluid particles and sponge nodes that the default sizes aim at.
-const SIZES: [(&str, u64, u64); 12] = [
+const SIZES: [(&str, u64, u64); 14] = [
     ("standing", 8192, 1024),
     ("ball_drop", 8192, 1024),
     ("squish", 8192, 1024),
@@ -11,6 +11,8 @@ const SIZES: [(&str, u64, u64); 12] = [
     ("life", 14_336, 1024),
     ("stack", 7168, 1118),
     ("bobbing", 12_288, 0),
+    ("tap", 0, 512),
+    ("cup", 0, 640),
     ("water", 8192, 0),
     ("dry", 0, 1024),
     ("empty", 0, 0),

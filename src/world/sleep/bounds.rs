@@ -50,6 +50,14 @@ impl Bounds {
                 let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
                 corners.fold(none, |(low, high), corner| (low.min(corner), high.max(corner)))
             }
+            Shape::Compound(compound) => {
+                let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+                compound.parts.iter().fold(none, |(low, high), part| {
+                    let centre = turned * part.centre;
+                    let radius = part.hull.bounding_radius();
+                    (low.min(centre - radius), high.max(centre + radius))
+                })
+            }
         };
         Self { low: low + body.state.position, high: high + body.state.position }
     }

@@ -1,10 +1,12 @@
 //! Parameters and bodies of the scenes of the tests.
 
+use std::sync::Arc;
+
 use glam::{EulerRot, Mat3, Quat, Vec3};
 
 use super::options::{Options, SPACING};
 use crate::{
-    body::{Body, BodyKind, BodyState, Shape},
+    body::{Body, BodyKind, BodyState, Compound, Part, Shape},
     grid::cells::Domain,
     params::{
         Cohesion, Divergence, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
@@ -166,8 +168,32 @@ fn sponges(has_wetting: bool, touch: bool) -> Vec<SpongeParams> {
     all
 }
 
-/// One body of every shape, each touching fluid and nodes, and one that grips.
-pub(super) fn bodies() -> Vec<Body> {
+/// Two boxes across each other, as one body.
+fn compound() -> Shape {
+    let part = |centre: Vec3, half: Vec3| {
+        let corner = |index: u32| {
+            let sign = |bit: u32| if index >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            half * Vec3::new(sign(0), sign(1), sign(2))
+        };
+        let quads = [[1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4], [4, 5, 7, 6], [0, 2, 3, 1]];
+        let hull = |by: f32| Shape::Hull {
+            planes: [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z]
+                .map(|normal| (normal, (normal * half).element_sum().abs() - by))
+                .to_vec(),
+            vertices: (0..8).map(|index| corner(index) * (1.0 - by / half)).collect(),
+            triangles: quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
+        };
+        Part { centre, hull: hull(0.0), core: hull(0.001), radius: 0.001 }
+    };
+    let parts = vec![
+        part(Vec3::new(0.0, -0.004, 0.0), Vec3::new(0.01, 0.003, 0.008)),
+        part(Vec3::new(-0.006, 0.002, 0.0), Vec3::new(0.003, 0.009, 0.008)),
+    ];
+    Shape::Compound(Arc::new(Compound { parts, ..Compound::default() }))
+}
+
+/// One body of every shape, each touching fluid and nodes, and one that grips; a compound in place of the hull if that is asked for.
+pub(super) fn bodies(has_compound: bool) -> Vec<Body> {
     let corner = 0.006_f32;
     let signs = [-1.0_f32, 1.0];
     let faces = signs.map(|x| signs.map(|y| signs.map(|z| (Vec3::new(x, y, z).normalize(), corner))));
@@ -195,7 +221,7 @@ pub(super) fn bodies() -> Vec<Body> {
         body(Shape::Sphere { radius: 0.008 }, [0.03, 0.02, 0.02], 0.0),
         body(Shape::Cuboid { half_extents }, [0.06, 0.03, 0.03], 0.7),
         body(capsule, [0.0162, 0.035, 0.03], -0.4),
-        body(hull, [0.045, 0.012, 0.035], 0.3),
+        body(if has_compound { compound() } else { hull }, [0.045, 0.012, 0.035], 0.3),
         // The solid side is +x, where padding rows lie as well.
         body(Shape::Plane, [0.066, 0.0, 0.0], 1.62),
         body(Shape::Sphere { radius: 0.01 }, [0.03, 0.05, 0.02], 0.9),

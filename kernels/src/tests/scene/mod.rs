@@ -42,7 +42,7 @@ impl Scene {
         scene.add_fluid(&mut random);
         scene.add_sponges(&mut random);
         if options.bodies {
-            scene.columns.bodies.states.0 = bodies();
+            scene.columns.bodies.states.0 = bodies(options.compound);
         }
         scene.columns.rows.bodies = scene.columns.bodies.states.0.len();
         scene
@@ -152,7 +152,7 @@ impl Scene {
         nodes.grip = vec![u32::MAX; rows];
         nodes.grip_offset = vec![[0.0; 4]; rows];
         if self.options.bodies {
-            let body = &bodies()[GRIPPER];
+            let body = &bodies(false)[GRIPPER];
             for node in (0..count).step_by(40) {
                 let [x, y, z, _] = nodes.position[node];
                 let offset = body.state.rotation.inverse() * (Vec3::new(x, y, z) - body.state.position);

@@ -30,6 +30,8 @@ pub(crate) struct Options {
     pub(crate) periodic: [bool; 3],
     /// Whether sponges touch each other, where a kernel asks.
     pub(crate) touch: bool,
+    /// Whether one of the bodies is a compound.
+    pub(crate) compound: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -48,6 +50,7 @@ pub(crate) const FULL: Options = Options {
     implicit_viscosity: false,
     periodic: [false; 3],
     touch: false,
+    compound: false,
 };
 
 /// What repeats along two axes, as a channel does, and along all of them.
@@ -115,6 +118,7 @@ pub(in crate::tests) fn all_options() -> Vec<Options> {
         Options { walls: false, bodies: false, ..FULL },
         Options { sponges: false, ..FULL },
         Options { wetting: true, ..FULL },
+        Options { compound: true, ..FULL },
         CHANNEL,
         Options { bounded: false, walls: false, equation_of_state: EquationOfState::Linear, ..CHANNEL },
         TORUS,
