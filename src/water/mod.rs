@@ -13,7 +13,7 @@ pub(crate) use ranks::ranks;
 pub(crate) use room::Room;
 
 /// Counts of particles since time zero. Saved once a command has changed any.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Water {
     /// Particles of the scene.
     pub(crate) seeded: u64,
@@ -26,6 +26,22 @@ pub(crate) struct Water {
     pub(crate) flows: Vec<Flow>,
     /// Number of the next one.
     pub(crate) next_flow: u32,
+}
+
+impl Clone for Water {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    /// In the same memory.
+    fn clone_from(&mut self, from: &Self) {
+        let Self { seeded, poured, removed, drained, left_out, next_flow, flows: _ } = *from;
+        let mut flows = std::mem::take(&mut self.flows);
+        flows.clone_from(&from.flows);
+        *self = Self { seeded, poured, removed, drained, left_out, flows, next_flow };
+    }
 }
 
 impl Water {

@@ -168,7 +168,7 @@ fn kernels_at_places_where_they_cannot_be_are_refused() {
 fn plans_say_where_and_why_and_what_travels() {
     let scene = busy::scene("ball_drop_paper", 0.3);
     let all = world(&scene, Offload::Gpu).plan().to_string();
-    for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 208 bytes"] {
+    for part in ["backend gpu", "gpu   sph::density", "host  rigid::step", "send  bodies.states: 224 bytes"] {
         assert!(all.contains(part), "{part} is not in {all}");
     }
     let mixed = world(&scene, Offload::From("sph::forces")).plan().to_string();

@@ -48,7 +48,7 @@ fn wrong_types_are_named_by_their_key() {
         ("position = 3", "`sponges[0].position` = 3 is a whole number; expected an array of 3 numbers"),
         (
             "shape = \"block\"",
-            "`sponges[0].shape` = \"block\" is text; expected a table with a `kind` of block, ellipsoid, cylinder",
+            "`sponges[0].shape` = \"block\" is text; expected a table with a `kind` of block, ellipsoid, cylinder, mesh",
         ),
         ("edge = 1979-05-27", "`sponges[0].edge` = 1979-05-27 is a date; expected a number"),
     ] {
@@ -66,7 +66,7 @@ fn wrong_types_are_named_by_their_key() {
 fn unknown_choices_propose_the_nearest_choice() {
     let text = message(&format!("{SPONGE}shape = {{ kind = \"elipsoid\" }}\n"));
     let end = "`sponges[0].shape.kind` = \"elipsoid\" is not a choice here; did you mean `ellipsoid`?; \
-        choices: block, ellipsoid, cylinder";
+        choices: block, ellipsoid, cylinder, mesh";
     assert!(text.ends_with(end), "{text}");
     let text = message("version = 1\n[fluid]\nequation_of_state = \"tate\"\n");
     assert!(text.ends_with("did you mean `tait`?; choices: tait, linear"), "{text}");
