@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use sorb::{
     Command, Region, World,
     glam::Vec3,
-    scene::{Body, Fluid, FluidSolver, Mesh, Motion, Scene, ShapeKind},
+    scene::{Body, Fluid, FluidBlock, FluidSolver, Mesh, Motion, Scene, ShapeKind},
 };
 
 const RADIUS: f32 = 0.03;
@@ -142,6 +142,40 @@ fn a_cup_that_is_tilted_pours_over_its_rim_alone() {
     assert_eq!(through, 0);
     let (left, all) = (world.particle_count() - outside, world.particle_count());
     assert!(4 * left < all, "{left} of {all} are still in it");
+}
+
+#[test]
+fn a_cup_that_floats_carries_a_ball_and_stays_dry() {
+    let after = |density: f32| {
+        let (low, high) = (Vec3::new(-0.08, 0.0, -0.08), Vec3::new(0.08, 0.25, 0.08));
+        let water = FluidBlock::new(low, Vec3::new(high.x, 0.08, high.z));
+        let shape = ShapeKind::Cup { radius: 0.035, height: 0.06, thickness: 0.01 };
+        let ball = ShapeKind::Sphere { radius: 0.015 };
+        let scene = Scene::new("boat")
+            .in_box(low, high)
+            .with_fluid(Fluid { spacing: 0.006, blocks: vec![water], ..Fluid::default() })
+            .with_body(Body::dynamic("cup", shape, Vec3::Y * 0.082, density))
+            .with_body(Body::dynamic("ball", ball, Vec3::Y * 0.12, 400.0));
+        let mut world = common::world(&scene);
+        let centre = world.bodies()[0].state.position - Vec3::Y * 0.082;
+        for _ in 0..90 {
+            common::frame(&mut world);
+        }
+        let state = world.bodies()[0].state;
+        let place = |point: Vec3| state.rotation.conjugate() * (point - state.position) + centre;
+        let is_aboard = |point: Vec3| {
+            let place = place(point);
+            place.with_y(0.0).length() < 0.035 && place.y > 0.01 && place.y < 0.06
+        };
+        let wet = world.particle_positions().iter();
+        let wet = wet.filter(|row| is_aboard(Vec3::new(row[0], row[1], row[2]))).count();
+        (state.rotation * Vec3::Y, is_aboard(world.bodies()[1].state.position), wet)
+    };
+    let (up, carries, wet) = after(700.0);
+    assert!(up.y > 0.8 && carries && wet == 0, "{up}, ball aboard: {carries}, {wet} particles");
+    // Negative control: a cup of stone fills and sinks.
+    let (_, _, wet) = after(2500.0);
+    assert!(wet > 100, "{wet} particles");
 }
 
 /// A closed surface of a box with an open hollow, by its corners.
