@@ -104,6 +104,10 @@ fn bad_meshes_are_errors_with_file_key_and_reason() {
     let inverted = FACES.map(|[a, b, c]| [a, c, b]);
     let mut one_inverted = FACES;
     one_inverted[3].swap(0, 1);
+    // Each of two nodes is a child of the other.
+    let circle = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"children": [1]}, {"children": [0]}]}"#
+        .to_owned();
     let cases = [
         ("holes.obj", obj(&FACES[..7]), "holes"),
         ("inverted.obj", obj(&inverted), "point inwards"),
@@ -113,6 +117,7 @@ fn bad_meshes_are_errors_with_file_key_and_reason() {
         ("words.obj", "f a b c\n".to_owned(), "bodies[0].shape.mesh.file"),
         ("short.glb", "glTF".to_owned(), "bodies[0].shape.mesh.file"),
         ("wedge.ply", obj(&FACES), ".obj, .stl, .gltf or .glb"),
+        ("circle.gltf", circle, "must form trees"),
         ("large.obj", obj(&FACES.repeat(12_501)), "at most 100000"),
     ];
     for (file, text, reason) in cases {

@@ -74,7 +74,12 @@ fn gltf(path: &Path) -> Result<Mesh, MeshError> {
     };
     let mut mesh = Mesh::default();
     let mut nodes: Vec<_> = scene.nodes().map(|node| (node, glam::Mat4::IDENTITY)).collect();
+    let mut visited = 0;
     while let Some((node, parent)) = nodes.pop() {
+        visited += 1;
+        if visited > document.nodes().len() {
+            return Err(failed("a node has two parents: the nodes of a scene must form trees"));
+        }
         let place = parent * glam::Mat4::from_cols_array_2d(&node.transform().matrix());
         nodes.extend(node.children().map(|child| (child, place)));
         for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
