@@ -76,7 +76,7 @@ kernels! {
     }
     /// The fluid, with a pressure solve for the divergence of the velocities.
     divergence {
-        images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick,
+        images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick, shift,
     } shared {
         closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect,
         pub(crate) symmetric, pub(crate) walls,

@@ -1,5 +1,5 @@
 // #include body, surface
-// Second pass of `divergence::kick`: shift towards where particles are missing, near bodies along their surfaces.
+// Shift towards where particles are missing, near bodies along their surfaces; `shift.rs` has the formula.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

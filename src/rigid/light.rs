@@ -9,6 +9,8 @@
 //! m* dv = J + m g h,   m* = max(m, rho_0 V / 4)
 //! ```
 //!
+//! The pressure solve of `divergence` knows the masses of bodies. With it a body in contact with fluid alone keeps its inertia.
+//!
 //! J is the impulse of the step. Weight and draft are unchanged. The fluid adds the added mass. A ball without mass that is
 //! released under water starts a third too slowly, one of a tenth of the density a fifth. From a quarter of the density on
 //! nothing changes. With less than a quarter the ball still gains energy (docs/pressure-solve.md, docs/history.md).
@@ -24,22 +26,29 @@ const MINIMUM_INERTIA: f64 = 0.25;
 /// Inertia factors of light bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct LightBodies {
-    /// m / m* of every body in contact with fluid, and of every body in contact with nodes only.
-    shares: Vec<[f64; 2]>,
+    /// m / m* of every body.
+    shares: Vec<Shares>,
     gravity: DVec3,
+}
+
+/// m / m* of a body by what it touches.
+#[derive(Clone, Copy, Debug)]
+struct Shares {
+    fluid: f64,
+    nodes: f64,
+    both: f64,
 }
 
 impl LightBodies {
     pub(crate) fn new(scene: &Scene) -> Self {
         let fluid = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
         let sponge = scene.sponges.iter().map(|sponge| sponge.density).fold(0.0, f32::max);
-        // A solve that knows the masses of bodies needs no more.
         let is_solved = scene.fluid_solver() == Some(FluidSolver::Divergence);
-        let shares = scene.bodies.iter().map(|body| match body.kind {
-            BodyKind::Dynamic if !is_solved => {
-                [fluid.max(sponge), sponge].map(|displaced| share(body.density, displaced))
-            }
-            _ => [1.0; 2],
+        let shares = scene.bodies.iter().map(|body| {
+            let share =
+                |displaced| if body.kind == BodyKind::Dynamic { share(body.density, displaced) } else { 1.0 };
+            let both = share(fluid.max(sponge));
+            Shares { fluid: if is_solved { 1.0 } else { both }, nodes: share(sponge), both }
         });
         Self { shares: shares.collect(), gravity: scene.gravity.as_dvec3() }
     }
@@ -64,12 +73,13 @@ impl LightBodies {
         let wrench = |(index, (fluid, nodes)): (usize, &(Wrench, Wrench))| {
             let impulse = fluid.impulse + nodes.impulse;
             let angular_impulse = fluid.angular_impulse + nodes.angular_impulse;
-            let [by_fluid, by_nodes] = self.shares.get(index).copied().unwrap_or([1.0; 2]);
-            let share = match (fluid.impulse == DVec3::ZERO, nodes.impulse == DVec3::ZERO) {
-                (false, _) => by_fluid,
-                (true, false) => by_nodes,
-                (true, true) => 1.0,
-            };
+            let touches = (fluid.impulse != DVec3::ZERO, nodes.impulse != DVec3::ZERO);
+            let share = self.shares.get(index).map_or(1.0, |shares| match touches {
+                (true, true) => shares.both,
+                (true, false) => shares.fluid,
+                (false, true) => shares.nodes,
+                (false, false) => 1.0,
+            });
             let inverse_mass = f64::from(engine.inverse_mass(index));
             if share == 1.0 || inverse_mass == 0.0 {
                 return Wrench { impulse, angular_impulse };
@@ -105,9 +115,16 @@ mod tests {
     /// Velocity along y of a ball of some density after a step with the given impulses, which are over its weight in the
     /// step.
     fn after_a_step(density: f32, by_fluid: f64, by_nodes: f64) -> f32 {
+        after_a_step_with(FluidSolver::Dfsph, density, by_fluid, by_nodes)
+    }
+
+    fn after_a_step_with(solver: FluidSolver, density: f32, by_fluid: f64, by_nodes: f64) -> f32 {
         let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.05 }, Vec3::ZERO, density);
         let sponge = Sponge { density: 100.0, ..Sponge::default() };
-        let scene = Scene::new("light").with_fluid(Fluid::default()).with_sponge(sponge).with_body(ball);
+        let scene = Scene::new("light")
+            .with_fluid(Fluid { solver: Some(solver), ..Fluid::default() })
+            .with_sponge(sponge)
+            .with_body(ball);
         let setup = BodySetup {
             name: "ball".to_owned(),
             shape: crate::rigid::Shape::Sphere { radius: 0.05 },
@@ -145,5 +162,18 @@ mod tests {
         // Negative control: from a quarter of the density on nothing changes.
         is(after_a_step(250.0, 11.0, 0.0), 10.0 * fall);
         is(after_a_step(25.0, 0.0, 11.0), 10.0 * fall);
+    }
+
+    #[test]
+    fn a_solve_that_knows_the_mass_of_a_body_leaves_its_inertia() {
+        let fall = GRAVITY * STEP;
+        let solved =
+            |by_fluid, by_nodes| after_a_step_with(FluidSolver::Divergence, 10.0, by_fluid, by_nodes);
+        let is =
+            |found: f32, expected: f32| assert!((found - expected).abs() < 1e-4 * fall, "{found} {expected}");
+        is(solved(11.0, 0.0), 10.0 * fall);
+        // The contact with nodes is outside of the solve: under a dry sponge it is as one of 25 kg/m^3, under a wet one of 250.
+        is(solved(0.0, 11.0), 4.0 * fall);
+        is(solved(1.0, 10.0), 0.4 * fall);
     }
 }

@@ -28,7 +28,7 @@ pub struct Fluid {
     ///
     /// Below 1.8 a particle has too few neighbours. Cost grows with the cube.
     pub support: f32,
-    /// How pressure is computed; default `divergence` in scenes without sponges, else `dfsph`.
+    /// How pressure is computed; default `divergence`, or `dfsph` where sponges are coupled as in the paper.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub solver: Option<FluidSolver>,
     /// Mean density error, of either sign, at which the pressure solve stops at the latest. Range 1e-6 to 0.1; default 0.001.
@@ -41,8 +41,8 @@ pub struct Fluid {
     pub rounds: u32,
     /// Iterations of `pbf` in a step. Range 1 to 100; default 4.
     pub projections: u32,
-    /// How water and sponges are coupled; default: `porous` with the solvers `dfsph` or `pbf` of the water and `vbd` of
-    /// every sponge, else `paper`.
+    /// How water and sponges are coupled; default: `porous` with `vbd` as the solver of every sponge and any but `wcsph` of the
+    /// water, else `paper`.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub coupling: Option<Coupling>,
     /// Pressure as a function of density; default `tait`. For `wcsph`.
@@ -152,12 +152,12 @@ impl Fluid {
 pub enum FluidSolver {
     /// By an equation of state from the density: weakly compressible SPH, many short steps (the paper).
     Wcsph,
-    /// By a pressure solve that keeps the rest density: few long steps \[BK17\].
-    #[default]
+    /// By a pressure solve that keeps the rest density: few long steps \[BK17\]. Water resists shear like a pile of spheres.
     Dfsph,
     /// By a pressure solve that keeps the velocities free of divergence, with gradients that are exact for particles in any order
     /// (docs/pressure-solve.md): water flows without friction of its own, and bodies sink and float by their weight.
     /// Sponges are porous media with it: not with `coupling` = "paper".
+    #[default]
     Divergence,
     /// Position based fluids \[MM13\]: particles are moved to the rest density in a fixed number of iterations. Fixed cost
     /// and always stable, but compressible, depending on `projections` and on the step.
@@ -200,8 +200,8 @@ pub enum ViscosityIntegration {
 pub enum Coupling {
     /// The model of the paper: suction, and drag after the sponge has moved. The material of the sponge has no volume.
     Paper,
-    /// Porous media: the material of the sponge displaces water. Drag, elasticity and contact are one solve. Needs the
-    /// solvers `dfsph` or `pbf` of the water and `vbd` of every sponge.
+    /// Porous media: the material of the sponge displaces water. Drag, elasticity and contact are one solve. Needs `vbd` as the
+    /// solver of every sponge and any but `wcsph` of the water.
     Porous,
 }
 
@@ -304,20 +304,15 @@ fn whole_rows(length: f32, spacing: f32) -> u32 {
     (length / spacing).round().max(1.0) as u32
 }
 
-impl FluidSolver {
-    /// The solver of scenes without [`Fluid::solver`].
-    #[must_use]
-    pub fn default_with(has_sponges: bool) -> Self {
-        if has_sponges { Self::Dfsph } else { Self::Divergence }
-    }
-}
-
 impl Scene {
     /// How pressure is computed: [`Fluid::solver`], or its default; none without a fluid.
     #[must_use]
     pub fn fluid_solver(&self) -> Option<FluidSolver> {
         let fluid = self.fluid.as_ref()?;
-        Some(fluid.solver.unwrap_or_else(|| FluidSolver::default_with(!self.sponges.is_empty())))
+        let is_paper = fluid.coupling == Some(Coupling::Paper) || !self.are_sponges_descended();
+        let default =
+            if is_paper && !self.sponges.is_empty() { FluidSolver::Dfsph } else { FluidSolver::default() };
+        Some(fluid.solver.unwrap_or(default))
     }
 
     /// How water and sponges are coupled: [`Fluid::coupling`], or what the solvers allow.
@@ -330,8 +325,12 @@ impl Scene {
 
     /// Whether the solvers allow [`Coupling::Porous`].
     pub(super) fn allows_porous(&self) -> bool {
-        self.fluid_solver().is_some_and(|solver| solver != FluidSolver::Wcsph)
-            && self.sponges.iter().all(|sponge| sponge.solver == super::Solver::Vbd)
+        self.fluid_solver().is_some_and(|solver| solver != FluidSolver::Wcsph) && self.are_sponges_descended()
+    }
+
+    /// Whether every sponge is solved by vertex block descent, the only solver of porous media.
+    fn are_sponges_descended(&self) -> bool {
+        self.sponges.iter().all(|sponge| sponge.solver == super::Solver::Vbd)
     }
 
     /// Speed of sound where [`Fluid::sound_speed`] is absent \[m/s\]: 10 times the fastest expected speed, at least 5. The

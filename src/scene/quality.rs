@@ -21,7 +21,7 @@ pub enum Quality {
     Accurate,
 }
 
-/// Keys and values for time, water solved by `dfsph` and sponges solved by `vbd`.
+/// Keys and values for time, water with a pressure solve and sponges solved by `vbd`.
 struct Changes {
     time: &'static [(&'static str, &'static str)],
     fluid: &'static [(&'static str, &'static str)],

@@ -3,7 +3,7 @@
 use sorb::{
     World,
     glam::Vec3,
-    scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge},
+    scene::{Body, Fluid, FluidBlock, FluidSolver, Motion, Scene, ShapeKind, Sponge},
 };
 
 /// Time at which a plate slides away below what stands on it \[s\].
@@ -13,7 +13,9 @@ pub(crate) const START: f64 = 2.0;
 pub(crate) fn basin(speed: f32) -> Scene {
     let (low, high) = (Vec3::new(-0.12, 0.0, -0.02), Vec3::new(-0.04, 0.03, 0.02));
     let pool = FluidBlock { velocity: Vec3::X * speed, ..FluidBlock::new(low, high) };
-    let fluid = Fluid { spacing: 0.005, blocks: vec![pool], ..Fluid::default() };
+    // The default solver goes on moving by some millimetres a second.
+    let solver = Some(FluidSolver::Dfsph);
+    let fluid = Fluid { spacing: 0.005, blocks: vec![pool], solver, ..Fluid::default() };
     let dam = ShapeKind::Cuboid { half_extents: Vec3::new(0.02, 0.1, 0.03) };
     let mut scene = Scene::new("basin")
         .in_box(low, Vec3::new(0.2, 0.25, 0.02))

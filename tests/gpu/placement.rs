@@ -55,7 +55,13 @@ fn everything(name: &str, keys: &[&str]) -> Scene {
 /// Kernels that run at one place: those that use the cells, and those that are repeated until they have converged.
 const TOGETHER: [&[&str]; 4] = [
     &["grid::sort_fluid", "grid::fluid_neighbors", "divergence::images", "couple::controls"],
-    &["divergence::update", "divergence::acceleration", "divergence::residual"],
+    &[
+        "divergence::update",
+        "divergence::acceleration",
+        "couple::solid_response",
+        "couple::solid_velocity",
+        "divergence::residual",
+    ],
     &["sph::pressure_update", "sph::pressure_acceleration", "couple::solid_yield", "sph::pressure_residual"],
     &["sph::viscosity_product", "sph::viscosity_update"],
 ];

@@ -3,7 +3,7 @@
 use sorb::{
     Options, World,
     glam::Vec3,
-    scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
+    scene::{Body, Fluid, FluidBlock, FluidSolver, Motion, Scene, ShapeKind, Sponge, Time},
 };
 
 use super::{common, restored, saved};
@@ -12,7 +12,8 @@ use super::{common, restored, saved};
 fn pool() -> Scene {
     let half = Vec3::new(0.06, 0.0, 0.03);
     let blocks = vec![FluidBlock::new(-half, half + Vec3::Y * 0.03)];
-    let fluid = Fluid { spacing: 0.005, blocks, ..Fluid::default() };
+    // The default solver goes on moving by some millimetres a second.
+    let fluid = Fluid { spacing: 0.005, blocks, solver: Some(FluidSolver::Dfsph), ..Fluid::default() };
     let place = Vec3::new(0.01, 0.0, -0.015);
     let sponge = Sponge { cells: [3, 3, 3].into(), edge: 0.01, ..Sponge::new("sponge", place) };
     let cuboid = ShapeKind::Cuboid { half_extents: Vec3::new(0.005, 0.04, 0.04) };

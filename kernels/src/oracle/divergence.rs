@@ -359,12 +359,31 @@ pub(crate) fn residual(params: &Params, columns: &mut Columns) {
 }
 
 pub(crate) fn kick(params: &Params, columns: &mut Columns) {
+    if params.fluid.divergence().is_none() {
+        return;
+    }
+    let fluid = &mut columns.fluid;
+    for i in 0..columns.rows.fluid {
+        let w = vector(fluid.correction[i]);
+        fluid.velocity[i] = row(w, f64::from(fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE]));
+    }
+    let store = &mut columns.bodies;
+    let count = store.states.0.len();
+    let sums = (0..count).map(|body| {
+        let (mut own, given) =
+            (store.fluid_wrenches.total(body, count), store.pressure_wrenches.total(body, count));
+        own.impulse += given.impulse;
+        own.angular_impulse += given.angular_impulse;
+        own
+    });
+    store.fluid_wrenches.0 = sums.collect();
+}
+
+pub(crate) fn shift(params: &Params, columns: &mut Columns) {
     let Some(divergence) = params.fluid.divergence() else { return };
     let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
     let (images, spacing) = (seen(&fluid.images), f64::from(params.fluid.spacing));
     for i in 0..columns.rows.fluid {
-        let w = vector(fluid.correction[i]);
-        fluid.velocity[i] = row(w, f64::from(fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE]));
         if is_sparse(fluid, i) || fluid.moment[i][lane::fluid::moment::MATERIAL] > 0.02 {
             continue;
         }
@@ -383,14 +402,4 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
         }
         fluid.position[i] = keep(fluid.position[i], x + shift.clamp_length_max(0.1 * spacing));
     }
-    let store = &mut columns.bodies;
-    let count = store.states.0.len();
-    let sums = (0..count).map(|body| {
-        let (mut own, given) =
-            (store.fluid_wrenches.total(body, count), store.pressure_wrenches.total(body, count));
-        own.impulse += given.impulse;
-        own.angular_impulse += given.angular_impulse;
-        own
-    });
-    store.fluid_wrenches.0 = sums.collect();
 }

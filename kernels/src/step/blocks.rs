@@ -231,5 +231,12 @@ pub(super) static ELASTIC_WITH_DRAG: Block = Block {
 };
 
 /// Particles and bodies at the end of the step.
-pub(super) static MOTION: Block =
-    Block { name: "motion", phases: &[Run(&sph::sweep::KERNEL), Run(&sph::advect::KERNEL), Host(&RIGID)] };
+pub(super) static MOTION: Block = Block {
+    name: "motion",
+    phases: &[
+        Run(&divergence::shift::KERNEL),
+        Run(&sph::sweep::KERNEL),
+        Run(&sph::advect::KERNEL),
+        Host(&RIGID),
+    ],
+};

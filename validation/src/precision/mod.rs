@@ -14,7 +14,7 @@ pub use page::{Origin, page};
 use sweeps::{SWEEPS, Sweep};
 
 use crate::{
-    case::{Case, Figure, Setting, Subject},
+    case::{Case, Figure, Setting},
     cases::CASES,
     run::run,
     solver::{SolverKind, Solvers},
@@ -57,10 +57,9 @@ impl Point {
     #[must_use]
     pub fn arguments(&self) -> String {
         let mut words = Vec::new();
-        let subject = if self.solver.contains('+') { Subject::Coupling } else { Subject::Water };
         let mut name = |kind: SolverKind, key: &str| {
             let known = |name: &&str| kind.names().iter().any(|known| known == name);
-            let usual = kind.default_name(subject);
+            let usual = kind.default_name();
             if let Some(name) = self.solver.split('+').find(known).filter(|name| *name != usual) {
                 words.push(format!("--set {key}={name}"));
             }
