@@ -27,6 +27,7 @@ mod setup;
 pub mod sponge;
 mod state;
 mod stores;
+mod text;
 mod water;
 mod world;
 

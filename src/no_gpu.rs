@@ -57,6 +57,10 @@ impl Device {
         match *self {}
     }
 
+    pub(crate) fn set_gravity(&mut self, _: glam::Vec3) {
+        match *self {}
+    }
+
     pub(crate) fn step_with(&mut self, _: &Cpu, _: &mut Columns, _: &Params) -> Result<(), GpuError> {
         match *self {}
     }

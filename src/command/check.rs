@@ -5,7 +5,7 @@ use glam::{Quat, Vec3};
 use super::{Command, CommandError, Nodes, Region};
 use crate::{
     rigid::BodyKind,
-    scene::{Defect, MAXIMUM_PARTICLES, Problem, limit},
+    scene::{Defect, GravityKey, MAXIMUM_PARTICLES, Motion, Problem, container_problems, limit},
     world::World,
 };
 
@@ -88,6 +88,8 @@ impl Check<'_> {
                 self.number("pose.duration", *duration, (1e-6, 1e5, "s"));
             }
             Command::Gravity { gravity } => self.as_key("gravity.gravity", *gravity, "gravity"),
+            Command::GravityPath { path } => self.gravity_path(path),
+            Command::Container { motions } => self.container(motions),
             Command::Grip { body, nodes } => {
                 self.body("grip.body", *body, None);
                 self.nodes("grip.nodes", nodes);
@@ -129,6 +131,18 @@ impl Check<'_> {
                 let target = self.world.target(*body as usize, (*position, *rotation), *duration);
                 ("pose.body", *body, engine.set_target(*body as usize, target))
             }
+            Command::GravityPath { path } => {
+                if let Err(error) = engine.set_gravity(self.world.params.gravity) {
+                    self.rule("gravity_path.path", format!("({} keys)", path.len()), error.to_string());
+                }
+                return;
+            }
+            Command::Container { motions } => {
+                if let Err(error) = engine.set_gravity(self.world.params.gravity) {
+                    self.rule("container.motions", format!("({} motions)", motions.len()), error.to_string());
+                }
+                return;
+            }
             Command::Gravity { gravity } => {
                 if let Err(error) = engine.set_gravity(*gravity) {
                     self.rule("gravity.gravity", gravity.to_string(), error.to_string());
@@ -139,6 +153,42 @@ impl Check<'_> {
         };
         if let Err(error) = tried {
             self.rule(key, value.to_string(), error.to_string());
+        }
+    }
+
+    /// Keys from now on.
+    fn gravity_path(&mut self, path: &[GravityKey]) {
+        self.problems.extend(GravityKey::problems(path, "gravity_path.path"));
+        self.not_empty("gravity_path.path", path.len());
+        if let Some(key) = path.first() {
+            self.not_past("gravity_path.path[0].time", key.time);
+        }
+    }
+
+    /// Motions that begin now or later, where they are possible.
+    fn container(&mut self, motions: &[Motion]) {
+        let world = self.world;
+        self.problems.extend(container_problems(motions, "container.motions", world.scene()));
+        self.not_empty("container.motions", motions.len());
+        for (index, motion) in motions.iter().enumerate() {
+            self.not_past(&format!("container.motions[{index}].start"), motion.interval().0);
+        }
+        if let Some(rule) = world.turn_refusal(motions, world.clock().time) {
+            self.rule("container.motions", format!("({} motions)", motions.len()), rule);
+        }
+    }
+
+    fn not_empty(&mut self, key: &str, count: usize) {
+        if count == 0 {
+            self.rule(key, "[]".to_owned(), "must not be empty".to_owned());
+        }
+    }
+
+    /// A time from now on, but for the rounding of an `f32`. Commands of a saved state have waited.
+    fn not_past(&mut self, key: &str, time: f32) {
+        let now = self.world.clock().time;
+        if self.knows_flows && f64::from(time) < now * (1.0 - f64::from(f32::EPSILON)) {
+            self.rule(key, time.to_string(), format!("must not be before the present time, {now} s"));
         }
     }
 

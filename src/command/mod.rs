@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     rigid::Target,
-    scene::{Drain, Emitter, Problem},
+    scene::{Drain, Emitter, GravityKey, Motion, Problem},
 };
 
 pub use region::Region;
@@ -63,6 +63,18 @@ pub enum Command {
     Gravity {
         /// Range -100 to 100 m/s^2.
         gravity: Vec3,
+    },
+    /// Gravity over time from now on: from what it is in straight lines from key to key, and as the last one after it.
+    GravityPath {
+        /// Times from now on, each after the one before it. At least one.
+        path: Vec<GravityKey>,
+    },
+    /// Further motions of the container, after those that it has, in the frame in which it is at rest at time zero. What `ease` must
+    /// be, and what is felt of it, is with [`Container`](crate::scene::Container).
+    Container {
+        /// Motions that begin now or later. At least one. A container turns on the CPU only.
+        #[serde(with = "crate::text")]
+        motions: Vec<Motion>,
     },
     /// Nodes of sponges that a body holds from now on, where they are in its frame, which may move.
     Grip {

@@ -254,6 +254,13 @@ impl Device {
         }
     }
 
+    /// Another acceleration of free fall \[m/s^2\] for the next steps.
+    pub(crate) fn set_gravity(&mut self, gravity: glam::Vec3) {
+        if let Some(on) = &mut self.resident {
+            on.resident.set_gravity(gravity);
+        }
+    }
+
     /// Restricts the next steps to awake parts; the awake fluid may be outside of all sponges. The time has to be set anew.
     pub(crate) fn set_asleep(&mut self, awake: Awake, asleep: &Asleep, steps: &Steps, is_outside: bool) {
         (self.limits, self.awake) = (steps.limits(), awake);

@@ -15,7 +15,8 @@ use crate::{
     schedule::{Runner, run::slot},
     stores::Stores,
     world::{
-        FrameReport, Options, StepError, StepReport, World, WorldError, move_bodies, sleep::Kind, take_masses,
+        FrameReport, Options, Pushes, StepError, StepReport, World, WorldError, move_bodies, sleep::Kind,
+        take_masses,
     },
 };
 
@@ -39,6 +40,7 @@ impl World {
     }
 
     fn take_step(&mut self) -> Result<StepReport, StepError> {
+        self.carry_on_device()?;
         self.begin_on_device(f32::MAX)?;
         let before = self.clock.steps;
         let answer = self.advance_on_device(1, 0)?;
@@ -88,6 +90,7 @@ impl World {
         self.begin_on_device((end - self.clock.time) as f32)?;
         let (first, before) = (self.clock.steps, *bounds);
         loop {
+            self.carry_on_device()?;
             let taken_before = (self.clock.steps - first) as u32;
             let answer = self.advance_on_device(self.steps_to(end), taken_before)?;
             let taken = answer.steps - taken_before;
@@ -112,13 +115,20 @@ impl World {
     fn steps_to(&self, end: f64) -> u32 {
         // Fixed bodies need no host.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
-        // Awake parts may come near sleeping ones in any step.
-        if is_moved || self.sleep.dormant() != Dormant::default() {
+        // Awake parts may come near sleeping ones in any step; gravity is set anew for every step.
+        let is_carried = self.is_carried(self.clock.time, end);
+        if is_moved || is_carried || self.sleep.dormant() != Dormant::default() {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);
         // The last whole step becomes two halves.
         (((end - self.clock.time) / step).ceil() as u32).saturating_add(1).min(BATCH)
+    }
+
+    /// Lets the container move. The device chooses the length of the step: accelerations are means over one of the last length.
+    fn carry_on_device(&mut self) -> Result<(), StepError> {
+        // A device takes no container that turns.
+        self.carry(self.params.step).map(|_| ())
     }
 
     fn begin_on_device(&mut self, left: f32) -> Result<(), StepError> {
@@ -227,7 +237,7 @@ impl World {
                 self.engine.wait(f64::from(answer.last_step));
             } else if !answer.wrenches.is_empty() {
                 let bodies = &mut self.stores.host.bodies;
-                let given = (&answer.wrenches[..], &self.commands.forces[..]);
+                let given = Pushes { given: &answer.wrenches, forces: &self.commands.forces, carried: &[] };
                 let step = (answer.last_step, &mut self.loads);
                 move_bodies(self.engine.as_mut(), &self.light, bodies, given, step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;

@@ -48,7 +48,7 @@ pub use mechanics::Mechanics;
 pub(crate) use parts::mesh_body;
 #[cfg(feature = "rigid")]
 pub use rapier::RapierEngine;
-pub(crate) use script::Script;
+pub(crate) use script::{Moved, Script, moved};
 pub use scripted::ScriptedEngine;
 pub use setup::BodySetup;
 pub use target::Target;

@@ -34,36 +34,8 @@ impl Script {
         if self.motions.is_empty() {
             return self.start;
         }
-        let mut position = self.start.position.as_dvec3();
-        let mut rotation = self.start.rotation.as_dquat();
-        let mut linear = DVec3::ZERO;
-        let mut angular = DVec3::ZERO;
-        for motion in &self.motions {
-            match *motion {
-                Motion::Linear { velocity, start, end, ease } => {
-                    let (elapsed, speed) = elapsed(time, start, end, ease);
-                    position += velocity.as_dvec3() * elapsed;
-                    if speed > 0.0 {
-                        linear += velocity.as_dvec3() * speed;
-                    }
-                }
-                Motion::Turn { axis, pivot, rate, start, end, ease } => {
-                    let (elapsed, speed) = elapsed(time, start, end, ease);
-                    let axis = axis.as_dvec3().normalize();
-                    let turn = axis_angle(axis, f64::from(rate) * elapsed);
-                    let arm = turn * (position - pivot.as_dvec3());
-                    position = pivot.as_dvec3() + arm;
-                    rotation = turn * rotation;
-                    linear = turn * linear;
-                    angular = turn * angular;
-                    if speed > 0.0 {
-                        let spin = axis * (f64::from(rate) * speed);
-                        linear += spin.cross(arm);
-                        angular += spin;
-                    }
-                }
-            }
-        }
+        let start = (self.start.position.as_dvec3(), self.start.rotation.as_dquat());
+        let Moved { position, rotation, linear, angular } = moved(start, &self.motions, time);
         BodyState {
             position: position.as_vec3(),
             rotation: rotation.normalize().as_quat(),
@@ -71,6 +43,78 @@ impl Script {
             angular_velocity: angular.as_vec3(),
         }
     }
+}
+
+/// A pose and its derivative to the right of a time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moved {
+    /// Position \[m\].
+    pub(crate) position: DVec3,
+    /// Rotation, of unit length but for rounding.
+    pub(crate) rotation: DQuat,
+    /// Velocity \[m/s\].
+    pub(crate) linear: DVec3,
+    /// Angular velocity \[rad/s\].
+    pub(crate) angular: DVec3,
+}
+
+/// What motions make of a pose by a time \[s\]: every motion acts on the result of the motions before it in the list.
+pub(crate) fn moved((mut position, mut rotation): (DVec3, DQuat), motions: &[Motion], time: f64) -> Moved {
+    let mut linear = DVec3::ZERO;
+    let mut angular = DVec3::ZERO;
+    for motion in motions {
+        match *motion {
+            Motion::Linear { velocity, start, end, ease } => {
+                let (elapsed, speed) = elapsed(time, start, end, ease);
+                position += velocity.as_dvec3() * elapsed;
+                if speed > 0.0 {
+                    linear += velocity.as_dvec3() * speed;
+                }
+            }
+            Motion::Shake { amplitude, frequency, start, end, ease } => {
+                let (way, speed) = shaken(time, frequency, (start, end, ease));
+                position += amplitude.as_dvec3() * way;
+                linear += amplitude.as_dvec3() * speed;
+            }
+            Motion::Turn { axis, pivot, rate, start, end, ease } => {
+                let (elapsed, speed) = elapsed(time, start, end, ease);
+                let axis = axis.as_dvec3().normalize();
+                let turn = axis_angle(axis, f64::from(rate) * elapsed);
+                let arm = turn * (position - pivot.as_dvec3());
+                position = pivot.as_dvec3() + arm;
+                rotation = turn * rotation;
+                linear = turn * linear;
+                angular = turn * angular;
+                if speed > 0.0 {
+                    let spin = axis * (f64::from(rate) * speed);
+                    linear += spin.cross(arm);
+                    angular += spin;
+                }
+            }
+        }
+    }
+    Moved { position, rotation, linear, angular }
+}
+
+/// Displacement over the amplitude of a shake \[1\], and its derivative to the right of `time` \[1/s\].
+///
+/// The amplitude grows as `3 u^2 - 2 u^3` within the time `ease`, and fades as its mirror image.
+fn shaken(time: f64, frequency: f32, (start, end, ease): (f32, f32, f32)) -> (f64, f64) {
+    let (start, end, ease) = (f64::from(start), f64::from(end), f64::from(ease));
+    let is_over = time >= end * (1.0 - TIME_TOLERANCE);
+    let is_on = time >= start * (1.0 - TIME_TOLERANCE) && !is_over;
+    let until = if is_over { end } else { time };
+    let (spent, left) = ((until - start).max(0.0), end - until);
+    let rate = 2.0 * std::f64::consts::PI * f64::from(frequency);
+    let (sine, cosine) = libm::sincos(rate * spent);
+    let share = |time: f64| if ease > 0.0 { (time / ease).min(1.0) } else { 1.0 };
+    let height = |u: f64| u * u * (3.0 - 2.0 * u);
+    let slope = |u: f64| if ease > 0.0 { 6.0 * u * (1.0 - u) / ease } else { 0.0 };
+    let (risen, to_fall) = (share(spent), share(left));
+    let size = height(risen) * height(to_fall);
+    let growth = slope(risen) * height(to_fall) - height(risen) * slope(to_fall);
+    let speed = if is_on { growth * sine + size * rate * cosine } else { 0.0 };
+    (size * sine, speed)
 }
 
 /// Time spent in `[start, end]` by `time`, as if at full speed, and the share of the full speed to the right of `time`.

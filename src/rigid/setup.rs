@@ -154,6 +154,10 @@ fn check_motion(body: &BodySetup, index: usize, motion: &Motion) -> Result<(), R
     let key = |name: &str| format!("motions[{index}].{name}");
     match *motion {
         Motion::Linear { velocity, .. } => body.finite(key("velocity"), velocity)?,
+        Motion::Shake { amplitude, frequency, .. } => {
+            body.finite(key("amplitude"), amplitude)?;
+            body.number(key("frequency"), frequency, frequency.is_finite() && frequency > 0.0, ABOVE_ZERO)?;
+        }
         Motion::Turn { axis, pivot, rate, .. } => {
             body.finite(key("axis"), axis)?;
             if axis == Vec3::ZERO {

@@ -7,16 +7,17 @@ use super::{BodyKind, Mesh, Motion, Shape};
 /// A rigid body.
 ///
 /// The default is a dynamic ball of 3 cm.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
 pub struct Body {
     /// Name, unique among sponges and bodies: letters, digits, `_` and `-`, starting with a letter. Required in files.
     pub name: String,
     /// Geometry. Required in files.
     pub shape: ShapeKind,
     /// What moves it: forces (`dynamic`), nothing (`fixed`) or its `motions` (`kinematic`); default `dynamic`.
-    #[cfg_attr(feature = "serde", serde(with = "KindKey"), schemars(with = "KindKey"))]
+    #[serde(with = "KindKey")]
+    #[cfg_attr(feature = "serde", schemars(with = "KindKey"))]
     pub kind: BodyKind,
     /// Density of a dynamic body. A body of less than a quarter of the density of what touches it keeps its weight, but has
     /// the inertia of a quarter. Range 1 to 100000 kg/m^3; default 1000.
@@ -39,23 +40,23 @@ pub struct Body {
     /// Coefficient of restitution: share of the approach speed after a bounce. Range 0 to 1; default 0.1.
     pub restitution: f32,
     /// Scripted motions of a kinematic body; default none.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub motions: Vec<Motion>,
     /// Whether a fixed or kinematic body holds the sponge nodes that are inside it at time zero (a grip); default false.
     pub grip: bool,
     /// How pictures show it; default `glass` for a kinematic body, which shows what it squeezes, else `solid`.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<Look>,
     /// Colour in pictures: linear red, green and blue. Range 0 to 1; default by the place in the list of bodies.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "serde", schemars(with = "Option<[f32; 3]>"))]
     pub colour: Option<Vec3>,
 }
 
 /// How pictures show a body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Look {
     /// Paint that hides what is behind.
@@ -111,10 +112,10 @@ impl Body {
 
 // The type itself belongs to a crate without serde, so its keys in files are declared here.
 /// What moves a body.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(serde::Serialize, serde::Deserialize)]
 #[serde(remote = "BodyKind", rename_all = "snake_case")]
-#[schemars(rename = "BodyKind")]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", schemars(rename = "BodyKind"))]
 enum KindKey {
     /// Moved by forces.
     Dynamic,
@@ -125,9 +126,9 @@ enum KindKey {
 }
 
 /// Geometry of a body, in its own frame, centre of mass at the origin.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum ShapeKind {
     /// Solid half-space below the local plane y = 0. Fixed or kinematic bodies only.
@@ -170,12 +171,11 @@ pub enum ShapeKind {
         /// The surface, about the body's position.
         mesh: Mesh,
         /// Most convex parts that it is taken apart into; with 1 the body is the convex hull. Range 1 to 256; default 1.
-        #[cfg_attr(feature = "serde", serde(default = "one"))]
+        #[serde(default = "one")]
         parts: u32,
     },
 }
 
-#[cfg(feature = "serde")]
 fn one() -> u32 {
     1
 }
@@ -213,9 +213,9 @@ impl ShapeKind {
 }
 
 /// Orientation as an axis and an angle; the default is no rotation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
 pub struct Rotation {
     /// Axis of rotation, of any length but zero. Range -1000 to 1000; default (0, 1, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::error::Problem;
 use super::number::{number_text, vector_text};
 use super::validate::inside;
-use super::{Body, BodyKind, Motion, Scene, ShapeKind};
+use super::{Body, BodyKind, Scene, ShapeKind};
 
 /// Adds the problems of a body whose numbers are in their ranges.
 pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut Vec<Problem>) {
@@ -55,22 +55,7 @@ pub(super) fn body_rules(body: &Body, table: &str, scene: &Scene, problems: &mut
         broken("shape.height", number_text(height), &rule);
     }
     for (index, motion) in body.motions.iter().enumerate() {
-        let (start, end) = motion.interval();
-        if start >= end {
-            let rule = format!("must be before `end` = {}", number_text(end));
-            broken(&format!("motions[{index}].start"), number_text(start), &rule);
-        } else if motion.ease() > 0.5 * (end - start) {
-            let rule = format!(
-                "at most half of the time from `start` to `end`: {}",
-                number_text(0.5 * (end - start))
-            );
-            broken(&format!("motions[{index}].ease"), number_text(motion.ease()), &rule);
-        }
-        if let Motion::Turn { axis, .. } = motion
-            && axis.length_squared() < 1e-12
-        {
-            broken(&format!("motions[{index}].axis"), vector_text(*axis), "must not be zero");
-        }
+        motion.rules(&format!("{table}.motions[{index}]"), problems);
     }
     if let ShapeKind::Mesh { mesh, .. } = &body.shape {
         mesh.rules(&format!("{table}.shape.mesh"), problems);

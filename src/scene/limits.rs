@@ -1,5 +1,6 @@
 //! The table of ranges. Validation, schema and a test of the docs use it.
 
+use super::container::GRAVITY_KEY;
 use super::flows::{DRAIN, EMITTER};
 use super::number::Numbers;
 use super::{
@@ -40,6 +41,7 @@ pub fn limits() -> impl Iterator<Item = &'static Limit> {
         rows.iter().map(|row| &row.limit)
     }
     of(SCENE)
+        .chain(of(GRAVITY_KEY))
         .chain(of(TIME))
         .chain(of(DOMAIN))
         .chain(of(FLUID))
@@ -212,9 +214,11 @@ pub(super) const MOTION: &[Row<Motion>] = variants! { Motion, "bodies[].motions[
     axis in Turn: -1000.0 to 1000.0, "1";
     pivot in Turn: -1000.0 to 1000.0, "m";
     rate in Turn: -1000.0 to 1000.0, "rad/s";
-    start in Linear | Turn: 0.0 to 1e5, "s";
-    end in Linear | Turn: 0.0 to 1e5, "s";
-    ease in Linear | Turn: 0.0 to 1e5, "s";
+    amplitude in Shake: -10.0 to 10.0, "m";
+    frequency in Shake: 1e-3 to 1000.0, "1/s";
+    start in Linear | Turn | Shake: 0.0 to 1e5, "s";
+    end in Linear | Turn | Shake: 0.0 to 1e5, "s";
+    ease in Linear | Turn | Shake: 0.0 to 1e5, "s";
 };
 
 pub(super) const CAMERA: &[Row<Camera>] = fields! { Camera, "camera.";

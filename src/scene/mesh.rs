@@ -10,21 +10,21 @@ use crate::mesh::{self, MeshError};
 ///
 /// A scene that is read from a file takes `vertices` and `triangles` from the `file` of its mesh. It is complete then: saves and
 /// recordings need no other file.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
 pub struct Mesh {
     /// File to read, relative to that of the scene: OBJ, STL or glTF (`.obj`, `.stl`, `.gltf`, `.glb`); default none.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Metres per unit of the vertices. Range 1e-6 to 1e6; default 1.
     pub scale: f32,
     /// Corners. Range -1000 to 1000 m; default none.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "serde", schemars(with = "Vec<[f32; 3]>"))]
     pub vertices: Vec<Vec3>,
     /// Numbers of three corners, counter-clockwise seen from outside. Range 0 to 1e7; default none.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub triangles: Vec<[u32; 3]>,
 }
 

@@ -24,6 +24,7 @@ use crate::rigid::{BodyKind, BodyState, Shape};
 mod bodies;
 mod body_rules;
 mod camera;
+mod container;
 mod error;
 mod estimate;
 mod flows;
@@ -61,6 +62,8 @@ mod tests;
 
 pub use bodies::{Body, Look, Rotation, ShapeKind};
 pub use camera::Camera;
+pub(crate) use container::container_problems;
+pub use container::{Container, GravityKey};
 pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
 pub use flows::{Drain, Emitter};

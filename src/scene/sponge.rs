@@ -5,9 +5,9 @@ use glam::{UVec3, Vec3};
 use super::Mesh;
 
 /// A coordinate axis; Y is up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// The first axis.
     X,
@@ -19,9 +19,9 @@ pub enum Axis {
 }
 
 /// Shape that is cut out of the lattice block.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum SpongeShape {
     /// The whole block.
@@ -59,9 +59,9 @@ impl SpongeShape {
 }
 
 /// How the elasticity of a sponge is solved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Solver {
     /// Vertex block descent: a material of `young_modulus`, `poisson_ratio` and `damping`, stable at any step.
@@ -75,9 +75,9 @@ pub enum Solver {
 }
 
 /// A sponge: geometry, pores and elasticity.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
 pub struct Sponge {
     /// Name, unique among sponges and bodies: letters, digits, `_` and `-`, starting with a letter. Required in files.
     pub name: String,

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Body, Camera, Drain, Emitter, Fluid, Sponge};
+use super::{Body, Camera, Container, Drain, Emitter, Fluid, GravityKey, Motion, Sponge};
 
 /// Version of the scene format that this library reads and writes.
 pub const VERSION: u32 = 1;
@@ -27,10 +27,16 @@ pub struct Scene {
     /// Stronger gravity needs a higher speed of sound, hence shorter steps with `wcsph`.
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub gravity: Vec3,
+    /// Gravity over time: from `gravity` at time zero in straight lines from key to key, and as the last one after it; default none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub gravity_path: Vec<GravityKey>,
     /// Frames and steps.
     pub time: Time,
     /// The container; default open.
     pub domain: Domain,
+    /// How the container moves; default not at all.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Container::is_still"))]
+    pub container: Container,
     /// The water; absent in a dry scene, which skips all its phases.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub fluid: Option<Fluid>,
@@ -59,8 +65,10 @@ impl Default for Scene {
             title: String::new(),
             description: String::new(),
             gravity: Vec3::new(0.0, -9.81, 0.0),
+            gravity_path: Vec::new(),
             time: Time::default(),
             domain: Domain::default(),
+            container: Container::default(),
             fluid: None,
             emitters: Vec::new(),
             drains: Vec::new(),
@@ -100,6 +108,13 @@ impl Scene {
             Domain::Box { periodic, .. } => periodic,
             Domain::Open => [false; 3],
         }
+    }
+
+    /// Adds a motion of the container.
+    #[must_use]
+    pub fn moving(mut self, motion: Motion) -> Self {
+        self.container.motions.push(motion);
+        self
     }
 
     /// Sets the water.

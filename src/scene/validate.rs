@@ -3,12 +3,13 @@
 use glam::Vec3;
 
 use super::body_rules::body_rules;
+use super::container::container_problems;
 use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Coupling, Domain, Fluid, FluidSolver, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError, ShapeKind,
-    Solver, Sponge, SpongeShape, VERSION,
+    Coupling, Domain, Fluid, FluidSolver, GravityKey, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError,
+    ShapeKind, Solver, Sponge, SpongeShape, VERSION,
 };
 
 /// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
@@ -46,8 +47,10 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
         problems.push(Problem::new("version", scene.version.to_string(), defect));
     }
     check(scene, limits::SCENE, "", problems);
+    problems.extend(GravityKey::problems(&scene.gravity_path, "gravity_path"));
     check(&scene.time, limits::TIME, "time.", problems);
     check(&scene.domain, limits::DOMAIN, "domain.", problems);
+    problems.extend(container_problems(&scene.container.motions, "container.motions", scene));
     if let Some(fluid) = &scene.fluid {
         check(fluid, limits::FLUID, "fluid.", problems);
         for (index, block) in fluid.blocks.iter().enumerate() {

@@ -12,6 +12,7 @@ pub(super) const ENGINE_OF_HOST: &str = "engine of the host";
 pub(super) const LOADS: &str = "loads";
 pub(super) const REST: &str = "rest";
 pub(super) const WATER: &str = "water";
+pub(super) const CONTAINER: &str = "container";
 
 /// Name and bytes of every section, in order.
 pub(super) type Sections = Vec<(&'static str, u64)>;
@@ -50,6 +51,12 @@ impl World {
             // Numbers alone cannot fail.
             *out = postcard::to_extend(&self.water, all).unwrap_or_default();
             end(WATER, out);
+        }
+        if let Some(frame) = &self.frame {
+            let all = std::mem::take(out);
+            // As for the water: the text of motions has numbers that are finite.
+            *out = postcard::to_extend(frame, all).unwrap_or_default();
+            end(CONTAINER, out);
         }
         let length = out.len();
         let engine = self.engine.save(out);

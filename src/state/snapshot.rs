@@ -11,7 +11,7 @@ use crate::{
     command::Commands,
     rigid::RigidEngine,
     water::Water,
-    world::{StepError, World, forces::Loads, sleep::Sleep},
+    world::{StepError, World, forces::Loads, frame::Frame, sleep::Sleep},
 };
 
 /// The state of a world at some time, in memory. Filled again and again, it allocates for the columns only once; the engine
@@ -33,6 +33,7 @@ struct Kept {
     gravity: glam::Vec3,
     failed: Option<StepError>,
     water: Water,
+    frame: Option<Frame>,
 }
 
 impl Snapshot {
@@ -83,6 +84,7 @@ impl World {
                 gravity: self.params.gravity,
                 failed: self.failed.clone(),
                 water: self.water.clone(),
+                frame: self.frame.clone(),
             }));
             return;
         };
@@ -96,6 +98,7 @@ impl World {
         (kept.step, kept.gravity) = (self.params.step, self.params.gravity);
         kept.failed.clone_from(&self.failed);
         kept.water.clone_from(&self.water);
+        kept.frame.clone_from(&self.frame);
     }
 
     /// Returns to the state of a snapshot of this world, or of another of the same scene: it continues with the same bits.
@@ -123,6 +126,7 @@ impl World {
         self.light.set_gravity(kept.gravity);
         self.failed.clone_from(&kept.failed);
         self.water.clone_from(&kept.water);
+        self.frame.clone_from(&kept.frame);
         self.params.asleep.clone_from(&kept.asleep);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();

@@ -4,7 +4,7 @@ use glam::Vec3;
 use sorb_kernels::columns::{Column, RowCounts};
 
 use super::{
-    body::{ENGINE, ENGINE_OF_HOST, LOADS, REST, SLEEP, WATER, saved_columns},
+    body::{CONTAINER, ENGINE, ENGINE_OF_HOST, LOADS, REST, SLEEP, WATER, saved_columns},
     columns::{copy_words, fits, take_column},
     error::StateError,
     rest::Rest,
@@ -12,7 +12,7 @@ use super::{
 use crate::{
     scene::Scene,
     water::Water,
-    world::{World, forces::SavedLoads},
+    world::{World, forces::SavedLoads, frame::Frame},
 };
 
 /// Sections by name.
@@ -45,6 +45,7 @@ impl World {
         if let Some(defect) = rest.defect(self) {
             return Err(invalid(REST, defect));
         }
+        let frame = self.frame_in(parts, rest.clock.time)?;
         let Rest { clock, step, gravity, constant, sleep, commands, fluid_forces } = rest;
         let places = SLEEP.map(|name| places(parts.of(name)));
         let sleep = self.sleep_from(sleep, rows, places, &commands.targets);
@@ -55,13 +56,14 @@ impl World {
             self.engine.restore(parts.of(own))?;
         }
         self.set_particles(rows.fluid)?;
-        self.water = water;
+        (self.water, self.frame) = (water, frame);
         for column in saved_columns() {
             take_column(&mut self.stores.host, column, parts.of(column.name()));
         }
         self.light.set_gravity(gravity);
         (self.clock, self.sleep, self.commands, self.failed) = (clock, sleep, commands, None);
         (self.params.gravity, self.params.step) = (gravity, step);
+        self.follow_frame();
         self.loads.take(fluid_forces, &loads);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();
@@ -77,6 +79,18 @@ impl World {
             return own;
         }
         RowCounts { fluid: parts.of(Column::FluidId.name()).len() / 4, ..own }
+    }
+
+    /// The motion of the container, and gravity over time.
+    fn frame_in(&self, parts: &Parts<'_>, time: f64) -> Result<Option<Frame>, StateError> {
+        let bytes = parts.of(CONTAINER);
+        if bytes.is_empty() {
+            return Ok(None);
+        }
+        let frame: Frame =
+            postcard::from_bytes(bytes).map_err(|error| invalid(CONTAINER, error.to_string()))?;
+        let refused = frame.defect(&self.scene).or_else(|| self.turn_refusal(frame.motions(), time));
+        refused.map_or(Ok(Some(frame)), |defect| Err(invalid(CONTAINER, defect)))
     }
 
     /// Refuses identities that occur twice, or that were never given.
@@ -100,6 +114,7 @@ impl World {
                 || name == REST
                 || name == WATER
                 || name == LOADS
+                || name == CONTAINER
                 || SLEEP.contains(&name)
                 || saved_columns().any(|column| column.name() == name)
         };

@@ -12,7 +12,9 @@ use sorb_kernels::{
     step::{POROUS_STEP, STEP},
 };
 
-use super::{Options, World, WorldError, column_pressure, fastest, fastest_body, forces, sleep};
+use super::{
+    Options, World, WorldError, column_pressure, fastest, fastest_body, forces, frame::Frame, sleep,
+};
 use crate::{
     clock::{Clock, Dormant, Steps},
     command::Commands,
@@ -121,9 +123,11 @@ impl World {
             #[cfg(feature = "gpu")]
             placed_by: options.clone(),
             water: Water::default(),
+            frame: Frame::of_scene(scene),
             #[cfg(feature = "serde")]
             identity: OnceLock::new(),
         };
+        world.follow_frame();
         world.place()?;
         world.begin_clock();
         world.look();

@@ -113,9 +113,11 @@ impl World {
                 self.wake_kinds(|_| false);
             }
             Command::Gravity { gravity } => {
-                self.set_gravity(*gravity).map_err(rigid)?;
+                self.begin_gravity(*gravity).map_err(rigid)?;
                 self.wake_kinds(|_| true);
             }
+            Command::GravityPath { path } => self.begin_gravity_path(path),
+            Command::Container { motions } => self.begin_motions(motions),
             Command::Grip { body, nodes } => self.grip(*body, nodes),
             Command::Release { nodes } => self.release(nodes),
             Command::Pour { region, velocity } => self.pour(region, *velocity)?,

@@ -128,7 +128,7 @@ impl Momentum {
 }
 
 /// Zero for a body that does not turn.
-fn inertia(inverse: Mat3) -> DMat3 {
+pub(super) fn inertia(inverse: Mat3) -> DMat3 {
     inverse.as_dmat3().try_inverse().unwrap_or(DMat3::ZERO)
 }
 

@@ -285,7 +285,7 @@ fn steps_far_beyond_what_is_stable() {
                 world.params.step = long;
                 world.clock.steps += 1;
                 world.clock.time += f64::from(long);
-                let result = world.run_phases(long).and_then(|()| world.check());
+                let result = world.run_phases(long, &[]).and_then(|()| world.check());
                 // Viscosity between particles is explicit: a hundred times its bound is an error that names a row.
                 if factor > 10.0 && result.is_err() {
                     refused = true;

@@ -7,6 +7,7 @@ mod error;
 mod failing;
 mod flows;
 pub(crate) mod forces;
+pub(crate) mod frame;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
 mod look;
@@ -24,6 +25,7 @@ use std::sync::OnceLock;
 
 use sorb_kernels::{
     SimdLevel,
+    body::Wrench,
     clock::TIME_RESOLUTION,
     columns::{Column, Columns},
     cpu::Cpu,
@@ -44,8 +46,8 @@ use crate::{
 
 pub use error::{StepError, WorldError};
 pub use forces::{BodyLoads, Load};
+pub(crate) use moving::{Pushes, move_bodies, take_masses};
 use moving::{column_pressure, fastest, fastest_body, wrenches};
-pub(crate) use moving::{move_bodies, take_masses};
 
 /// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]
@@ -125,6 +127,8 @@ pub struct World {
     #[cfg(feature = "gpu")]
     pub(crate) placed_by: Options,
     pub(crate) water: Water,
+    /// None while gravity is constant and the container rests.
+    pub(crate) frame: Option<frame::Frame>,
     #[cfg(feature = "serde")]
     pub(crate) identity: OnceLock<crate::state::Identity>,
 }
@@ -223,7 +227,8 @@ impl World {
         }
         let (step, bound) = within(stable, left);
         self.params.step = step;
-        if let Err(error) = self.run_phases(step) {
+        let carried = self.carry(step)?;
+        if let Err(error) = self.run_phases(step, &carried) {
             // A particle or node that is not finite invalidates the wrenches: the error names it instead of the body.
             if matches!(error, StepError::Rigid(_)) {
                 self.check()?;
@@ -237,8 +242,8 @@ impl World {
         Ok(StepReport { step, bound, time: self.clock.time, maximum_speed })
     }
 
-    /// All phases of a step of given length.
-    fn run_phases(&mut self, step: f32) -> Result<(), StepError> {
+    /// All phases of a step of given length, in which a turn of the container gives something to the bodies.
+    fn run_phases(&mut self, step: f32, carried: &[Wrench]) -> Result<(), StepError> {
         let awake = self.awake();
         let are_bodies_still = self.sleep.are_bodies_still(self.clock.time, step);
         let (bodies, sleep) = (&mut self.stores.host.bodies.states.0, &self.sleep);
@@ -251,7 +256,7 @@ impl World {
                 return;
             }
             let given = wrenches(columns);
-            let given = (&given[..], &commands.forces[..]);
+            let given = Pushes { given: &given, forces: &commands.forces, carried };
             rigid = move_bodies(engine.as_mut(), light, &mut columns.bodies, given, (step, &mut *loads));
         };
         if let Some(device) = &mut stores.device {

@@ -54,18 +54,35 @@ fn momenta(engine: &dyn RigidEngine, bodies: &[Body]) -> Vec<Momentum> {
     bodies.map(|(index, body)| Momentum::of(engine, index, body.inverse_mass)).collect()
 }
 
-/// Passes the wrenches of fluid and sponges, and the forces of commands, to the engine, and stores the new states of the bodies.
+/// What pushes the bodies in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pushes<'a> {
+    /// Wrenches of fluid and sponges.
+    pub(crate) given: &'a [(Wrench, Wrench)],
+    /// Forces and torques of commands; empty without any.
+    pub(crate) forces: &'a [[Vec3; 2]],
+    /// What a turn of the container gives; empty if it does not turn.
+    pub(crate) carried: &'a [Wrench],
+}
+
+/// Passes the wrenches of fluid and sponges, the forces of commands and what a turn of the container gives, if it turns, to the engine, and
+/// stores the new states of the bodies.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
     light: &LightBodies,
     bodies: &mut BodyStore,
-    (given, forces): (&[(Wrench, Wrench)], &[[Vec3; 2]]),
+    pushes: Pushes<'_>,
     (step, loads): (f32, &mut Loads),
 ) -> Result<(), RigidError> {
+    let Pushes { given, forces, carried } = pushes;
     let mut wrenches = light.wrenches(engine, given, step);
     let mut by_host = vec![Wrench::default(); wrenches.len()];
     add_forces(forces, &bodies.states.0, &mut by_host, step);
     add_forces(forces, &bodies.states.0, &mut wrenches, step);
+    for (wrench, carried) in wrenches.iter_mut().zip(carried) {
+        wrench.impulse += carried.impulse;
+        wrench.angular_impulse += carried.angular_impulse;
+    }
     let before = momenta(engine, &bodies.states.0);
     engine.step(step, &wrenches)?;
     let after = momenta(engine, &bodies.states.0);

@@ -5,6 +5,7 @@ mod common;
 
 mod alike;
 mod asleep;
+mod container;
 mod pictures;
 mod placement;
 mod replay;

@@ -315,6 +315,12 @@ impl Resident {
         }
     }
 
+    /// Another acceleration of free fall \[m/s^2\] for the next steps.
+    pub fn set_gravity(&mut self, gravity: glam::Vec3) {
+        self.params.gravity = gravity;
+        self.fill_params();
+    }
+
     /// Goes on without sponges whose nodes are asleep, and with those that are no longer; `limits` are those of what is awake. The
     /// fluid `is_outside` of all sponges if they sleep and it does not. The time has to be set anew.
     pub fn set_asleep(&mut self, asleep: &Asleep, limits: StepLimits, is_outside: bool) {

@@ -58,8 +58,8 @@ fn every_number_has_its_range_and_every_range_its_number() {
             assert!(limits().any(listed), "{name} has a range that is not in the table");
         }
     });
-    // `radius` is in three variants; `start`, `end` and `ease` are each in two.
-    assert_eq!(numbers, limits().count() + 5);
+    // `radius`, `start`, `end` and `ease` are each in three variants.
+    assert_eq!(numbers, limits().count() + 8);
 }
 
 #[test]

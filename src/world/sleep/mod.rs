@@ -45,6 +45,8 @@ pub(crate) struct Sleep {
     rules: Rules,
     /// Motions of bodies by scripts, by the number of the body.
     motions: Vec<(usize, Motion)>,
+    /// Intervals in which the container moves, or gravity changes \[s\]: everything is awake then.
+    pub(crate) carried: Vec<(f64, f64)>,
     parts: Vec<Part>,
     /// Whether the scene sleeps as a whole.
     is_asleep: bool,
@@ -73,6 +75,7 @@ impl Sleep {
             speed: f64::from(sleep_speed),
             rules: Rules { periods, has_wetting: params.has_wetting() },
             motions: motions.collect(),
+            carried: Vec::new(),
             parts: Vec::new(),
             is_asleep: false,
             before: None,
@@ -104,7 +107,8 @@ impl Sleep {
 
     /// All parts awake, with what commands have changed.
     pub(crate) fn anew(&self, scene: &Scene, params: &Params, targets: &[Option<Target>]) -> Self {
-        let mut sleep = Self { gripped: self.gripped.clone(), ..Self::new(scene, params) };
+        let (gripped, carried) = (self.gripped.clone(), self.carried.clone());
+        let mut sleep = Self { gripped, carried, ..Self::new(scene, params) };
         for (body, target) in targets.iter().enumerate() {
             target.iter().for_each(|target| sleep.follow(body, target));
         }
@@ -146,9 +150,14 @@ impl Sleep {
         self.gripped.extend(new);
     }
 
-    /// Whether a script moves a body between two times.
+    /// Whether the container moves, or gravity changes, between two times.
+    pub(crate) fn is_carried(&self, from: f64, to: f64) -> bool {
+        self.carried.iter().any(|(start, end)| *start < to && *end > from)
+    }
+
+    /// Whether the container or a script moves something between two times.
     fn moves(&self, from: f64, to: f64) -> bool {
-        self.motions.iter().any(|(_, motion)| is_active(motion, from, to))
+        self.is_carried(from, to) || self.motions.iter().any(|(_, motion)| is_active(motion, from, to))
     }
 
     /// Whether no body moves in a step that begins now, nor has a velocity to lose.
@@ -162,11 +171,13 @@ impl Sleep {
         self.before.is_some()
             && self.parts.iter().filter(|part| is_dynamic(part)).all(|part| part.is_asleep)
             && !self.motions.iter().any(touches)
+            && !self.is_carried(time, time + f64::from(step))
     }
 
     /// Time for which the whole scene can sleep on, at most `left`; none if it is awake \[s\].
     fn rest(&self, time: f64, left: f64) -> Option<f64> {
         let intervals = self.motions.iter().map(|(_, motion)| interval(motion));
+        let intervals = intervals.chain(self.carried.iter().copied());
         let next = intervals.filter(|(_, end)| *end > time).map(|(start, _)| start - time);
         let rest = next.fold(left, f64::min);
         (self.is_asleep && rest > 0.0).then_some(rest)
@@ -283,10 +294,11 @@ impl World {
     fn fall_asleep(&mut self, before: &Places, now: &Places) -> bool {
         let moving = self.movers(before.time);
         let is_moved = self.sleep.moves(before.time, now.time);
+        let is_carried = self.sleep.is_carried(before.time, now.time);
         let (sleep, as_a_whole) = (&self.sleep, self.sleeps_as_a_whole());
         let ways = self.ways(before, now);
         let is_still = |index: usize, part: &Part| {
-            let is_beside = if as_a_whole {
+            let is_beside = if as_a_whole || is_carried {
                 is_moved
             } else {
                 moving.iter().any(|mover| sleep.rules.is_kept_awake(part, mover))

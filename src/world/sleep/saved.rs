@@ -48,6 +48,7 @@ impl Sleep {
     /// Takes over the sleep of another world of the same scene, in the same memory.
     pub(crate) fn copy(&mut self, from: &Self) {
         self.motions.clone_from(&from.motions);
+        self.carried.clone_from(&from.carried);
         self.parts.clone_from(&from.parts);
         self.is_asleep = from.is_asleep;
         match &from.before {

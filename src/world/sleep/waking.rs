@@ -117,6 +117,11 @@ impl World {
         if self.sleep.parts.iter().all(|part| !part.is_asleep) {
             return false;
         }
+        let longest = f64::from(self.scene.time.maximum_step);
+        if self.is_carried(self.clock.time, self.clock.time + longest) {
+            self.wake(&vec![true; self.sleep.parts.len()]);
+            return true;
+        }
         if self.sleeps_as_a_whole() {
             let wakes = !self.sleep.is_asleep;
             if wakes {
@@ -231,6 +236,11 @@ impl World {
 fn speed(motion: &Motion, body: &Body) -> f32 {
     match *motion {
         Motion::Linear { velocity, .. } => velocity.length(),
+        Motion::Shake { amplitude, frequency, ease, .. } => {
+            // The amplitude grows by at most 1.5 within the time `ease`.
+            let growth = if ease > 0.0 { 1.5 / ease } else { 0.0 };
+            amplitude.length() * (2.0 * std::f32::consts::PI * frequency + growth)
+        }
         Motion::Turn { pivot, rate, .. } => {
             let radius = body.shape.bounding_radius();
             // Boxes of planes cover all of space anyway.
