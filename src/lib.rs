@@ -11,6 +11,7 @@ pub mod gpu;
 #[cfg(not(feature = "gpu"))]
 #[path = "no_gpu.rs"]
 pub mod gpu;
+mod handle;
 #[doc(hidden)]
 pub mod internal;
 mod measure;
@@ -33,6 +34,7 @@ mod world;
 
 pub use clock::{Bound, Clock};
 pub use command::{Command, CommandError, Nodes, Region};
+pub use handle::{BodyHandle, SpongeHandle};
 pub use measure::Measures;
 pub use query::{Hit, Probe, QueryError, Ray, SpongeProbe, Surface, Targets};
 #[cfg(feature = "serde")]

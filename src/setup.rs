@@ -28,6 +28,7 @@ use crate::{
     world::WorldError,
 };
 
+pub(crate) use params::params;
 pub(crate) use seed::{Beside, jitter};
 use shapes::Mask;
 
@@ -53,7 +54,7 @@ pub(crate) struct Setup {
 
 impl Setup {
     pub(crate) fn new(scene: &Scene, cpu: &Cpu, begin: Begin) -> Result<Self, WorldError> {
-        let params = params::params(scene);
+        let params = params(scene);
         let mut columns = Columns::default();
         let setups = body_setups(scene)?;
         let engine = match begin.engine {
@@ -142,7 +143,7 @@ fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, c
 }
 
 /// Depth in a body at which a node may begin, over the edge of a cell: contact, and rounding.
-const TOUCH: f32 = 1.0e-3;
+pub(crate) const TOUCH: f32 = 1.0e-3;
 
 /// The sponges, without cells that begin inside a body: these would be thrown out of it. Grips hold the nodes that they
 /// contain instead.

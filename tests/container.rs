@@ -121,11 +121,14 @@ fn water_in_a_tilted_tank_has_a_level_surface_outside() {
     run_to(&mut world, 2.5);
     assert_tight(&world);
     let gravity = world.gravity();
-    assert!(gravity.distance(Vec3::new(-angle.sin(), -angle.cos(), 0.0) * 9.81) < 1e-3, "{gravity}");
+    assert!(
+        gravity.distance(Vec3::new(-libm::sinf(angle), -libm::cosf(angle), 0.0) * 9.81) < 1e-3,
+        "{gravity}"
+    );
     let levels = world.water_levels(&[[-0.04, 0.0], [0.04, 0.0]]).unwrap_or_else(|error| panic!("{error}"));
     let [left, right] = [levels[0], levels[1]].map(|level| level.unwrap_or(0.0));
     let slope = (left - right) / 0.08;
-    assert!((slope - angle.tan()).abs() < 0.05, "{left} {right}");
+    assert!((slope - libm::tanf(angle)).abs() < 0.05, "{left} {right}");
     // The control: a tank that rests.
     let mut still = common::world(&tank(Vec::new()));
     run_to(&mut still, 0.5);
@@ -279,7 +282,8 @@ fn bad_motions_and_paths_are_refused_with_key_value_and_range() {
     let abrupt = Motion::Linear { velocity: Vec3::X, start: 0.0, end: 1.0, ease: 0.0 };
     let wild = Motion::Shake { amplitude: Vec3::X, frequency: f32::NAN, start: 0.0, end: 1.0, ease: 0.1 };
     let late = GravityKey { time: 1.0, gravity: Vec3::ZERO };
-    let cases: [(&dyn Fn(&mut Scene), &str); 5] = [
+    type Case<'a> = (&'a dyn Fn(&mut Scene), &'a str);
+    let cases: [Case<'_>; 5] = [
         (&|scene| scene.container.motions.push(abrupt), "`container.motions[1].ease` = 0: must be above 0"),
         (
             &|scene| scene.container.motions.push(wild),

@@ -10,8 +10,9 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    handle::SpongeHandle,
     rigid::Target,
-    scene::{Drain, Emitter, GravityKey, Motion, Problem},
+    scene::{Drain, Emitter, GravityKey, Material, Motion, Problem},
 };
 
 pub use region::Region;
@@ -117,6 +118,25 @@ pub enum Command {
     EndFlow {
         /// Its number. One that has ended, by itself as well, is an error.
         number: u32,
+    },
+    /// A sponge in its shape at rest at another place, at once, with the water in its pores. Nodes that bodies hold are let go. A place
+    /// outside of the container, in a body or in a sponge is an error, and one in water if the sponge brings water along.
+    PlaceSponge {
+        /// The sponge.
+        sponge: SpongeHandle,
+        /// Where the middle of its block goes. Range -1000 to 1000 m.
+        position: Vec3,
+        /// Rotation of its block, of unit length; the identity is as in the scene.
+        rotation: Quat,
+        /// Velocity of all of it. Range -100 to 100 m/s.
+        velocity: Vec3,
+    },
+    /// Another material of a sponge, from the next step on.
+    Material {
+        /// The sponge.
+        sponge: SpongeHandle,
+        /// The material, of the ranges and rules of scenes; [`World::material`](crate::World::material) has the present one.
+        material: Material,
     },
     /// Nodes that nothing holds any more, whatever held them.
     Release {

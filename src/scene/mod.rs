@@ -30,6 +30,7 @@ mod estimate;
 mod flows;
 mod fluid;
 mod limits;
+mod material;
 mod mesh;
 mod motion;
 mod number;
@@ -72,6 +73,7 @@ pub use fluid::{
 };
 pub(crate) use limits::limit;
 pub use limits::{Limit, limits};
+pub use material::Material;
 pub use mesh::Mesh;
 pub use motion::Motion;
 pub(crate) use number::number_text;

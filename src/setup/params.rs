@@ -16,7 +16,7 @@ use sorb_kernels::{
 
 use crate::scene::{self, Scene};
 
-pub(super) fn params(scene: &Scene) -> Params {
+pub(crate) fn params(scene: &Scene) -> Params {
     let (domain, walls, periodic) = match scene.domain {
         scene::Domain::Box { minimum, maximum, periodic } => {
             let corner = |own: Vec3, far: f32| Vec3::select(periodic.into(), Vec3::splat(far), own);

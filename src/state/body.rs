@@ -12,6 +12,7 @@ pub(super) const ENGINE_OF_HOST: &str = "engine of the host";
 pub(super) const LOADS: &str = "loads";
 pub(super) const REST: &str = "rest";
 pub(super) const WATER: &str = "water";
+pub(super) const SCENE: &str = "scene";
 pub(super) const CONTAINER: &str = "container";
 
 /// Name and bytes of every section, in order.
@@ -51,6 +52,11 @@ impl World {
             // Numbers alone cannot fail.
             *out = postcard::to_extend(&self.water, all).unwrap_or_default();
             end(WATER, out);
+        }
+        if let Some(origin) = &self.origin {
+            let all = std::mem::take(out);
+            *out = postcard::to_extend(origin, all).unwrap_or_default();
+            end(SCENE, out);
         }
         if let Some(frame) = &self.frame {
             let all = std::mem::take(out);

@@ -16,11 +16,12 @@ use super::{
     filter::{self, row_bytes},
     header::{Header, LIBRARY, scene_of},
     rest::Rest,
-    take::{Parts, invalid},
+    take::{Parts, invalid, origin_in},
 };
 use crate::{
     Options, World,
     scene::{Estimate, Scene},
+    world::digest_of,
 };
 
 /// Files of saves.
@@ -97,15 +98,26 @@ impl World {
         Save::read(from)?.world(options)
     }
 
-    /// Returns to the state of a save of the same scene, without building anything anew.
+    /// Returns to the state of a save of the same scene, without building anything anew, unless commands have changed the scene before or
+    /// after it.
     ///
     /// # Errors
     /// The save is of another scene, or impossible; the world is unchanged.
     pub fn resume(&mut self, save: &Save) -> Result<(), StateError> {
         let identity = self.identity()?;
         if identity.scene != save.header.scene && save.scene()? != *self.scene() {
-            let (expected, found) = (self.scene().name.clone(), save.scene()?.name);
-            return Err(StateError::Scene { expected, found });
+            let scene = save.scene()?;
+            let first = origin_in(&save.parts())?.map_or_else(|| digest_of(&scene), |origin| origin.first);
+            if first != self.first_scene() {
+                let (expected, found) = (self.scene().name.clone(), scene.name);
+                return Err(StateError::Scene { expected, found });
+            }
+            // Commands have made another one of the same scene.
+            let mut world = self.of_scene(&scene)?;
+            world.check_parameters(save.header.parameters, &save.header.library)?;
+            world.take_state(&save.parts())?;
+            *self = world;
+            return Ok(());
         }
         self.check_parameters(save.header.parameters, &save.header.library)?;
         self.take_state(&save.parts())

@@ -5,13 +5,16 @@ use sorb_kernels::{
     columns::{Columns, RowCounts},
 };
 
+use std::sync::Arc;
+
 use super::error::StateError;
 use crate::{
     clock::{Clock, Steps},
     command::Commands,
     rigid::RigidEngine,
+    scene::Scene,
     water::Water,
-    world::{StepError, World, forces::Loads, frame::Frame, sleep::Sleep},
+    world::{Origin, StepError, World, digest_of, forces::Loads, frame::Frame, sleep::Sleep},
 };
 
 /// The state of a world at some time, in memory. Filled again and again, it allocates for the columns only once; the engine
@@ -34,6 +37,8 @@ struct Kept {
     failed: Option<StepError>,
     water: Water,
     frame: Option<Frame>,
+    scene: Arc<Scene>,
+    origin: Option<Origin>,
 }
 
 impl Snapshot {
@@ -85,6 +90,8 @@ impl World {
                 failed: self.failed.clone(),
                 water: self.water.clone(),
                 frame: self.frame.clone(),
+                scene: Arc::clone(&self.scene),
+                origin: self.origin,
             }));
             return;
         };
@@ -99,6 +106,7 @@ impl World {
         kept.failed.clone_from(&self.failed);
         kept.water.clone_from(&self.water);
         kept.frame.clone_from(&self.frame);
+        (kept.scene, kept.origin) = (Arc::clone(&self.scene), self.origin);
     }
 
     /// Returns to the state of a snapshot of this world, or of another of the same scene: it continues with the same bits.
@@ -109,6 +117,17 @@ impl World {
         let fail =
             |reason: &str| StateError::Invalid { what: "snapshot".to_owned(), reason: reason.to_owned() };
         let Some(kept) = &snapshot.0 else { return Err(fail("it is empty")) };
+        let is_changed = self.origin.is_some() || kept.origin.is_some();
+        if is_changed && !Arc::ptr_eq(&self.scene, &kept.scene) && self.scene != kept.scene {
+            let first = |origin: Option<Origin>, scene: &Scene| {
+                origin.map_or_else(|| digest_of(scene), |origin| origin.first)
+            };
+            if first(self.origin, &self.scene) != first(kept.origin, &kept.scene) {
+                return Err(fail("it is of another scene"));
+            }
+            // Commands have changed the scene since.
+            *self = self.of_scene(&kept.scene)?;
+        }
         let RowCounts { fluid, .. } = kept.columns.rows;
         // Water may have come and gone since.
         let is_same = kept.columns.rows == RowCounts { fluid, ..self.stores.host.rows };
@@ -127,6 +146,7 @@ impl World {
         self.failed.clone_from(&kept.failed);
         self.water.clone_from(&kept.water);
         self.frame.clone_from(&kept.frame);
+        self.origin = kept.origin;
         self.params.asleep.clone_from(&kept.asleep);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();

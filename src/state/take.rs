@@ -4,7 +4,7 @@ use glam::Vec3;
 use sorb_kernels::columns::{Column, RowCounts};
 
 use super::{
-    body::{CONTAINER, ENGINE, ENGINE_OF_HOST, LOADS, REST, SLEEP, WATER, saved_columns},
+    body::{CONTAINER, ENGINE, ENGINE_OF_HOST, LOADS, REST, SCENE, SLEEP, WATER, saved_columns},
     columns::{copy_words, fits, take_column},
     error::StateError,
     rest::Rest,
@@ -12,7 +12,7 @@ use super::{
 use crate::{
     scene::Scene,
     water::Water,
-    world::{World, forces::SavedLoads, frame::Frame},
+    world::{Origin, World, digest_of, forces::SavedLoads, frame::Frame},
 };
 
 /// Sections by name.
@@ -40,6 +40,10 @@ impl World {
         self.check_sections(parts, rows)?;
         let water = water_in(&self.scene, parts, rows.fluid)?;
         let loads = loads_in(parts, rows.bodies)?;
+        let origin = origin_in(parts)?;
+        if origin.is_some_and(|origin| origin.present != digest_of(&self.scene)) {
+            return Err(invalid(SCENE, "it is of another scene"));
+        }
         let rest: Rest =
             postcard::from_bytes(parts.of(REST)).map_err(|error| invalid(REST, error.to_string()))?;
         if let Some(defect) = rest.defect(self) {
@@ -56,7 +60,7 @@ impl World {
             self.engine.restore(parts.of(own))?;
         }
         self.set_particles(rows.fluid)?;
-        (self.water, self.frame) = (water, frame);
+        (self.water, self.frame, self.origin) = (water, frame, origin);
         for column in saved_columns() {
             take_column(&mut self.stores.host, column, parts.of(column.name()));
         }
@@ -115,6 +119,7 @@ impl World {
                 || name == WATER
                 || name == LOADS
                 || name == CONTAINER
+                || name == SCENE
                 || SLEEP.contains(&name)
                 || saved_columns().any(|column| column.name() == name)
         };
@@ -149,6 +154,15 @@ impl World {
             None => Ok(()),
         }
     }
+}
+
+/// Which scene a state began with, if commands have changed that.
+pub(super) fn origin_in(parts: &Parts<'_>) -> Result<Option<Origin>, StateError> {
+    let bytes = parts.of(SCENE);
+    if bytes.is_empty() {
+        return Ok(None);
+    }
+    postcard::from_bytes(bytes).map(Some).map_err(|error| invalid(SCENE, error.to_string()))
 }
 
 /// What pushed the bodies of a state beside the fluid.

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 pub(crate) use flow::{Flow, FlowKind, layer};
 pub(crate) use ranks::ranks;
-pub(crate) use room::Room;
+pub(crate) use room::{APART, Points, Room};
 
 /// Counts of particles since time zero. Saved once a command has changed any.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]

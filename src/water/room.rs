@@ -10,7 +10,7 @@ use crate::{command::Region, scene::Domain, setup::Beside, sponge::TetGrid, worl
 const WALL: f32 = 0.25;
 
 /// Distance from other particles within which there are no new ones, over the spacing: pressure would throw them apart.
-const APART: f32 = 0.8;
+pub(crate) const APART: f32 = 0.8;
 
 /// Places for particles in a region, and why others have none.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,23 +42,29 @@ impl fmt::Display for Room {
 }
 
 /// Points by cells.
-struct Points {
+#[derive(Debug)]
+pub(crate) struct Points {
     cell: f32,
     cells: BTreeMap<[i64; 3], Vec<Vec3>>,
 }
 
 impl Points {
+    /// In cells of some size \[m\].
+    pub(crate) fn new(cell: f32) -> Self {
+        Self { cell, cells: BTreeMap::new() }
+    }
+
     fn cell_of(&self, point: Vec3) -> [i64; 3] {
         (point / self.cell).floor().to_array().map(|cell| cell as i64)
     }
 
-    fn insert(&mut self, point: Vec3) {
+    pub(crate) fn insert(&mut self, point: Vec3) {
         let cell = self.cell_of(point);
         self.cells.entry(cell).or_default().push(point);
     }
 
     /// Whether a point is less than a cell away from another.
-    fn is_near(&self, point: Vec3) -> bool {
+    pub(crate) fn is_near(&self, point: Vec3) -> bool {
         let [x, y, z] = self.cell_of(point);
         let around = (0..27).map(|k| [x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1]);
         let mut near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
@@ -108,7 +114,7 @@ impl World {
 
     /// The particles in a box, and their images along periodic axes, in cells of some size \[m\].
     fn water_near(&self, (low, high): (Vec3, Vec3), cell: f32) -> Points {
-        let mut points = Points { cell, cells: BTreeMap::new() };
+        let mut points = Points::new(cell);
         let periods = self.params.periodic.map_or(Vec3::ZERO, |periodic| periodic.periods());
         let times = |axis: usize| if periods[axis] > 0.0 { -1..=1 } else { 0..=0 };
         let shift = |x: i32, y: i32, z: i32| Vec3::new(x as f32, y as f32, z as f32) * periods;

@@ -1,5 +1,6 @@
 //! Worlds from scenes.
 
+use std::sync::Arc;
 #[cfg(feature = "serde")]
 use std::sync::OnceLock;
 
@@ -22,6 +23,7 @@ use crate::{
     scene::Scene,
     schedule::{Plans, Runner},
     setup::{Begin, Setup},
+    state::StateError,
     stores::Stores,
     water::Water,
 };
@@ -79,6 +81,22 @@ impl World {
         Self::build(scene, Cpu::with_threads(level, threads)?, options, begin)
     }
 
+    /// Builds what commands have made of the scene of this world, or what they made it of, for a state of it.
+    pub(crate) fn of_scene(&self, scene: &Scene) -> Result<Self, StateError> {
+        let fail = |error| StateError::World(Box::new(error));
+        let engine = self.has_own_engine.then(|| self.engine.clone());
+        let cpu = self.spare_cpu.as_ref().unwrap_or(&self.cpu).clone();
+        #[cfg_attr(not(feature = "gpu"), expect(unused_mut, reason = "placed on a GPU"))]
+        let mut world =
+            Self::build(scene, cpu, &self.options, Begin { engine, is_dry: true }).map_err(fail)?;
+        #[cfg(feature = "gpu")]
+        {
+            world.placed_by.clone_from(&self.placed_by);
+            world.place_again().map_err(fail)?;
+        }
+        Ok(world)
+    }
+
     /// Builds a scene on a CPU context of the host, for example one with the host's own thread pool. Threads and SIMD level are those
     /// of the context, whatever the options say.
     ///
@@ -105,7 +123,8 @@ impl World {
             runner: Runner::of_all(&plans.0),
             sleep: sleep::Sleep::new(scene, &params),
             steps,
-            scene: scene.clone(),
+            scene: Arc::new(scene.clone()),
+            origin: None,
             cpu,
             spare_cpu,
             params,

@@ -120,6 +120,10 @@ impl World {
             Command::Container { motions } => self.begin_motions(motions),
             Command::Grip { body, nodes } => self.grip(*body, nodes),
             Command::Release { nodes } => self.release(nodes),
+            Command::PlaceSponge { sponge, position, rotation, velocity } => {
+                self.place_sponge(sponge.index(), (*position, *rotation), *velocity);
+            }
+            Command::Material { sponge, material } => self.set_material(sponge.index(), material)?,
             Command::Pour { region, velocity } => self.pour(region, *velocity)?,
             Command::Remove { region } => self.remove_water(region)?,
             Command::Emit { number, emitter } => self.begin_flow(*number, FlowKind::Emitter(*emitter)),
@@ -176,17 +180,22 @@ impl World {
     }
 
     fn release(&mut self, nodes: &Nodes) {
-        let columns = &mut self.stores.host;
+        let columns = &self.stores.host;
         let mut rows = rows_of(columns, nodes);
         rows.retain(|row| columns.nodes.grip[*row] != u32::MAX);
-        for row in &rows {
-            let density = self.scene.sponges[columns.nodes.sponge[*row] as usize].density;
-            columns.nodes.grip[*row] = u32::MAX;
-            columns.nodes.grip_offset[*row] = [0.0; 4];
-            columns.nodes.position[*row][lane::nodes::position::INVERSE_MASS] =
-                1.0 / (density * columns.nodes.volume[*row]);
-        }
+        self.let_go(&rows);
         self.wake_sponges(&rows, false);
+    }
+
+    /// Nodes that nothing holds any more.
+    pub(super) fn let_go(&mut self, rows: &[usize]) {
+        let nodes = &mut self.stores.host.nodes;
+        for row in rows {
+            let density = self.scene.sponges[nodes.sponge[*row] as usize].density;
+            nodes.grip[*row] = u32::MAX;
+            nodes.grip_offset[*row] = [0.0; 4];
+            nodes.position[*row][lane::nodes::position::INVERSE_MASS] = 1.0 / (density * nodes.volume[*row]);
+        }
     }
 
     /// Wakes the sponges of some nodes, which bodies may move from afar if they hold them.
@@ -209,7 +218,14 @@ fn rigid(error: RigidError) -> StepError {
 /// Whether a command changes what a device has a copy of.
 fn changes_columns(command: &Command) -> bool {
     changes_water(command)
-        || matches!(command, Command::Gravity { .. } | Command::Grip { .. } | Command::Release { .. })
+        || matches!(
+            command,
+            Command::Gravity { .. }
+                | Command::Grip { .. }
+                | Command::Release { .. }
+                | Command::PlaceSponge { .. }
+                | Command::Material { .. }
+        )
 }
 
 /// Whether water comes or goes by a command.

@@ -127,6 +127,9 @@ pub enum StepError {
     /// The steps of a scene whose first water has come, or whose last has gone, cannot be placed where the options say.
     #[error("water that came or went: {0}")]
     Water(String),
+    /// The steps of a scene that commands have changed cannot be planned or placed.
+    #[error("the changed scene: {0}")]
+    Scene(String),
     /// The engine of the bodies failed.
     #[error("rigid bodies: {0}")]
     Rigid(String),

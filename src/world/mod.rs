@@ -11,7 +11,9 @@ pub(crate) mod frame;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
 mod look;
+mod material;
 mod moving;
+mod placing;
 #[cfg(test)]
 mod pool;
 pub(crate) mod sleep;
@@ -46,6 +48,7 @@ use crate::{
 
 pub use error::{StepError, WorldError};
 pub use forces::{BodyLoads, Load};
+pub(crate) use material::{Origin, digest_of};
 pub(crate) use moving::{Pushes, move_bodies, take_masses};
 use moving::{column_pressure, fastest, fastest_body, wrenches};
 
@@ -102,7 +105,9 @@ pub struct FrameReport {
 /// A clone continues with the same bits: keep one to return to it.
 #[derive(Clone, Debug)]
 pub struct World {
-    pub(crate) scene: Scene,
+    pub(crate) scene: Arc<Scene>,
+    /// Which scene it was before commands changed it; none before.
+    pub(crate) origin: Option<Origin>,
     cpu: Cpu,
     /// That of scenes with many rows, while there are few.
     spare_cpu: Option<Cpu>,

@@ -76,7 +76,7 @@ views!(World);
 views!(crate::gpu::State);
 
 impl World {
-    /// The scene that the world was built from.
+    /// The scene that the world was built from, with what commands have changed of it.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene

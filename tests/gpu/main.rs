@@ -10,6 +10,7 @@ mod pictures;
 mod placement;
 mod replay;
 mod state;
+mod steering;
 mod water;
 
 use std::sync::{Arc, OnceLock};

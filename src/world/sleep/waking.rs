@@ -63,7 +63,7 @@ impl World {
     }
 
     /// Rows of the nodes of a sponge.
-    pub(super) fn node_rows(&self, sponge: usize) -> [Range<usize>; 4] {
+    pub(in crate::world) fn node_rows(&self, sponge: usize) -> [Range<usize>; 4] {
         let range = |color| self.lattice.node_range(color, sponge as u32);
         std::array::from_fn(|color| range(color).start as usize..range(color).end as usize)
     }

@@ -1,11 +1,14 @@
 //! Refuses commands with values out of range, with the texts of scene keys.
 
+mod frame;
+mod sponges;
+
 use glam::{Quat, Vec3};
 
 use super::{Command, CommandError, Nodes, Region};
 use crate::{
     rigid::BodyKind,
-    scene::{Defect, GravityKey, MAXIMUM_PARTICLES, Motion, Problem, container_problems, limit},
+    scene::{Defect, MAXIMUM_PARTICLES, Problem, limit},
     world::World,
 };
 
@@ -95,6 +98,17 @@ impl Check<'_> {
                 self.nodes("grip.nodes", nodes);
             }
             Command::Release { nodes } => self.nodes("release.nodes", nodes),
+            Command::PlaceSponge { sponge, position, rotation, velocity } => {
+                self.as_key("place_sponge.position", *position, "sponges[].position");
+                self.rotation("place_sponge.rotation", *rotation);
+                self.as_key("place_sponge.velocity", *velocity, "sponges[].velocity");
+                self.sponge("place_sponge.sponge", *sponge);
+                self.place(*sponge, (*position, *rotation));
+            }
+            Command::Material { sponge, material } => {
+                self.sponge("material.sponge", *sponge);
+                self.material(sponge.index(), material);
+            }
             Command::Pour { region, velocity } => {
                 self.as_key("pour.velocity", *velocity, "fluid.blocks[].velocity");
                 self.region("pour.region", region);
@@ -153,42 +167,6 @@ impl Check<'_> {
         };
         if let Err(error) = tried {
             self.rule(key, value.to_string(), error.to_string());
-        }
-    }
-
-    /// Keys from now on.
-    fn gravity_path(&mut self, path: &[GravityKey]) {
-        self.problems.extend(GravityKey::problems(path, "gravity_path.path"));
-        self.not_empty("gravity_path.path", path.len());
-        if let Some(key) = path.first() {
-            self.not_past("gravity_path.path[0].time", key.time);
-        }
-    }
-
-    /// Motions that begin now or later, where they are possible.
-    fn container(&mut self, motions: &[Motion]) {
-        let world = self.world;
-        self.problems.extend(container_problems(motions, "container.motions", world.scene()));
-        self.not_empty("container.motions", motions.len());
-        for (index, motion) in motions.iter().enumerate() {
-            self.not_past(&format!("container.motions[{index}].start"), motion.interval().0);
-        }
-        if let Some(rule) = world.turn_refusal(motions, world.clock().time) {
-            self.rule("container.motions", format!("({} motions)", motions.len()), rule);
-        }
-    }
-
-    fn not_empty(&mut self, key: &str, count: usize) {
-        if count == 0 {
-            self.rule(key, "[]".to_owned(), "must not be empty".to_owned());
-        }
-    }
-
-    /// A time from now on, but for the rounding of an `f32`. Commands of a saved state have waited.
-    fn not_past(&mut self, key: &str, time: f32) {
-        let now = self.world.clock().time;
-        if self.knows_flows && f64::from(time) < now * (1.0 - f64::from(f32::EPSILON)) {
-            self.rule(key, time.to_string(), format!("must not be before the present time, {now} s"));
         }
     }
 

@@ -1,0 +1,117 @@
+//! Materials of sponges that change while a world runs.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use sorb_kernels::{
+    asleep::Asleep,
+    column::{FAR_ROW, padded},
+    columns::{Columns, lane},
+    couple::interior::node_interior,
+    params::Params,
+};
+use xxhash_rust::xxh3::xxh3_64;
+
+use super::{StepError, World, sleep::Kind};
+use crate::{
+    clock::{Dormant, Steps},
+    handle::SpongeHandle,
+    rigid::LightBodies,
+    scene::{Material, Scene},
+    setup::params,
+};
+
+/// Digests of the scene that a world was built from, and of the one that commands have made of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Origin {
+    pub(crate) first: u64,
+    pub(crate) present: u64,
+}
+
+/// Digest of a scene.
+pub(crate) fn digest_of(scene: &Scene) -> u64 {
+    xxh3_64(format!("{scene:?}").as_bytes())
+}
+
+impl World {
+    /// The material of a sponge as commands have left it; none if there is no such sponge.
+    #[must_use]
+    pub fn material(&self, sponge: SpongeHandle) -> Option<Material> {
+        let sponge = self.scene.sponges.get(sponge.index()).filter(|_| sponge.generation() == 0);
+        sponge.map(Material::from)
+    }
+
+    /// Digest of the scene that the world was built from.
+    #[cfg(feature = "serde")]
+    pub(crate) fn first_scene(&self) -> u64 {
+        self.origin.map_or_else(|| digest_of(&self.scene), |origin| origin.first)
+    }
+
+    /// Puts what commands have made of the scene in its place.
+    pub(super) fn change_scene(&mut self, scene: Scene) {
+        let first = self.origin.map_or_else(|| digest_of(&self.scene), |origin| origin.first);
+        self.origin = Some(Origin { first, present: digest_of(&scene) });
+        self.scene = Arc::new(scene);
+        #[cfg(feature = "serde")]
+        self.identity.take();
+    }
+
+    /// Gives a sponge another material.
+    pub(super) fn set_material(&mut self, sponge: usize, material: &Material) -> Result<(), StepError> {
+        let mut scene = Scene::clone(&self.scene);
+        material.put(&mut scene.sponges[sponge]);
+        self.change_scene(scene);
+        let Params { step, gravity, .. } = self.params;
+        let asleep = std::mem::take(&mut self.params.asleep);
+        self.params = Params { step, gravity, asleep, ..params(&self.scene) };
+        self.weigh_nodes(sponge);
+        self.fit_nodes();
+        self.light = LightBodies::new(&self.scene);
+        self.light.set_gravity(gravity);
+        self.steps_anew().map_err(|error| StepError::Scene(error.to_string()))?;
+        self.wake_kinds(|kind| kind == Kind::Sponge(sponge) || kind == Kind::Fluid);
+        self.apply_sleep();
+        Ok(())
+    }
+
+    /// Masses of the nodes of a sponge, by its density.
+    fn weigh_nodes(&mut self, sponge: usize) {
+        let density = self.scene.sponges[sponge].density;
+        let rows: Vec<usize> = self.node_rows(sponge).into_iter().flatten().collect();
+        let nodes = &mut self.stores.host.nodes;
+        for row in rows {
+            let inverse_mass = &mut nodes.position[row][lane::nodes::position::INVERSE_MASS];
+            if *inverse_mass > 0.0 {
+                *inverse_mass = 1.0 / (density * nodes.volume[row]);
+            }
+        }
+    }
+
+    /// Columns of the nodes that a material decides about: wetness, and the neighbourhood at rest, which reaches as far as material swells.
+    fn fit_nodes(&mut self) {
+        let rows = padded(self.stores.host.rows.nodes);
+        let has_wetting = self.params.solid.is_some() && self.params.has_wetting();
+        let wetting = &mut self.stores.host.nodes.wetting;
+        if has_wetting && wetting.is_empty() {
+            *wetting = vec![[0.0; 4]; rows];
+        } else if !has_wetting {
+            wetting.clear();
+        }
+        if self.scene.fluid.is_none() {
+            return;
+        }
+        let mut rest = Columns { rows: self.stores.host.rows, ..Columns::default() };
+        rest.nodes.position.clone_from(&self.lattice.position);
+        rest.nodes.position.resize(rows, FAR_ROW);
+        rest.nodes.volume.clone_from(&self.lattice.node_volume);
+        let (cpu, params) = (&self.cpu, Params { asleep: Asleep::default(), ..self.params.clone() });
+        self.stores.host.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &rest));
+    }
+
+    /// Bounds of the step, plans and placement for the present scene.
+    pub(super) fn steps_anew(&mut self) -> Result<(), super::WorldError> {
+        let bodies = &self.stores.host.bodies.states.0;
+        self.steps = Steps::new(&self.scene, &self.params, bodies, self.engine.as_ref(), &Dormant::default());
+        self.plan_anew()
+    }
+}

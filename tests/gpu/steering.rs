@@ -1,0 +1,59 @@
+//! Sponges that are put elsewhere and materials that change on a device: the same bits twice and after a restore, and within the bounds of
+//! parity those of the CPU.
+
+use sorb::{
+    Command, Offload, Options, World,
+    glam::{Quat, UVec3, Vec3},
+    scene::{Fluid, FluidBlock, Material, Scene, Sponge},
+};
+
+use super::{common, difference, gpu, world};
+
+const LOW: Vec3 = Vec3::new(-0.05, 0.0, -0.05);
+const HIGH: Vec3 = Vec3::new(0.05, 0.15, 0.05);
+
+fn scene() -> Scene {
+    let fluid = Fluid { blocks: vec![FluidBlock::new(LOW, HIGH.with_y(0.02))], ..Fluid::default() };
+    let sponge = |name: &str, position| Sponge { cells: UVec3::splat(3), ..Sponge::new(name, position) };
+    let wet = Sponge { saturation: 1.0, ..sponge("wet", Vec3::new(-0.045, 0.03, -0.045)) };
+    let dry = sponge("dry", Vec3::new(0.01, 0.03, 0.01));
+    Scene::new("pool").in_box(LOW, HIGH).with_fluid(fluid).with_sponge(wet).with_sponge(dry)
+}
+
+fn advance(world: &mut World, frame: u32) {
+    let (position, rotation) = (Vec3::new(-0.02, 0.11, -0.02), Quat::from_rotation_x(0.2));
+    let soft = Material { young_modulus: 5000.0, softening: 0.5, permeability: 4e-9, ..Material::default() };
+    let command = match frame {
+        1 => Command::PlaceSponge { sponge: 0.into(), position, rotation, velocity: Vec3::X * 0.3 },
+        2 => Command::Material { sponge: 1.into(), material: soft },
+        4 => Command::Material { sponge: 1.into(), material: Material::default() },
+        _ => return common::frame(world),
+    };
+    world.push(command).unwrap_or_else(|error| panic!("{error}"));
+    common::frame(world);
+}
+
+#[test]
+fn places_and_materials_are_as_on_the_cpu() {
+    let scene = scene();
+    let (mut on_cpu, mut on_gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
+    let (mut twice, mut restored) = (on_gpu.clone(), on_gpu.clone());
+    let options = Options { offload: Offload::Gpu, gpu: Some(gpu()), ..Options::default() };
+    for frame in 0..6 {
+        [&mut on_cpu, &mut on_gpu, &mut twice].into_iter().for_each(|world| advance(world, frame));
+        let mut bytes = Vec::new();
+        restored.save(&mut bytes).unwrap_or_else(|error| panic!("{error}"));
+        restored = World::restore(&bytes[..], &options).unwrap_or_else(|error| panic!("{error}"));
+        advance(&mut restored, frame);
+        assert_eq!(on_gpu.digest(), twice.digest(), "frame {frame}");
+        assert_eq!(on_gpu.digest(), restored.digest(), "frame {frame}");
+        assert_eq!(on_gpu.ledger().lost, 0);
+    }
+    let apart = difference(&on_cpu.measures(), &on_gpu.measures());
+    assert!(apart.0 < 0.05, "{apart:?}");
+    // The control: without commands.
+    let mut without = world(&scene, Offload::Gpu);
+    (0..6).for_each(|_| common::frame(&mut without));
+    let apart = difference(&on_gpu.measures(), &without.measures());
+    assert!(apart.0 > 0.2, "{apart:?}");
+}
