@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let place = world.bodies()[0].state.position;
     for quarter in [1.0, 2.0] {
         let rotation = Quat::from_rotation_z(-1.3 * quarter);
-        world.push(Command::Pose { body: 0, position: place, rotation, duration: 0.5 })?;
+        world.push(Command::Pose { body: 0.into(), position: place, rotation, duration: 0.5 })?;
         for _ in 0..30 {
             world.advance_frame()?;
         }

@@ -43,12 +43,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The hand takes what it touches.
     let nodes = Nodes::Sphere { centre: cursor(0.0) - Vec3::Y * 0.01, radius: 0.02 };
-    world.push(Command::Grip { body: 1, nodes })?;
+    world.push(Command::Grip { body: 1.into(), nodes })?;
     let frame = 1.0 / f64::from(scene.time.frame_rate);
     while world.clock().time < 3.0 {
         // One pose a frame: the hand is there when the frame ends.
         let position = cursor(world.clock().time + frame);
-        world.push(Command::Pose { body: 1, position, rotation: Quat::IDENTITY, duration: frame as f32 })?;
+        world.push(Command::Pose {
+            body: 1.into(),
+            position,
+            rotation: Quat::IDENTITY,
+            duration: frame as f32,
+        })?;
         world.advance_frame()?;
     }
     let drunk = 1e3 * world.measures().absorbed_mass;

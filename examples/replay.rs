@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for frame in 0..120 {
         if frame == 40 {
             let (impulse, angular_impulse) = (Vec3::new(0.01, 0.05, 0.0), Vec3::ZERO);
-            recorder.push(&mut world, Command::Impulse { body: 0, impulse, angular_impulse })?;
+            recorder.push(&mut world, Command::Impulse { body: 0.into(), impulse, angular_impulse })?;
         }
         if frame == 60 {
             world.save(&mut save)?;

@@ -15,7 +15,7 @@ const FRAMES: usize = 60;
 /// What the other player does before a frame.
 fn push(frame: usize) -> Option<Command> {
     let impulse = Vec3::new(0.02, 0.0, 0.0);
-    (frame % 15 == 5).then_some(Command::Impulse { body: 0, impulse, angular_impulse: Vec3::ZERO })
+    (frame % 15 == 5).then_some(Command::Impulse { body: 0.into(), impulse, angular_impulse: Vec3::ZERO })
 }
 
 fn advance(world: &mut World, command: Option<Command>) -> Result<(), Box<dyn std::error::Error>> {

@@ -5,6 +5,7 @@
 
 mod clock;
 mod command;
+mod coupler;
 mod digest;
 #[cfg(feature = "gpu")]
 pub mod gpu;
@@ -29,11 +30,13 @@ pub mod sponge;
 mod state;
 mod stores;
 mod text;
+mod watcher;
 mod water;
 mod world;
 
 pub use clock::{Bound, Clock};
 pub use command::{Command, CommandError, Nodes, Region};
+pub use coupler::{Coupler, SubStep};
 pub use handle::{BodyHandle, SpongeHandle};
 pub use measure::Measures;
 pub use query::{Hit, Probe, QueryError, Ray, SpongeProbe, Surface, Targets};
@@ -47,6 +50,7 @@ pub use sorb_kernels::{
 #[cfg(feature = "serde")]
 pub use state::{Difference, Save};
 pub use state::{Snapshot, StateError};
+pub use watcher::{Event, Part, Touched, Watcher};
 pub use water::Ledger;
 pub use world::{BodyLoads, FrameReport, Load, Options, StepError, StepReport, World, WorldError};
 

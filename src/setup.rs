@@ -5,7 +5,7 @@ mod params;
 mod seed;
 mod shapes;
 
-use glam::{Quat, Vec3};
+use glam::{Mat3, Quat, Vec3};
 use sorb_kernels::{
     body::{Bodies, Body},
     column::{FAR_ROW, padded},
@@ -42,6 +42,10 @@ pub(crate) struct Begin {
     pub(crate) engine: Option<Box<dyn RigidEngine>>,
     /// Whether the particles of the scene are left out.
     pub(crate) is_dry: bool,
+    /// The bodies that the sponges were cut by, if they are not those of the scene.
+    pub(crate) cut_by: Option<Vec<scene::Body>>,
+    /// Whether there may be dynamic bodies although the scene has none.
+    pub(crate) has_dynamics: bool,
 }
 
 /// All parts of a world at time zero.
@@ -62,11 +66,18 @@ impl Setup {
                 check_engine(&*own, &setups)?;
                 own
             }
-            None => engine(scene, &setups)?,
+            None => engine(scene, &setups, begin.has_dynamics)?,
         };
         place_bodies(scene, &setups, &*engine, &mut columns);
         let masks = shapes::masks(&scene.sponges)?;
-        let lattice = lattice(scene, &masks, &columns.bodies.states.0)?;
+        let lattice = match &begin.cut_by {
+            Some(bodies) => {
+                // Where they were when the sponges were made.
+                let rows = bodies.iter().map(|body| Ok(cutter(body, &body_setup(body, spacing(scene))?)));
+                lattice(scene, &masks, &rows.collect::<Result<Vec<_>, WorldError>>()?)?
+            }
+            None => lattice(scene, &masks, &columns.bodies.states.0)?,
+        };
         overlap::check(scene, &lattice)?;
         fill_nodes(scene, &params, &lattice, &mut columns);
         if scene.fluid.is_some() && !scene.sponges.is_empty() {
@@ -93,7 +104,7 @@ fn spacing(scene: &Scene) -> f32 {
     scene.fluid.as_ref().map_or(0.0, |fluid| fluid.spacing)
 }
 
-fn body_setup(body: &scene::Body, spacing: f32) -> Result<BodySetup, WorldError> {
+pub(crate) fn body_setup(body: &scene::Body, spacing: f32) -> Result<BodySetup, WorldError> {
     let (shape, centre) = shapes::shape_of(body, spacing)?;
     let mut state = body.start();
     state.position += state.rotation * centre;
@@ -108,9 +119,15 @@ fn body_setup(body: &scene::Body, spacing: f32) -> Result<BodySetup, WorldError>
         motions: body.motions.clone(),
     })
 }
-fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, WorldError> {
+
+/// The engine of the library that moves the bodies of a scene: one that can have dynamic bodies if there are any, or may come.
+pub(crate) fn engine(
+    scene: &Scene,
+    setups: &[BodySetup],
+    may_be_dynamic: bool,
+) -> Result<Box<dyn RigidEngine>, WorldError> {
     #[cfg(feature = "rigid")]
-    if setups.iter().any(|setup| setup.kind == sorb_kernels::body::BodyKind::Dynamic) {
+    if may_be_dynamic || setups.iter().any(|setup| setup.kind == sorb_kernels::body::BodyKind::Dynamic) {
         let container = match scene.domain {
             scene::Domain::Box { minimum, maximum, periodic } => {
                 let open = Vec3::splat(f32::INFINITY);
@@ -121,8 +138,23 @@ fn engine(scene: &Scene, setups: &[BodySetup]) -> Result<Box<dyn RigidEngine>, W
         };
         return Ok(Box::new(crate::rigid::RapierEngine::new(scene.gravity, container, setups)?));
     }
-    let _ = scene;
+    let _ = (scene, may_be_dynamic);
     Ok(Box::new(crate::rigid::ScriptedEngine::new(setups)?))
+}
+
+/// A body before any step, as sponges are cut by it.
+pub(crate) fn cutter(body: &scene::Body, setup: &BodySetup) -> Body {
+    Body {
+        shape: setup.shape.clone(),
+        kind: setup.kind,
+        state: setup.state,
+        friction: body.friction,
+        touches_nodes: !body.grip,
+        no_slip: body.no_slip,
+        rounding: Rounding::default(),
+        inverse_mass: 0.0,
+        inverse_inertia: Mat3::ZERO,
+    }
 }
 
 fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, columns: &mut Columns) {

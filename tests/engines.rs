@@ -169,7 +169,7 @@ fn a_recording_plays_in_a_world_of_the_same_engine() {
     for frame in 0..10 {
         if frame == 3 {
             let (linear_velocity, angular_velocity) = (Vec3::new(0.1, 0.2, 0.0), Vec3::X);
-            let command = Command::Velocity { body: 0, linear_velocity, angular_velocity };
+            let command = Command::Velocity { body: 0.into(), linear_velocity, angular_velocity };
             recorder.push(&mut world, command).unwrap_or_else(|error| panic!("{error}"));
         }
         recorder.advance_frame(&mut world).unwrap_or_else(|error| panic!("{error}"));
@@ -196,13 +196,19 @@ fn what_an_engine_lacks_is_refused_before_anything_changes() {
     assert!(error.to_string().contains("the rigid-body engine supports no saves"), "{error}");
     assert!(world.try_digest().is_err() && Recorder::new(&world, None).is_err());
     let (linear_velocity, angular_velocity) = (Vec3::X, Vec3::ZERO);
-    let error = world.push(Command::Velocity { body: 0, linear_velocity, angular_velocity });
+    let error = world.push(Command::Velocity { body: 0.into(), linear_velocity, angular_velocity });
     let error = error.expect_err("no velocities").to_string();
     assert!(error.contains("`velocity.body` = 0: the rigid-body engine supports no velocities"), "{error}");
     assert!(world.push(Command::Gravity { gravity: Vec3::ZERO }).is_err());
     frames(&mut world, 2);
     // Forces go through the wrenches, which every engine has.
-    let force = Command::Force { body: 0, force: Vec3::X, torque: Vec3::ZERO };
+    let error = world.push(Command::RemoveBody { body: 0.into() });
+    let error = error.err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(
+        error.contains("`remove_body.body` = 0: the rigid-body engine supports no bodies that come"),
+        "{error}"
+    );
+    let force = Command::Force { body: 0.into(), force: Vec3::X, torque: Vec3::ZERO };
     world.push(force).unwrap_or_else(|error| panic!("{error}"));
     frames(&mut world, 1);
     assert!(world.bodies()[0].state.linear_velocity.x > 0.1);

@@ -253,7 +253,7 @@ fn a_ball_is_held_by_the_floor_and_by_nothing_while_it_falls() {
     // A host lifts half of it.
     let force = Vec3::Y * (0.5 * WEIGHT as f32);
     lying
-        .push(Command::Force { body: 0, force, torque: Vec3::ZERO })
+        .push(Command::Force { body: 0.into(), force, torque: Vec3::ZERO })
         .unwrap_or_else(|error| panic!("{error}"));
     (0..30).for_each(|_| common::frame(&mut lying));
     let found = loads(&lying);

@@ -10,22 +10,22 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    handle::SpongeHandle,
-    rigid::Target,
-    scene::{Drain, Emitter, GravityKey, Material, Motion, Problem},
+    handle::{BodyHandle, SpongeHandle},
+    rigid::{BodyKind, Target},
+    scene::{Body, Drain, Emitter, GravityKey, KindKey, Material, Motion, Problem},
 };
 
 pub use region::Region;
 
-/// A change of a running world. Bodies have the numbers of the scene, from 0. Other kinds may be added.
+/// A change of a running world. Bodies and sponges have handles; those of the scene have its numbers, from 0. Other kinds may be added.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Command {
     /// A force and a torque on a dynamic body, in all steps from the next one on. Another one replaces them, zeros end them.
     Force {
-        /// Number of the body.
-        body: u32,
+        /// The body.
+        body: BodyHandle,
         /// Force at its centre of mass. Range -1e6 to 1e6 N.
         force: Vec3,
         /// Torque. Range -1e6 to 1e6 N m.
@@ -33,8 +33,8 @@ pub enum Command {
     },
     /// An impulse on a dynamic body, at once.
     Impulse {
-        /// Number of the body.
-        body: u32,
+        /// The body.
+        body: BodyHandle,
         /// Impulse at its centre of mass. Range -1e6 to 1e6 N s.
         impulse: Vec3,
         /// Angular impulse. Range -1e6 to 1e6 N m s.
@@ -42,8 +42,8 @@ pub enum Command {
     },
     /// The velocity of a dynamic body, at once.
     Velocity {
-        /// Number of the body.
-        body: u32,
+        /// The body.
+        body: BodyHandle,
         /// Velocity of its centre of mass. Range -100 to 100 m/s.
         linear_velocity: Vec3,
         /// Angular velocity. Range -1000 to 1000 rad/s.
@@ -51,8 +51,8 @@ pub enum Command {
     },
     /// A pose that a kinematic body goes to, at constant velocity and rate, in place of its motions.
     Pose {
-        /// Number of the body.
-        body: u32,
+        /// The body.
+        body: BodyHandle,
         /// Position of its centre. Range -1000 to 1000 m.
         position: Vec3,
         /// Rotation from its frame to the world, of unit length.
@@ -79,8 +79,8 @@ pub enum Command {
     },
     /// Nodes of sponges that a body holds from now on, where they are in its frame, which may move.
     Grip {
-        /// Number of the body, of any kind.
-        body: u32,
+        /// The body, of any kind.
+        body: BodyHandle,
         /// The nodes.
         nodes: Nodes,
     },
@@ -138,6 +138,27 @@ pub enum Command {
         /// The material, of the ranges and rules of scenes; [`World::material`](crate::World::material) has the present one.
         material: Material,
     },
+    /// Another body. One that grips holds the nodes that are in it. A place in a sponge or in water is an error.
+    AddBody {
+        /// Its handle, which is that of [`World::next_body`](crate::World::next_body).
+        body: BodyHandle,
+        /// What it is, of the ranges and rules of scenes. Motions have absolute times.
+        #[serde(with = "crate::text")]
+        description: Box<Body>,
+    },
+    /// A body goes; what it held is let go.
+    RemoveBody {
+        /// The body.
+        body: BodyHandle,
+    },
+    /// Another kind of a body, where it is now. A dynamic one begins with its velocity, others have no motions: they rest until a `Pose`.
+    BodyKind {
+        /// The body.
+        body: BodyHandle,
+        /// Its kind.
+        #[serde(with = "KindKey")]
+        kind: BodyKind,
+    },
     /// Nodes that nothing holds any more, whatever held them.
     Release {
         /// The nodes; those that nothing holds are left out.
@@ -181,6 +202,18 @@ pub(crate) struct Commands {
 }
 
 impl Commands {
+    /// Forgets what was set for a body, of so many.
+    pub(crate) fn forget_body(&mut self, index: usize, count: usize) {
+        if !self.forces.is_empty() {
+            self.forces.resize(count, [Vec3::ZERO; 2]);
+            self.forces[index] = [Vec3::ZERO; 2];
+        }
+        if !self.targets.is_empty() {
+            self.targets.resize(count, None);
+            self.targets[index] = None;
+        }
+    }
+
     /// Takes over other commands in the same memory.
     pub(crate) fn copy(&mut self, from: &Self) {
         self.pending.clone_from(&from.pending);

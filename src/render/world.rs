@@ -26,6 +26,7 @@ pub(super) fn draw_positions(
         .bodies()
         .iter()
         .zip(&world.scene().bodies)
+        .filter(|(_, keys)| !keys.is_removed())
         .map(|(body, keys)| DrawnBody {
             shape: &body.shape,
             state: body.state,

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Files of recordings.
-const KIND: Kind = Kind { name: "recording", magic: *b"sorbrecd", version: 1 };
+const KIND: Kind = Kind { name: "recording", magic: *b"sorbrecd", version: 2 };
 
 /// What a host did to a world: its scene, its commands, a digest after every frame or step, and key frames.
 #[derive(Clone, Default)]

@@ -28,6 +28,7 @@ mod setup;
 mod target;
 #[cfg(test)]
 mod tests;
+mod told;
 
 // The interface shared with the kernels and the scene. The files of this folder import these types from here.
 pub use sorb_kernels::body::{Body, BodyKind, BodyState, Compound, Part, Shape, Wrench};
@@ -47,11 +48,16 @@ pub use mechanics::Mechanics;
 #[cfg(feature = "rigid")]
 pub(crate) use parts::mesh_body;
 #[cfg(feature = "rigid")]
-pub use rapier::RapierEngine;
+pub use rapier::{RapierEngine, shape_of};
+/// The version whose shapes [`shape_of`] takes.
+#[cfg(feature = "rigid")]
+pub use rapier3d;
 pub(crate) use script::{Moved, Script, moved};
 pub use scripted::ScriptedEngine;
 pub use setup::BodySetup;
 pub use target::Target;
+pub use told::HostBody;
+pub(crate) use told::ToldEngine;
 
 use glam::{Mat3, Vec3};
 use std::{any::Any, fmt};
@@ -106,6 +112,11 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
         None
     }
 
+    /// The engine itself, writable; the default is none.
+    fn as_any_mut(&mut self) -> Option<&mut dyn Any> {
+        None
+    }
+
     /// Takes over the state of another engine of the same bodies, in the same memory; false if it cannot, and nothing has
     /// changed. The default cannot.
     fn copy_from(&mut self, other: &dyn RigidEngine) -> bool {
@@ -149,6 +160,20 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
     fn set_target(&mut self, index: usize, target: Target) -> Result<(), RigidError> {
         let _ = (index, target);
         Err(RigidError::Unsupported { what: "poses from outside" })
+    }
+
+    /// Puts another body in place of one, or after the last where `index` is the number of bodies. Motions have absolute times.
+    ///
+    /// # Errors
+    /// A body that the engine could not have been built with; it is unchanged. The default: [`RigidError::Unsupported`].
+    fn set_body(&mut self, index: usize, body: &BodySetup) -> Result<(), RigidError> {
+        let _ = (index, body);
+        Err(RigidError::Unsupported { what: "bodies that come and go" })
+    }
+
+    /// Pairs of bodies that touched in the last step, and bodies that touched a wall of the container (none). The default knows of none.
+    fn contacts(&self) -> Vec<(usize, Option<usize>)> {
+        Vec::new()
     }
 
     /// Sets the acceleration of gravity \[m/s^2\].

@@ -91,9 +91,10 @@ impl RigidEngine for ScriptedEngine {
         }
         self.time = other.time;
         self.states.copy_from_slice(&other.states);
-        for (own, other) in self.scripts.iter_mut().zip(&other.scripts) {
-            own.target = other.target;
-        }
+        // Bodies may have come and gone since.
+        self.names.clone_from(&other.names);
+        self.kinds.clone_from(&other.kinds);
+        self.scripts.clone_from(&other.scripts);
         true
     }
 
@@ -116,6 +117,24 @@ impl RigidEngine for ScriptedEngine {
     fn set_target(&mut self, index: usize, target: Target) -> Result<(), RigidError> {
         self.scripts[index].target = Some(target);
         self.states[index] = self.scripts[index].state(self.time);
+        Ok(())
+    }
+
+    fn set_body(&mut self, index: usize, body: &BodySetup) -> Result<(), RigidError> {
+        if body.kind == BodyKind::Dynamic {
+            return Err(RigidError::DynamicUnsupported { body: body.name.clone() });
+        }
+        let script = Script::new(checked_state(body)?, &body.motions);
+        let state = script.state(self.time);
+        if index == self.kinds.len() {
+            self.names.push(body.name.clone());
+            self.kinds.push(body.kind);
+            self.scripts.push(script);
+            self.states.push(state);
+        } else {
+            (self.names[index], self.kinds[index]) = (body.name.clone(), body.kind);
+            (self.scripts[index], self.states[index]) = (script, state);
+        }
         Ok(())
     }
 

@@ -110,13 +110,32 @@ impl Body {
     }
 }
 
+/// Where removed bodies are \[m\].
+const NOWHERE: Vec3 = Vec3::splat(1000.0);
+
+/// What all names of removed bodies begin with.
+const REMOVED: &str = "removed-";
+
+impl Body {
+    /// What a removed body leaves behind: a body that nothing can meet.
+    pub(crate) fn removed(index: usize) -> Self {
+        Self::fixed(&format!("{REMOVED}{index}"), ShapeKind::Sphere { radius: 1e-4 }, NOWHERE)
+    }
+
+    /// Whether it is what [`Command::RemoveBody`](crate::Command::RemoveBody) has left behind.
+    #[must_use]
+    pub fn is_removed(&self) -> bool {
+        self.position == NOWHERE && self.kind == BodyKind::Fixed && self.name.starts_with(REMOVED)
+    }
+}
+
 // The type itself belongs to a crate without serde, so its keys in files are declared here.
 /// What moves a body.
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(remote = "BodyKind", rename_all = "snake_case")]
 #[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", schemars(rename = "BodyKind"))]
-enum KindKey {
+pub(crate) enum KindKey {
     /// Moved by forces.
     Dynamic,
     /// Never moves.

@@ -53,7 +53,7 @@ impl Scene {
         }
         let blocks = self.fluid.iter().flat_map(|fluid| &fluid.blocks).map(|b| (b.minimum, b.maximum));
         let sponges = self.sponges.iter().map(|sponge| (sponge.position, sponge.maximum()));
-        let bodies = self.bodies.iter().filter_map(|body| {
+        let bodies = self.bodies.iter().filter(|body| !body.is_removed()).filter_map(|body| {
             let reach = Vec3::splat(body.shape.reach()?);
             Some((body.position - reach, body.position + reach))
         });

@@ -61,6 +61,7 @@ mod text;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use bodies::KindKey;
 pub use bodies::{Body, Look, Rotation, ShapeKind};
 pub use camera::Camera;
 pub(crate) use container::container_problems;

@@ -107,13 +107,14 @@ impl World {
         let identity = self.identity()?;
         if identity.scene != save.header.scene && save.scene()? != *self.scene() {
             let scene = save.scene()?;
-            let first = origin_in(&save.parts())?.map_or_else(|| digest_of(&scene), |origin| origin.first);
+            let origin = origin_in(&save.parts())?;
+            let first = origin.as_ref().map_or_else(|| digest_of(&scene), |origin| origin.first);
             if first != self.first_scene() {
                 let (expected, found) = (self.scene().name.clone(), scene.name);
                 return Err(StateError::Scene { expected, found });
             }
             // Commands have made another one of the same scene.
-            let mut world = self.of_scene(&scene)?;
+            let mut world = self.of_scene(&scene, origin)?;
             world.check_parameters(save.header.parameters, &save.header.library)?;
             world.take_state(&save.parts())?;
             *self = world;
@@ -209,8 +210,9 @@ impl Save {
                 return Err(invalid(column.name(), reason));
             }
         }
-        let build = if is_dry { World::without_water } else { World::with_options };
-        let mut world = build(&scene, options).map_err(|error| StateError::World(Box::new(error)))?;
+        let origin = origin_in(&self.parts())?;
+        let world = World::for_state(&scene, options, origin, is_dry);
+        let mut world = world.map_err(|error| StateError::World(Box::new(error)))?;
         world.resume(self)?;
         Ok(world)
     }

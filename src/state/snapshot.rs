@@ -91,7 +91,7 @@ impl World {
                 water: self.water.clone(),
                 frame: self.frame.clone(),
                 scene: Arc::clone(&self.scene),
-                origin: self.origin,
+                origin: self.origin.clone(),
             }));
             return;
         };
@@ -106,7 +106,8 @@ impl World {
         kept.failed.clone_from(&self.failed);
         kept.water.clone_from(&self.water);
         kept.frame.clone_from(&self.frame);
-        (kept.scene, kept.origin) = (Arc::clone(&self.scene), self.origin);
+        kept.scene = Arc::clone(&self.scene);
+        kept.origin.clone_from(&self.origin);
     }
 
     /// Returns to the state of a snapshot of this world, or of another of the same scene: it continues with the same bits.
@@ -119,14 +120,14 @@ impl World {
         let Some(kept) = &snapshot.0 else { return Err(fail("it is empty")) };
         let is_changed = self.origin.is_some() || kept.origin.is_some();
         if is_changed && !Arc::ptr_eq(&self.scene, &kept.scene) && self.scene != kept.scene {
-            let first = |origin: Option<Origin>, scene: &Scene| {
-                origin.map_or_else(|| digest_of(scene), |origin| origin.first)
+            let first = |origin: &Option<Origin>, scene: &Scene| {
+                origin.as_ref().map_or_else(|| digest_of(scene), |origin| origin.first)
             };
-            if first(self.origin, &self.scene) != first(kept.origin, &kept.scene) {
+            if first(&self.origin, &self.scene) != first(&kept.origin, &kept.scene) {
                 return Err(fail("it is of another scene"));
             }
             // Commands have changed the scene since.
-            *self = self.of_scene(&kept.scene)?;
+            *self = self.of_scene(&kept.scene, kept.origin.clone())?;
         }
         let RowCounts { fluid, .. } = kept.columns.rows;
         // Water may have come and gone since.
@@ -146,7 +147,7 @@ impl World {
         self.failed.clone_from(&kept.failed);
         self.water.clone_from(&kept.water);
         self.frame.clone_from(&kept.frame);
-        self.origin = kept.origin;
+        self.origin.clone_from(&kept.origin);
         self.params.asleep.clone_from(&kept.asleep);
         if let Some(device) = &mut self.stores.device {
             device.leave_behind();

@@ -41,7 +41,7 @@ impl World {
         let water = water_in(&self.scene, parts, rows.fluid)?;
         let loads = loads_in(parts, rows.bodies)?;
         let origin = origin_in(parts)?;
-        if origin.is_some_and(|origin| origin.present != digest_of(&self.scene)) {
+        if origin.as_ref().is_some_and(|origin| origin.present != digest_of(&self.scene)) {
             return Err(invalid(SCENE, "it is of another scene"));
         }
         let rest: Rest =

@@ -14,7 +14,7 @@ use sorb_kernels::{
 };
 
 use super::{
-    Options, World, WorldError, column_pressure, fastest, fastest_body, forces, frame::Frame, sleep,
+    Options, Origin, World, WorldError, column_pressure, fastest, fastest_body, forces, frame::Frame, sleep,
 };
 use crate::{
     clock::{Clock, Dormant, Steps},
@@ -68,27 +68,33 @@ impl World {
     ) -> Result<Self, WorldError> {
         let level = options.simd.unwrap_or_else(SimdLevel::best);
         let threads = options.threads.unwrap_or_else(default_threads);
-        let begin = Begin { engine: Some(engine), is_dry: false };
+        let begin = Begin { engine: Some(engine), ..Begin::default() };
         Self::build(scene, Cpu::with_threads(level, threads)?, options, begin)
     }
 
-    /// Builds a scene without its particles, for a state that has others.
+    /// Builds what commands have made of a scene, for a state of it, which may have other particles.
     #[cfg(feature = "serde")]
-    pub(crate) fn without_water(scene: &Scene, options: &Options) -> Result<Self, WorldError> {
+    pub(crate) fn for_state(
+        scene: &Scene,
+        options: &Options,
+        origin: Option<Origin>,
+        is_dry: bool,
+    ) -> Result<Self, WorldError> {
         let level = options.simd.unwrap_or_else(SimdLevel::best);
         let threads = options.threads.unwrap_or_else(default_threads);
-        let begin = Begin { engine: None, is_dry: true };
+        let begin = Begin { is_dry, ..Begin::of(origin) };
         Self::build(scene, Cpu::with_threads(level, threads)?, options, begin)
     }
 
     /// Builds what commands have made of the scene of this world, or what they made it of, for a state of it.
-    pub(crate) fn of_scene(&self, scene: &Scene) -> Result<Self, StateError> {
+    pub(crate) fn of_scene(&self, scene: &Scene, origin: Option<Origin>) -> Result<Self, StateError> {
         let fail = |error| StateError::World(Box::new(error));
         let engine = self.has_own_engine.then(|| self.engine.clone());
         let cpu = self.spare_cpu.as_ref().unwrap_or(&self.cpu).clone();
         #[cfg_attr(not(feature = "gpu"), expect(unused_mut, reason = "placed on a GPU"))]
         let mut world =
-            Self::build(scene, cpu, &self.options, Begin { engine, is_dry: true }).map_err(fail)?;
+            Self::build(scene, cpu, &self.options, Begin { engine, is_dry: true, ..Begin::of(origin) })
+                .map_err(fail)?;
         #[cfg(feature = "gpu")]
         {
             world.placed_by.clone_from(&self.placed_by);
@@ -166,6 +172,14 @@ impl World {
             let held = Vec3::select(self.scene.periodic().into(), Vec3::ZERO, self.scene.gravity);
             self.clock.fluid_pressure = column_pressure(&fluid.position[..rows.fluid], held);
         }
+    }
+}
+
+impl Begin {
+    /// What a scene begins with that commands have changed.
+    fn of(origin: Option<Origin>) -> Self {
+        let Some(Origin { cut_by, has_dynamics, .. }) = origin else { return Self::default() };
+        Self { cut_by, has_dynamics, ..Self::default() }
     }
 }
 

@@ -9,6 +9,7 @@ use sorb_kernels::{
 use super::{StepError, World, fastest_body, sleep::Kind};
 use crate::{
     command::{Command, CommandError, Nodes},
+    handle::BodyHandle,
     rigid::{RigidError, Target},
     water::FlowKind,
 };
@@ -81,15 +82,19 @@ impl World {
     }
 
     fn carry_out_one(&mut self, command: &Command) -> Result<(), StepError> {
+        // Only a state that was made up has stale handles.
+        if body_of(command).is_some_and(|body| self.slots().kind(body).is_none()) {
+            return Ok(());
+        }
         match command {
             Command::Force { body, force, torque } => {
                 let count = self.bodies().len();
                 self.commands.forces.resize(count, [Vec3::ZERO; 2]);
-                self.commands.forces[*body as usize] = [*force, *torque];
-                self.wake_kinds(|kind| kind == Kind::Body(*body as usize));
+                self.commands.forces[body.index()] = [*force, *torque];
+                self.wake_kinds(|kind| kind == Kind::Body(body.index()));
             }
             Command::Impulse { body, impulse, angular_impulse } => {
-                let index = *body as usize;
+                let index = body.index();
                 self.wake_kinds(|kind| kind == Kind::Body(index));
                 let state = self.engine.state(index);
                 let linear = state.linear_velocity + *impulse * self.engine.inverse_mass(index);
@@ -97,12 +102,12 @@ impl World {
                 self.set_velocity(index, linear, angular).map_err(rigid)?;
             }
             Command::Velocity { body, linear_velocity, angular_velocity } => {
-                let index = *body as usize;
+                let index = body.index();
                 self.wake_kinds(|kind| kind == Kind::Body(index));
                 self.set_velocity(index, *linear_velocity, *angular_velocity).map_err(rigid)?;
             }
             Command::Pose { body, position, rotation, duration } => {
-                let index = *body as usize;
+                let index = body.index();
                 let target = self.target(index, (*position, *rotation), *duration);
                 self.engine.set_target(index, target).map_err(rigid)?;
                 let count = self.bodies().len();
@@ -118,11 +123,14 @@ impl World {
             }
             Command::GravityPath { path } => self.begin_gravity_path(path),
             Command::Container { motions } => self.begin_motions(motions),
-            Command::Grip { body, nodes } => self.grip(*body, nodes),
+            Command::Grip { body, nodes } => self.grip(body.index() as u32, nodes),
             Command::Release { nodes } => self.release(nodes),
             Command::PlaceSponge { sponge, position, rotation, velocity } => {
                 self.place_sponge(sponge.index(), (*position, *rotation), *velocity);
             }
+            Command::AddBody { body, description } => self.add_body(*body, description)?,
+            Command::RemoveBody { body } => self.remove_body(*body)?,
+            Command::BodyKind { body, kind } => self.change_kind(*body, *kind)?,
             Command::Material { sponge, material } => self.set_material(sponge.index(), material)?,
             Command::Pour { region, velocity } => self.pour(region, *velocity)?,
             Command::Remove { region } => self.remove_water(region)?,
@@ -164,7 +172,7 @@ impl World {
         Ok(())
     }
 
-    fn grip(&mut self, body: u32, nodes: &Nodes) {
+    pub(super) fn grip(&mut self, body: u32, nodes: &Nodes) {
         let columns = &mut self.stores.host;
         let state = columns.bodies.states.0[body as usize].state;
         let rows = rows_of(columns, nodes);
@@ -215,6 +223,20 @@ fn rigid(error: RigidError) -> StepError {
     StepError::Rigid(error.to_string())
 }
 
+/// The body that a command acts on, which must be there.
+fn body_of(command: &Command) -> Option<BodyHandle> {
+    match command {
+        Command::Force { body, .. }
+        | Command::Impulse { body, .. }
+        | Command::Velocity { body, .. }
+        | Command::Pose { body, .. }
+        | Command::Grip { body, .. }
+        | Command::RemoveBody { body }
+        | Command::BodyKind { body, .. } => Some(*body),
+        _ => None,
+    }
+}
+
 /// Whether a command changes what a device has a copy of.
 fn changes_columns(command: &Command) -> bool {
     changes_water(command)
@@ -225,6 +247,9 @@ fn changes_columns(command: &Command) -> bool {
                 | Command::Release { .. }
                 | Command::PlaceSponge { .. }
                 | Command::Material { .. }
+                | Command::AddBody { .. }
+                | Command::RemoveBody { .. }
+                | Command::BodyKind { .. }
         )
 }
 

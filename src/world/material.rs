@@ -16,16 +16,25 @@ use super::{StepError, World, sleep::Kind};
 use crate::{
     clock::{Dormant, Steps},
     handle::SpongeHandle,
-    rigid::LightBodies,
-    scene::{Material, Scene},
+    rigid::{BodyKind, LightBodies},
+    scene::{Body, Material, Scene},
     setup::params,
 };
 
-/// Digests of the scene that a world was built from, and of the one that commands have made of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// What commands have made of the scene that a world was built from, beside the present one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Origin {
+    /// Digest of the first scene.
     pub(crate) first: u64,
+    /// Digest of the present one.
     pub(crate) present: u64,
+    /// How often every number of a body was taken before; numbers beyond the end never were.
+    pub(crate) generations: Vec<u32>,
+    /// Whether the engine can have dynamic bodies although the first scene had none.
+    pub(crate) has_dynamics: bool,
+    /// The bodies that the sponges were cut by, if they are not those of the present scene.
+    #[serde(with = "crate::text")]
+    pub(crate) cut_by: Option<Vec<Body>>,
 }
 
 /// Digest of a scene.
@@ -44,13 +53,26 @@ impl World {
     /// Digest of the scene that the world was built from.
     #[cfg(feature = "serde")]
     pub(crate) fn first_scene(&self) -> u64 {
-        self.origin.map_or_else(|| digest_of(&self.scene), |origin| origin.first)
+        self.origin.as_ref().map_or_else(|| digest_of(&self.scene), |origin| origin.first)
+    }
+
+    /// What commands have made of the scene.
+    pub(super) fn origin_mut(&mut self) -> &mut Origin {
+        let scene = &self.scene;
+        self.origin.get_or_insert_with(|| {
+            let (first, is_dynamic) = (digest_of(scene), |body: &Body| body.kind == BodyKind::Dynamic);
+            Origin {
+                first,
+                present: first,
+                has_dynamics: scene.bodies.iter().any(is_dynamic),
+                ..Origin::default()
+            }
+        })
     }
 
     /// Puts what commands have made of the scene in its place.
     pub(super) fn change_scene(&mut self, scene: Scene) {
-        let first = self.origin.map_or_else(|| digest_of(&self.scene), |origin| origin.first);
-        self.origin = Some(Origin { first, present: digest_of(&scene) });
+        self.origin_mut().present = digest_of(&scene);
         self.scene = Arc::new(scene);
         #[cfg(feature = "serde")]
         self.identity.take();

@@ -1,5 +1,6 @@
 //! The world: the one object that a host builds, steps and reads.
 
+pub(crate) mod bodies;
 mod build;
 mod commands;
 mod error;
@@ -49,8 +50,8 @@ use crate::{
 pub use error::{StepError, WorldError};
 pub use forces::{BodyLoads, Load};
 pub(crate) use material::{Origin, digest_of};
-pub(crate) use moving::{Pushes, move_bodies, take_masses};
-use moving::{column_pressure, fastest, fastest_body, wrenches};
+pub(crate) use moving::{Pushes, fastest_body, move_bodies, take_masses};
+use moving::{column_pressure, fastest, wrenches};
 
 /// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]
@@ -196,7 +197,7 @@ impl World {
         Ok(report)
     }
 
-    fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {
+    pub(crate) fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }

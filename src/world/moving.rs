@@ -18,7 +18,7 @@ pub(super) fn fastest(velocities: &[[f32; 4]]) -> f32 {
 }
 
 /// Largest speed of the surface of a body \[m/s\].
-pub(super) fn fastest_body(bodies: &[Body]) -> f32 {
+pub(crate) fn fastest_body(bodies: &[Body]) -> f32 {
     bodies.iter().map(Body::fastest).fold(0.0, f32::max)
 }
 

@@ -3,11 +3,14 @@
 use glam::{Quat, Vec3};
 use sorb_kernels::columns::lane;
 
-use super::{World, sleep::Kind};
+use super::{
+    World,
+    sleep::{Kind, box_of},
+};
 use crate::{
     command::Command,
     scene::Domain,
-    setup::TOUCH,
+    setup::{TOUCH, body_setup, cutter},
     sponge::{Located, TetGrid},
     water::APART,
 };
@@ -31,9 +34,9 @@ fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)))
 }
 
-/// Whether boxes meet that are some distance \[m\] apart.
-fn meet(a: (Vec3, Vec3), b: (Vec3, Vec3), apart: f32) -> bool {
-    (a.0 - apart).cmple(b.1).all() && (b.0 - apart).cmple(a.1).all()
+/// Whether boxes meet.
+fn meet(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> bool {
+    a.0.cmple(b.1).all() && b.0.cmple(a.1).all()
 }
 
 impl World {
@@ -107,8 +110,7 @@ impl World {
                 self.scene.sponges[other].name
             ));
         }
-        let claimed = self.commands.pending.iter().filter_map(|command| self.claim(command));
-        if claimed.into_iter().any(|claim| meet(own, claim, edge)) {
+        if self.is_claimed((own.0 - edge, own.1 + edge)) {
             return Some("a command that waits brings something there; take a step first".to_owned());
         }
         let wet = self.water_in_the_way(placed);
@@ -154,6 +156,11 @@ impl World {
         placed.water.iter().filter(|(_, point)| near.is_near(*point)).count()
     }
 
+    /// Whether a command that waits brings something to a box.
+    pub(crate) fn is_claimed(&self, own: (Vec3, Vec3)) -> bool {
+        self.commands.pending.iter().filter_map(|command| self.claim(command)).any(|claim| meet(own, claim))
+    }
+
     /// The box in which a command brings something that is there at once \[m\].
     fn claim(&self, command: &Command) -> Option<(Vec3, Vec3)> {
         match command {
@@ -162,6 +169,11 @@ impl World {
                 Some(bounds(placed.places.iter().copied()))
             }
             Command::Pour { region, .. } => Some(region.bounds()),
+            Command::AddBody { description, .. } => {
+                let spacing = self.params.fluid.spacing;
+                let setup = body_setup(description, spacing).ok()?;
+                Some(box_of(&cutter(description, &setup)))
+            }
             _ => None,
         }
     }

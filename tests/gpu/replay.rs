@@ -30,7 +30,7 @@ fn saved(world: &World) -> Vec<u8> {
 /// What the host does before a frame.
 fn push(scene: &Scene, world: &mut World, frame: u32) {
     let mut commands = Vec::new();
-    for (body, own) in (0..).zip(&scene.bodies) {
+    for (body, own) in (0_u32..).map(sorb::BodyHandle::from).zip(&scene.bodies) {
         if own.kind == BodyKind::Dynamic && frame == 1 {
             let (linear_velocity, angular_velocity) = (Vec3::new(0.1, -0.2, 0.0), Vec3::Z);
             commands.push(Command::Velocity { body, linear_velocity, angular_velocity });
@@ -43,7 +43,7 @@ fn push(scene: &Scene, world: &mut World, frame: u32) {
     let nodes = Nodes::Sphere { centre: scene.sponges[0].position, radius: 0.03 };
     match frame {
         2 => commands.push(Command::Gravity { gravity: Vec3::new(0.3, -9.0, 0.0) }),
-        3 => commands.push(Command::Grip { body: 0, nodes }),
+        3 => commands.push(Command::Grip { body: 0.into(), nodes }),
         5 => commands.push(Command::Release { nodes }),
         _ => {}
     }

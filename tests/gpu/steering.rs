@@ -1,10 +1,10 @@
-//! Sponges that are put elsewhere and materials that change on a device: the same bits twice and after a restore, and within the bounds of
-//! parity those of the CPU.
+//! Sponges that are put elsewhere, materials and bodies that change on a device: the same bits twice and after a restore, and within the
+//! bounds of parity those of the CPU.
 
 use sorb::{
     Command, Offload, Options, World,
     glam::{Quat, UVec3, Vec3},
-    scene::{Fluid, FluidBlock, Material, Scene, Sponge},
+    scene::{Body, Fluid, FluidBlock, Material, Scene, ShapeKind, Sponge},
 };
 
 use super::{common, difference, gpu, world};
@@ -20,6 +20,18 @@ fn scene() -> Scene {
     Scene::new("pool").in_box(LOW, HIGH).with_fluid(fluid).with_sponge(wet).with_sponge(dry)
 }
 
+/// A ball comes and goes.
+fn bodies(world: &mut World, frame: u32) {
+    let shape = ShapeKind::Sphere { radius: 0.012 };
+    let description = Box::new(Body::dynamic("ball", shape, Vec3::new(0.03, 0.06, -0.03), 1500.0));
+    let command = match frame {
+        0 => Command::AddBody { body: world.next_body(), description },
+        5 => Command::RemoveBody { body: 0.into() },
+        _ => return,
+    };
+    world.push(command).unwrap_or_else(|error| panic!("{error}"));
+}
+
 fn advance(world: &mut World, frame: u32) {
     let (position, rotation) = (Vec3::new(-0.02, 0.11, -0.02), Quat::from_rotation_x(0.2));
     let soft = Material { young_modulus: 5000.0, softening: 0.5, permeability: 4e-9, ..Material::default() };
@@ -27,19 +39,22 @@ fn advance(world: &mut World, frame: u32) {
         1 => Command::PlaceSponge { sponge: 0.into(), position, rotation, velocity: Vec3::X * 0.3 },
         2 => Command::Material { sponge: 1.into(), material: soft },
         4 => Command::Material { sponge: 1.into(), material: Material::default() },
-        _ => return common::frame(world),
+        _ => {
+            bodies(world, frame);
+            return common::frame(world);
+        }
     };
     world.push(command).unwrap_or_else(|error| panic!("{error}"));
     common::frame(world);
 }
 
 #[test]
-fn places_and_materials_are_as_on_the_cpu() {
+fn places_materials_and_bodies_are_as_on_the_cpu() {
     let scene = scene();
     let (mut on_cpu, mut on_gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
     let (mut twice, mut restored) = (on_gpu.clone(), on_gpu.clone());
     let options = Options { offload: Offload::Gpu, gpu: Some(gpu()), ..Options::default() };
-    for frame in 0..6 {
+    for frame in 0..7 {
         [&mut on_cpu, &mut on_gpu, &mut twice].into_iter().for_each(|world| advance(world, frame));
         let mut bytes = Vec::new();
         restored.save(&mut bytes).unwrap_or_else(|error| panic!("{error}"));
@@ -53,7 +68,7 @@ fn places_and_materials_are_as_on_the_cpu() {
     assert!(apart.0 < 0.05, "{apart:?}");
     // The control: without commands.
     let mut without = world(&scene, Offload::Gpu);
-    (0..6).for_each(|_| common::frame(&mut without));
+    (0..7).for_each(|_| common::frame(&mut without));
     let apart = difference(&on_gpu.measures(), &without.measures());
     assert!(apart.0 > 0.2, "{apart:?}");
 }

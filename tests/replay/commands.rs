@@ -30,27 +30,30 @@ fn mass() -> f32 {
 fn a_body_is_pushed_as_mechanics_says() {
     let mut world = space();
     let (force, torque) = (Vec3::X * mass(), Vec3::ZERO);
-    push(&mut world, Command::Force { body: 0, force, torque });
+    push(&mut world, Command::Force { body: 0.into(), force, torque });
     while world.clock().time < 1.0 - 1e-6 {
         common::frame(&mut world);
     }
     let speed = world.bodies()[0].state.linear_velocity.x;
     assert!((speed - 1.0).abs() < 1e-3, "1 m/s^2 for a second gives {speed} m/s");
     // Until zeros end it.
-    push(&mut world, Command::Force { body: 0, force: Vec3::ZERO, torque });
-    push(&mut world, Command::Impulse { body: 0, impulse: Vec3::Y * mass(), angular_impulse: Vec3::ZERO });
+    push(&mut world, Command::Force { body: 0.into(), force: Vec3::ZERO, torque });
+    push(
+        &mut world,
+        Command::Impulse { body: 0.into(), impulse: Vec3::Y * mass(), angular_impulse: Vec3::ZERO },
+    );
     common::frame(&mut world);
     let velocity = world.bodies()[0].state.linear_velocity;
     assert!(velocity.distance(Vec3::new(speed, 1.0, 0.0)) < 1e-4, "{velocity}");
     let (linear_velocity, angular_velocity) = (Vec3::Z, Vec3::X);
-    push(&mut world, Command::Velocity { body: 0, linear_velocity, angular_velocity });
+    push(&mut world, Command::Velocity { body: 0.into(), linear_velocity, angular_velocity });
     common::frame(&mut world);
     let state = world.bodies()[0].state;
     assert_eq!(state.linear_velocity, Vec3::Z);
     assert!(state.angular_velocity.distance(Vec3::X) < 1e-5, "{}", state.angular_velocity);
     // An impulse about the centre of a ball of inertia 2/5 m r^2.
     let angular_impulse = Vec3::Y * 0.4 * mass() * 0.01;
-    push(&mut world, Command::Impulse { body: 0, impulse: Vec3::ZERO, angular_impulse });
+    push(&mut world, Command::Impulse { body: 0.into(), impulse: Vec3::ZERO, angular_impulse });
     common::frame(&mut world);
     let spin = world.bodies()[0].state.angular_velocity;
     assert!(spin.distance(Vec3::new(1.0, 1.0, 0.0)) < 1e-3, "{spin}");
@@ -66,7 +69,7 @@ fn a_kinematic_body_goes_to_a_pose_and_stays() {
     let mut world = space();
     common::frame(&mut world);
     let (position, rotation) = (Vec3::new(1.0, 0.5, 0.0), Quat::from_rotation_y(0.5));
-    push(&mut world, Command::Pose { body: 1, position, rotation, duration: 0.5 });
+    push(&mut world, Command::Pose { body: 1.into(), position, rotation, duration: 0.5 });
     for _ in 0..15 {
         common::frame(&mut world);
     }
@@ -99,7 +102,7 @@ fn lowest(world: &World) -> f32 {
 fn a_hand_takes_nodes_moves_them_and_lets_go() {
     let (mut world, mut falling) = (hanging(), hanging());
     let nodes = Nodes::Sphere { centre: Vec3::new(0.02, 0.04, 0.02), radius: 0.03 };
-    push(&mut world, Command::Grip { body: 0, nodes: nodes.clone() });
+    push(&mut world, Command::Grip { body: 0.into(), nodes: nodes.clone() });
     for _ in 0..30 {
         common::frame(&mut world);
         common::frame(&mut falling);
@@ -108,7 +111,7 @@ fn a_hand_takes_nodes_moves_them_and_lets_go() {
     assert!(held > 5, "{held} nodes are held");
     assert!(lowest(&world) > -0.05 && lowest(&falling) < -1.0, "{} {}", lowest(&world), lowest(&falling));
     let position = Vec3::new(0.3, 0.5, 0.3);
-    push(&mut world, Command::Pose { body: 0, position, rotation: Quat::IDENTITY, duration: 0.25 });
+    push(&mut world, Command::Pose { body: 0.into(), position, rotation: Quat::IDENTITY, duration: 0.25 });
     let mut world = restored(&saved(&world), &sorb::Options::default());
     for _ in 0..30 {
         common::frame(&mut world);
@@ -131,15 +134,15 @@ fn what_cannot_be_is_refused_with_key_value_and_range() {
     let rotation = Quat::IDENTITY;
     let bad = [
         (
-            Command::Force { body: 2, force: zero, torque: zero },
+            Command::Force { body: 2.into(), force: zero, torque: zero },
             "command: `force.body` = 2: no such body; there are 2, numbered from 0",
         ),
         (
-            Command::Impulse { body: 1, impulse: zero, angular_impulse: zero },
+            Command::Impulse { body: 1.into(), impulse: zero, angular_impulse: zero },
             "command: `impulse.body` = 1: the body is kinematic, and must be dynamic",
         ),
         (
-            Command::Velocity { body: 0, linear_velocity: Vec3::X * 101.0, angular_velocity: zero },
+            Command::Velocity { body: 0.into(), linear_velocity: Vec3::X * 101.0, angular_velocity: zero },
             "command: `velocity.linear_velocity` = 101 is out of range -100 to 100 m/s",
         ),
         (
@@ -147,14 +150,14 @@ fn what_cannot_be_is_refused_with_key_value_and_range() {
             "command: `gravity.gravity` = NaN is out of range -100 to 100 m/s^2",
         ),
         (
-            Command::Pose { body: 1, position: zero, rotation: rotation * 2.0, duration: 1.0 },
+            Command::Pose { body: 1.into(), position: zero, rotation: rotation * 2.0, duration: 1.0 },
             "must be a quaternion of unit length",
         ),
         (
-            Command::Pose { body: 1, position: zero, rotation, duration: 0.0 },
+            Command::Pose { body: 1.into(), position: zero, rotation, duration: 0.0 },
             "`pose.duration` = 0 is out of range",
         ),
-        (Command::Grip { body: 0, nodes: Nodes::Rows(vec![0]) }, "no such node; there are 0"),
+        (Command::Grip { body: 0.into(), nodes: Nodes::Rows(vec![0]) }, "no such node; there are 0"),
     ];
     for (command, expected) in bad {
         let error = world.push(command.clone()).map_err(|error| error.to_string());

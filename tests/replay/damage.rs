@@ -70,7 +70,7 @@ fn one_bit_of_one_column_is_found_and_named() {
     let mut other = world.clone();
     other
         .push(sorb::Command::Velocity {
-            body: 0,
+            body: 0.into(),
             linear_velocity: world.bodies()[0].state.linear_velocity.with_y(-0.123),
             angular_velocity: world.bodies()[0].state.angular_velocity,
         })

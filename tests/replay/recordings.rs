@@ -1,7 +1,7 @@
 //! Recordings give the same bits, and say what differs.
 
 use sorb::{
-    Command, Nodes, Options, Player, Recorder, Recording, ReplayError, SimdLevel, World,
+    BodyHandle, Command, Nodes, Options, Player, Recorder, Recording, ReplayError, SimdLevel, World,
     glam::{Quat, Vec3},
     internal::{columns::Column, poison},
     rigid::BodyKind,
@@ -13,7 +13,7 @@ use super::{busy, common, options};
 /// Commands of every kind that the scene has something for, at some frames.
 pub(crate) fn commands(scene: &Scene, frame: u32) -> Vec<Command> {
     let mut all = Vec::new();
-    let bodies = || scene.bodies.iter().zip(0_u32..);
+    let bodies = || scene.bodies.iter().zip((0_u32..).map(BodyHandle::from));
     if let Some((_, body)) = bodies().find(|(body, _)| body.kind == BodyKind::Dynamic) {
         let (up, turn) = (Vec3::Y * 2.0, Vec3::Z * 1e-3);
         match frame {
@@ -35,7 +35,7 @@ pub(crate) fn commands(scene: &Scene, frame: u32) -> Vec<Command> {
     if let (Some(sponge), false) = (scene.sponges.first(), scene.bodies.is_empty()) {
         let nodes = Nodes::Sphere { centre: sponge.position, radius: 0.03 };
         match frame {
-            3 => all.push(Command::Grip { body: 0, nodes }),
+            3 => all.push(Command::Grip { body: 0.into(), nodes }),
             5 => all.push(Command::Release { nodes: Nodes::Rows(vec![0, 1, 2]) }),
             6 => all.push(Command::Release { nodes }),
             _ => {}

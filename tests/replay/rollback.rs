@@ -84,7 +84,7 @@ fn play(frames: u32, fault: f32) -> Result<World, GgrsError> {
                     let wrong = if played == 0 { 0.0 } else { fault };
                     for ((push, _), body) in inputs.into_iter().zip(0..) {
                         let force = Vec3::new(0.15 * f32::from(push) + wrong, 0.0, 0.0);
-                        let command = Command::Force { body, force, torque: Vec3::ZERO };
+                        let command = Command::Force { body: body.into(), force, torque: Vec3::ZERO };
                         world.push(command).unwrap_or_else(|error| panic!("{error}"));
                     }
                     common::frame(&mut world);
@@ -108,7 +108,7 @@ fn two_players_push_a_sponge_through_600_frames_of_roll_backs() {
     for frame in 0..world.clock().frames as u32 {
         for (player, body) in (0..2).zip(0..) {
             let force = Vec3::new(0.15 * f32::from(input(player, frame)), 0.0, 0.0);
-            let command = Command::Force { body, force, torque: Vec3::ZERO };
+            let command = Command::Force { body: body.into(), force, torque: Vec3::ZERO };
             straight.push(command).unwrap_or_else(|error| panic!("{error}"));
         }
         common::frame(&mut straight);

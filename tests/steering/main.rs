@@ -1,10 +1,12 @@
 //! What a host steers while a world runs: sponges that are put elsewhere, materials, and the same bits after interruptions.
 
+mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
 mod materials;
 mod matrix;
 mod places;
+mod random;
 
 use sorb::{
     Command, World,

@@ -1,18 +1,25 @@
 //! One digest after saves, roll backs and recordings, on any threads and at any level.
 
 use sorb::{
-    Command, Options, Player, Recorder, Recording, SimdLevel, Snapshot, World,
+    BodyHandle, Command, Options, Player, Recorder, Recording, SimdLevel, Snapshot, World,
     glam::{Quat, Vec3},
-    scene::{Material, Scene},
+    rigid::BodyKind,
+    scene::{Body, Material, Scene},
 };
 
-use super::{audit, common, pool, push};
+use super::{audit, bodies, common, pool, push};
 
 const FRAMES: u32 = 12;
 
 fn world_on(scene: &Scene, threads: usize, simd: SimdLevel) -> World {
     let options = Options { threads: Some(threads), simd: Some(simd), ..Options::default() };
     World::with_options(scene, &options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A handle as a host keeps it.
+fn handle(index: u32, generation: u32) -> BodyHandle {
+    let text = format!("{{\"index\":{index},\"generation\":{generation}}}");
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// What a host does before a frame.
@@ -24,7 +31,20 @@ fn commands(frame: u32) -> Vec<Command> {
         velocity: Vec3::new(0.2, -0.3, 0.0),
     };
     let soft = Material { young_modulus: 5000.0, permeability: 4e-9, ..Material::default() };
+    let ball = |generation: u32| {
+        let description =
+            Body { name: format!("new{generation}"), ..bodies::ball("", Vec3::new(0.04, 0.13, -0.04)) };
+        (handle(1, generation), Box::new(description))
+    };
     match frame {
+        0 => vec![Command::AddBody { body: ball(0).0, description: ball(0).1 }],
+        2 => vec![Command::BodyKind { body: 0.into(), kind: BodyKind::Kinematic }],
+        4 => vec![Command::RemoveBody { body: ball(0).0 }],
+        6 => vec![
+            Command::AddBody { body: ball(1).0, description: ball(1).1 },
+            Command::BodyKind { body: 0.into(), kind: BodyKind::Dynamic },
+        ],
+        8 => vec![Command::RemoveBody { body: 0.into() }],
         1 => vec![place(0, Vec3::new(-0.02, 0.12, -0.02))],
         3 => vec![Command::Material { sponge: 1.into(), material: soft }],
         5 => vec![Command::Material { sponge: 0.into(), material: Material { softening: 0.5, ..soft } }],

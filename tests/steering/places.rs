@@ -31,7 +31,7 @@ fn a_sponge_goes_to_a_pose_in_its_shape_at_rest() {
     let mut world = common::world(&scene.with_body(hand));
     let rest = nodes(&world, 0);
     let grip = Nodes::Sphere { centre: Vec3::splat(0.04), radius: 0.02 };
-    push(&mut world, Command::Grip { body: 0, nodes: grip });
+    push(&mut world, Command::Grip { body: 0.into(), nodes: grip });
     common::frame(&mut world);
     let (position, rotation, velocity) = (Vec3::new(0.3, -0.2, 0.1), Quat::from_rotation_z(0.7), Vec3::X);
     push(&mut world, Command::PlaceSponge { sponge: 0.into(), position, rotation, velocity });

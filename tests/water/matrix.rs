@@ -42,7 +42,7 @@ fn command(random: &mut Random, next: u32) -> Command {
     match random.next() % 13 {
         0..=3 => Command::Pour { region, velocity },
         4 | 5 => Command::Remove { region },
-        6 => Command::Impulse { body: 0, impulse: velocity * 1e-3, angular_impulse: Vec3::ZERO },
+        6 => Command::Impulse { body: 0.into(), impulse: velocity * 1e-3, angular_impulse: Vec3::ZERO },
         7 => Command::Gravity { gravity: Vec3::new(random.unit() - 0.5, -9.0, random.unit()) },
         8 => {
             let emitter = Emitter {
@@ -62,7 +62,7 @@ fn command(random: &mut Random, next: u32) -> Command {
             }
         }
         10 => Command::EndFlow { number: number.saturating_sub(1) },
-        11 => Command::Grip { body: 0, nodes: Nodes::Sphere { centre: point, radius } },
+        11 => Command::Grip { body: 0.into(), nodes: Nodes::Sphere { centre: point, radius } },
         _ => Command::Release { nodes: Nodes::Sphere { centre: point, radius: 1.0 } },
     }
 }

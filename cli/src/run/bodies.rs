@@ -44,7 +44,8 @@ impl Bodies {
         let forces = world.body_fluid_forces();
         let (time, scene) = (world.clock().time, world.scene());
         let mut rows = String::new();
-        for (index, (body, own)) in world.bodies().iter().zip(&scene.bodies).enumerate() {
+        let bodies = world.bodies().iter().zip(&scene.bodies).enumerate();
+        for (index, (body, own)) in bodies.filter(|(_, (_, own))| !own.is_removed()) {
             let (state, name) = (&body.state, quoted(&own.name));
             let _ = write!(rows, "{frame},{time:?},{name}");
             let (place, turn, speed) = (state.position, state.rotation, state.linear_velocity);

@@ -1,5 +1,6 @@
 //! Refuses commands with values out of range, with the texts of scene keys.
 
+mod bodies;
 mod frame;
 mod sponges;
 
@@ -98,6 +99,12 @@ impl Check<'_> {
                 self.nodes("grip.nodes", nodes);
             }
             Command::Release { nodes } => self.nodes("release.nodes", nodes),
+            Command::AddBody { body, description } => self.add_body(*body, description),
+            Command::RemoveBody { body } => self.body("remove_body.body", *body, None),
+            Command::BodyKind { body, kind } => {
+                self.body("body_kind.body", *body, None);
+                self.body_kind(*body, *kind);
+            }
             Command::PlaceSponge { sponge, position, rotation, velocity } => {
                 self.as_key("place_sponge.position", *position, "sponges[].position");
                 self.rotation("place_sponge.rotation", *rotation);
@@ -128,59 +135,6 @@ impl Check<'_> {
                 self.remove(region);
             }
         }
-    }
-
-    /// What an engine of a host refuses: tried on a copy, because a step must not fail by it later.
-    fn engine(&mut self, command: &Command) {
-        let mut engine = self.world.engine.boxed_clone();
-        let (key, value, tried) = match command {
-            Command::Impulse { body, .. } => {
-                ("impulse.body", *body, engine.set_velocity(*body as usize, Vec3::ZERO, Vec3::ZERO))
-            }
-            Command::Velocity { body, linear_velocity, angular_velocity } => {
-                let tried = engine.set_velocity(*body as usize, *linear_velocity, *angular_velocity);
-                ("velocity.body", *body, tried)
-            }
-            Command::Pose { body, position, rotation, duration } => {
-                let target = self.world.target(*body as usize, (*position, *rotation), *duration);
-                ("pose.body", *body, engine.set_target(*body as usize, target))
-            }
-            Command::GravityPath { path } => {
-                if let Err(error) = engine.set_gravity(self.world.params.gravity) {
-                    self.rule("gravity_path.path", format!("({} keys)", path.len()), error.to_string());
-                }
-                return;
-            }
-            Command::Container { motions } => {
-                if let Err(error) = engine.set_gravity(self.world.params.gravity) {
-                    self.rule("container.motions", format!("({} motions)", motions.len()), error.to_string());
-                }
-                return;
-            }
-            Command::Gravity { gravity } => {
-                if let Err(error) = engine.set_gravity(*gravity) {
-                    self.rule("gravity.gravity", gravity.to_string(), error.to_string());
-                }
-                return;
-            }
-            _ => return,
-        };
-        if let Err(error) = tried {
-            self.rule(key, value.to_string(), error.to_string());
-        }
-    }
-
-    /// A body that exists, of a kind.
-    fn body(&mut self, key: &str, body: u32, kind: Option<BodyKind>) {
-        let bodies = self.world.bodies();
-        let rule = match (bodies.get(body as usize), kind) {
-            (None, _) => format!("no such body; there are {}, numbered from 0", bodies.len()),
-            (Some(found), Some(kind)) if found.kind != kind => {
-                format!("the body is {:?}, and must be {kind:?}", found.kind).to_lowercase()
-            }
-            _ => return,
-        };
-        self.rule(key, body.to_string(), rule);
     }
 
     fn nodes(&mut self, key: &str, nodes: &Nodes) {

@@ -1,6 +1,8 @@
 mod build;
 mod copies;
+mod replace;
 mod saved;
+mod shapes;
 
 use super::script::Script;
 use super::setup::{check_step, checked_state};
@@ -8,11 +10,12 @@ use super::{BodyKind, BodySetup, BodyState, RigidEngine, RigidError, Target, Wre
 use build::{check_container, collision_shape, parameters, rapier_mass};
 use glam::{Mat3, Vec3};
 use rapier3d::prelude::{
-    BroadPhaseBvh, CCDSolver, CoefficientCombineRule, ColliderBuilder, ColliderSet, ImpulseJointSet,
-    IntegrationParameters, IslandManager, MultibodyJointSet, NarrowPhase, PhysicsPipeline, Pose, Real,
-    RigidBodyBuilder, RigidBodyHandle, RigidBodySet, RigidBodyType, SharedShape, SoftBodySet,
+    BroadPhaseBvh, CCDSolver, ColliderBuilder, ColliderSet, ImpulseJointSet, IntegrationParameters,
+    IslandManager, MultibodyJointSet, NarrowPhase, PhysicsPipeline, Pose, Real, RigidBodyBuilder,
+    RigidBodyHandle, RigidBodySet, RigidBodyType, SoftBodySet,
 };
-use std::{any::Any, fmt};
+pub use shapes::shape_of;
+use std::any::Any;
 
 /// Largest number of rapier3d steps in one step.
 const MAXIMUM_PASSES: f32 = 32.0;
@@ -33,6 +36,9 @@ const LOOK_AHEAD: Real = 1e3;
 /// metre.
 pub struct RapierEngine {
     gravity: Vec3,
+    container: Option<(Vec3, Vec3)>,
+    /// The bodies as they were built.
+    setups: Vec<BodySetup>,
     names: Vec<String>,
     kinds: Vec<BodyKind>,
     handles: Vec<RigidBodyHandle>,
@@ -69,8 +75,22 @@ impl RapierEngine {
         if !gravity.is_finite() {
             return Err(RigidError::Gravity { value: gravity.to_string() });
         }
+        if let Some(container) = container {
+            check_container(container, bodies)?;
+        }
+        Self::build(gravity, container, bodies)
+    }
+
+    /// The same of a container that holds the bodies.
+    fn build(
+        gravity: Vec3,
+        container: Option<(Vec3, Vec3)>,
+        bodies: &[BodySetup],
+    ) -> Result<Self, RigidError> {
         let mut engine = Self {
             gravity,
+            container,
+            setups: bodies.to_vec(),
             names: bodies.iter().map(|body| body.name.clone()).collect(),
             kinds: bodies.iter().map(|body| body.kind).collect(),
             handles: Vec::with_capacity(bodies.len()),
@@ -88,7 +108,6 @@ impl RapierEngine {
             pipeline: PhysicsPipeline::new(),
         };
         if let Some(container) = container {
-            check_container(container, bodies)?;
             engine.add_walls(container);
         }
         for body in bodies {
@@ -101,25 +120,6 @@ impl RapierEngine {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
-    }
-
-    fn add_walls(&mut self, (low, high): (Vec3, Vec3)) {
-        for (index, axis) in Vec3::AXES.into_iter().enumerate() {
-            for (bound, normal) in [(low[index], axis), (high[index], -axis)] {
-                // An open side.
-                if !bound.is_finite() {
-                    continue;
-                }
-                // The product with a coefficient of one is the body's own coefficient.
-                let wall = ColliderBuilder::new(SharedShape::halfspace(normal))
-                    .translation(axis * bound)
-                    .friction(1.0)
-                    .restitution(1.0)
-                    .friction_combine_rule(CoefficientCombineRule::Multiply)
-                    .restitution_combine_rule(CoefficientCombineRule::Multiply);
-                self.colliders.insert(wall);
-            }
-        }
     }
 
     fn add(&mut self, body: &BodySetup) -> Result<(), RigidError> {
@@ -362,6 +362,14 @@ impl RigidEngine for RapierEngine {
         Ok(())
     }
 
+    fn contacts(&self) -> Vec<(usize, Option<usize>)> {
+        self.touching()
+    }
+
+    fn set_body(&mut self, index: usize, body: &BodySetup) -> Result<(), RigidError> {
+        self.replace(index, body)
+    }
+
     fn set_gravity(&mut self, gravity: Vec3) -> Result<(), RigidError> {
         self.gravity = gravity;
         Ok(())
@@ -369,18 +377,6 @@ impl RigidEngine for RapierEngine {
 
     fn boxed_clone(&self) -> Box<dyn RigidEngine> {
         Box::new(self.clone())
-    }
-}
-
-impl fmt::Debug for RapierEngine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RapierEngine")
-            .field("gravity", &self.gravity)
-            .field("time", &self.time)
-            .field("names", &self.names)
-            .field("kinds", &self.kinds)
-            .field("states", &self.states)
-            .finish_non_exhaustive()
     }
 }
 

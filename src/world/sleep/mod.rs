@@ -100,6 +100,11 @@ impl Sleep {
         dormant
     }
 
+    /// The parts that sleep.
+    pub(crate) fn asleep(&self) -> impl Iterator<Item = Kind> {
+        self.parts.iter().filter(|part| part.is_asleep).map(|part| part.kind)
+    }
+
     /// Whether a part sleeps; false for an unknown part.
     pub(crate) fn has(&self, kind: Kind) -> bool {
         self.parts.iter().any(|part| part.kind == kind && part.is_asleep)
@@ -182,6 +187,12 @@ impl Sleep {
         let rest = next.fold(left, f64::min);
         (self.is_asleep && rest > 0.0).then_some(rest)
     }
+}
+
+/// Lowest and highest corner of a box around a body \[m\].
+pub(crate) fn box_of(body: &sorb_kernels::body::Body) -> (Vec3, Vec3) {
+    let [low, high] = Bounds::of_body(body).corners();
+    (low, high)
 }
 
 /// Begin and end of a motion \[s\].
