@@ -55,6 +55,18 @@ pub use water::Ledger;
 pub use world::{BodyLoads, FrameReport, Load, Options, StepError, StepReport, World, WorldError};
 
 pub use glam;
+/// Types through which vectors and rotations of other crates become those of [`glam`], and back.
+///
+/// ```
+/// use sorb::{glam::{Quat, Vec3}, mint};
+///
+/// let other = mint::Vector3 { x: 1.0, y: 2.0, z: 3.0 };
+/// assert_eq!(Vec3::from(other), Vec3::new(1.0, 2.0, 3.0));
+/// let back: mint::Quaternion<f32> = Quat::IDENTITY.into();
+/// assert_eq!(back.s, 1.0);
+/// ```
+#[cfg(feature = "mint")]
+pub use mint;
 
 /// The examples of the README.
 #[cfg(doctest)]
