@@ -1,0 +1,84 @@
+"""Sweeps: the same table on any number of processes, continued where they ended."""
+
+import csv
+import json
+
+import pytest
+
+import sorb
+
+GRID = {"sponges.sponge.permeability": [1e-10, 5e-9], "bodies.ball.density": [2000, 5000], "resolution": [0.2, 0.3]}
+SMALL = {"frames": 2}
+
+
+def without_times(rows):
+    return [{name: value for name, value in row.items() if name != "wall_seconds"} for row in rows]
+
+
+def highest(world):
+    """Of a module, so that processes find it."""
+    return {"highest": float(world.node_positions[:, 1].max())}
+
+
+def failing(world):
+    raise RuntimeError("planted")
+
+
+def test_a_table_is_the_same_on_one_and_two_processes(tmp_path):
+    one = sorb.sweep("ball_drop", GRID, ["absorbed_mass", "kinetic_energy"], out=tmp_path / "one.csv", **SMALL)
+    two = sorb.sweep(
+        "ball_drop", GRID, ["absorbed_mass", "kinetic_energy"], processes=2, out=tmp_path / "two.csv", **SMALL
+    )
+    assert len(one) == 8 and without_times(one) == without_times(two)
+    assert [row["run"] for row in one] == list(range(8))
+    assert len({row["digest"] for row in one}) == 8 and not any(row["error"] for row in one)
+    world = sorb.World("ball_drop", {"sponges.sponge.permeability": 1e-10, "bodies.ball.density": 2000}, resolution=0.2)
+    assert f"{world.run(frames=2).digest:016x}" == one[0]["digest"]
+    assert world.measures()["absorbed_mass"] == one[0]["absorbed_mass"]
+    with (tmp_path / "one.csv").open(newline="") as file:
+        table = list(csv.DictReader(file))
+    assert [float(row["absorbed_mass"]) for row in table] == [row["absorbed_mass"] for row in one]
+    assert list(table[0])[:4] == ["run", "sponges.sponge.permeability", "bodies.ball.density", "resolution"]
+
+
+def test_a_sweep_continues_where_it_ended(tmp_path):
+    out = tmp_path / "table.csv"
+    grid = {"bodies.ball.density": [2000, 3000, 4000]}
+    whole = sorb.sweep("ball_drop", grid, resolution=0.2, out=out, **SMALL)
+    journal = out.with_name("table.csv.jsonl")
+    lines = journal.read_text().splitlines()
+    # An end by force within the second run.
+    marked = json.loads(lines[1])
+    marked["absorbed_mass"] = -1.0
+    journal.write_text("\n".join([lines[0], json.dumps(marked), lines[2][:40]]))
+    again = sorb.sweep("ball_drop", grid, resolution=0.2, out=out, **SMALL)
+    # The first run was not run again, the others were.
+    assert again[0]["absorbed_mass"] == -1.0
+    assert without_times(again[1:]) == without_times(whole[1:])
+    with pytest.raises(sorb.Error, match="of another sweep"):
+        sorb.sweep("ball_drop", grid, resolution=0.2, out=out, frames=3)
+
+
+def test_shards_are_parts_of_the_table():
+    grid = [{"bodies.ball.density": density} for density in (2000, 3000, 4000)]
+    whole = sorb.sweep("ball_drop", grid, resolution=0.2, **SMALL)
+    parts = [sorb.sweep("ball_drop", grid, resolution=0.2, shard=(part, 2), **SMALL) for part in range(2)]
+    assert without_times(parts[0]) == without_times(whole[::2])
+    assert without_times(parts[1]) == without_times(whole[1::2])
+
+
+def test_measures_are_names_or_a_function():
+    grid = {"bodies.ball.density": [2000]}
+    assert sorb.sweep("ball_drop", grid, highest, resolution=0.2, **SMALL)[0]["highest"] > 0.01
+    assert "elastic_energy" in sorb.sweep("ball_drop", grid, resolution=0.2, **SMALL)[0]
+    assert "planted" in sorb.sweep("ball_drop", grid, failing, resolution=0.2, **SMALL)[0]["error"]
+    assert "no measure" in sorb.sweep("ball_drop", grid, "mass", resolution=0.2, **SMALL)[0]["error"]
+
+
+def test_wrong_settings_are_found_before_anything_runs(tmp_path):
+    out = tmp_path / "table.csv"
+    with pytest.raises(sorb.SceneError, match="density"):
+        sorb.sweep("ball_drop", {"bodies.ball.density": [2000, -1]}, out=out, **SMALL)
+    assert not out.exists()
+    with pytest.raises(sorb.Error, match="shard"):
+        sorb.sweep("ball_drop", {}, shard=(2, 2), **SMALL)
