@@ -5,6 +5,7 @@ mod choice;
 mod diff;
 mod doctor;
 mod error;
+mod export;
 mod machine;
 mod output;
 mod plan;

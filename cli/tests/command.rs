@@ -1,5 +1,7 @@
 //! The command from the outside: exit codes, messages, files.
 
+#[path = "command/exports.rs"]
+mod exports;
 #[path = "command/render.rs"]
 mod render;
 #[path = "command/replays.rs"]

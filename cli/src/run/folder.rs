@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::error::CliError;
+use crate::{error::CliError, export::EXTENSIONS};
 
 /// The folder that holds the results of one run.
 #[derive(Debug)]
@@ -36,10 +36,13 @@ impl Folder {
             let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
             stem.len() >= 5 && stem.bytes().all(|byte| byte.is_ascii_digit())
         };
-        let frames = fs::read_dir(self.frames()).into_iter().flatten().flatten();
-        frames
-            .map(|entry| entry.path())
-            .filter(|path| is_number(path) && path.extension().is_some_and(|extension| extension == "png"))
+        let extension =
+            |path: &Path| path.extension().and_then(|own| own.to_str()).unwrap_or_default().to_owned();
+        let files =
+            |folder: PathBuf| fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        files(self.frames())
+            .filter(|path| is_number(path) && extension(path) == "png")
+            .chain(files(self.export()).filter(|path| EXTENSIONS.contains(&extension(path).as_str())))
             .chain(
                 [self.summary(), self.bodies(), self.film(), self.animation(), self.save()]
                     .into_iter()
@@ -76,6 +79,11 @@ impl Folder {
     /// The folder of the pictures.
     pub(crate) fn frames(&self) -> PathBuf {
         self.path.join("frames")
+    }
+
+    /// The folder of the frames for other programs.
+    pub(crate) fn export(&self) -> PathBuf {
+        self.path.join("export")
     }
 
     /// All pictures as a film.

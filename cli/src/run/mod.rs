@@ -11,9 +11,9 @@ mod table;
 
 use std::time::{Duration, Instant};
 
-use sorb::{FrameReport, Measures, StepError, World};
+use sorb::{FrameReport, Measures, StepError, World, scene::Scene};
 
-use crate::{error::CliError, output};
+use crate::{error::CliError, export::Exports, output};
 use bodies::Bodies;
 use folder::Folder;
 pub(crate) use options::Arguments;
@@ -48,25 +48,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let scene = world.scene().clone();
     let frames = arguments.frames(&scene, done);
     let folder = Folder::create(&arguments.folder(&scene), done > 0)?;
-    let mut tables = Tables {
-        measures: Table::create(&folder.table(), done)?,
-        bodies: if scene.bodies.is_empty() { None } else { Some(Bodies::create(&folder.bodies(), done)?) },
-    };
-    let mut pictures = None;
-    if arguments.drawing.pictures {
-        pictures = Some(Pictures::create(&folder, &arguments.drawing, &scene, done..=done + frames)?);
-    }
+    let mut outputs = Outputs::create(arguments, &folder, &scene, [done, frames])?;
     let progress = Progress::new(&scene, frames, arguments.quiet);
     let mut saves = arguments.save_every.map(|every| Saves::new(&folder, &world, every));
     let mut record = Record { first: done as usize, ..Record::default() };
-    record.frame(&world, None, &mut tables, pictures.as_mut())?;
+    record.frame(&world, None, &mut outputs)?;
     let mut failure = None;
     for _ in 0..frames {
         let start = Instant::now();
         match world.advance_frame() {
             Ok(report) => {
                 record.advanced(start.elapsed());
-                record.frame(&world, Some(&report), &mut tables, pictures.as_mut())?;
+                record.frame(&world, Some(&report), &mut outputs)?;
                 progress.frame(&report, start.elapsed());
                 if let Some(saves) = &mut saves {
                     saves.frame(&world)?;
@@ -80,9 +73,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
         }
     }
     progress.finish();
-    if let Some(pictures) = pictures {
-        pictures.finish()?;
-    }
+    outputs.finish()?;
     finish(arguments, &world, &record, &folder, failure)
 }
 
@@ -107,6 +98,45 @@ struct Tables {
     bodies: Option<Bodies>,
 }
 
+/// Everything that is written on the way.
+#[derive(Debug)]
+struct Outputs {
+    tables: Tables,
+    pictures: Option<Pictures>,
+    exports: Option<Exports>,
+}
+
+impl Outputs {
+    fn create(
+        arguments: &Arguments,
+        folder: &Folder,
+        scene: &Scene,
+        frames: [u32; 2],
+    ) -> Result<Self, CliError> {
+        let [done, frames] = frames;
+        let bodies =
+            if scene.bodies.is_empty() { None } else { Some(Bodies::create(&folder.bodies(), done)?) };
+        let tables = Tables { measures: Table::create(&folder.table(), done)?, bodies };
+        let mut pictures = None;
+        if arguments.drawing.pictures {
+            pictures = Some(Pictures::create(folder, &arguments.drawing, scene, done..=done + frames)?);
+        }
+        let mut exports = None;
+        if !arguments.export.is_empty() {
+            let how = (&arguments.export[..], arguments.export_every);
+            exports = Some(Exports::create(folder.export(), how, scene.time.frame_rate)?);
+        }
+        Ok(Self { tables, pictures, exports })
+    }
+
+    fn finish(self) -> Result<(), CliError> {
+        if let Some(pictures) = self.pictures {
+            pictures.finish()?;
+        }
+        self.exports.map_or(Ok(()), |exports| exports.finish())
+    }
+}
+
 impl Record {
     /// Records the time of a frame.
     fn advanced(&mut self, time: Duration) {
@@ -114,29 +144,31 @@ impl Record {
         self.frames_ms.push(time.as_secs_f64() * 1e3);
     }
 
-    /// Writes the rows of a frame, and its picture if it is due; no report for the state at time zero.
+    /// Writes the rows of a frame, its picture and its exports if they are due; no report for the state at time zero.
     fn frame(
         &mut self,
         world: &World,
         report: Option<&FrameReport>,
-        tables: &mut Tables,
-        pictures: Option<&mut Pictures>,
+        outputs: &mut Outputs,
     ) -> Result<(), CliError> {
         self.measures = world.measures();
         let frame = self.first + self.frames_ms.len();
         // The run that left a save has written the rows of its frame.
         if report.is_some() || self.first == 0 {
-            tables.measures.row(frame, &self.measures, report)?;
-            if let Some(bodies) = &mut tables.bodies {
+            outputs.tables.measures.row(frame, &self.measures, report)?;
+            if let Some(bodies) = &mut outputs.tables.bodies {
                 bodies.rows(frame, world)?;
             }
         }
         let start = Instant::now();
-        if let Some(pictures) = pictures {
+        if let Some(pictures) = &mut outputs.pictures {
             pictures.frame(world, frame)?;
         }
         self.picture += start.elapsed();
-        Ok(())
+        match &outputs.exports {
+            Some(exports) => exports.frame(frame, world),
+            None => Ok(()),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use sorb::{
     scene::{Scene, SceneError, Time},
 };
 
-use crate::{choice::Changes, machine::Machine};
+use crate::{choice::Changes, export::Format, machine::Machine};
 
 /// Arguments of `sorb run`.
 #[derive(Debug, clap::Args)]
@@ -33,6 +33,12 @@ pub(crate) struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     pub(super) drawing: Drawing,
+    /// Writes frames for other programs to the folder `export` of the results, in these formats, separated by commas
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',')]
+    pub(super) export: Vec<Format>,
+    /// With --export: frames from an exported one to the next, at least 1
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "export", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) export_every: u32,
     /// Prints the summary as a JSON object to standard output, and nothing else
     #[arg(long)]
     pub(super) json: bool,
