@@ -10,12 +10,24 @@ use glam::{DQuat, DVec3};
 const TIME_TOLERANCE: f64 = 2.0 * (f32::EPSILON as f64);
 
 /// The start pose of a body and its motions.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Script {
     start: BodyState,
     motions: Vec<Motion>,
     /// In place of the motions, once there is one.
     pub(super) target: Option<Target>,
+}
+
+impl Clone for Script {
+    fn clone(&self) -> Self {
+        Self { start: self.start, motions: self.motions.clone(), target: self.target }
+    }
+
+    /// In the same memory.
+    fn clone_from(&mut self, from: &Self) {
+        (self.start, self.target) = (from.start, from.target);
+        self.motions.clone_from(&from.motions);
+    }
 }
 
 impl Script {

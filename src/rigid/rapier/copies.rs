@@ -1,6 +1,6 @@
 //! Copies of the engine, how it is shown, and what touches in it.
 
-use std::fmt;
+use std::{fmt, sync::Arc};
 
 use rapier3d::prelude::PhysicsPipeline;
 
@@ -11,7 +11,7 @@ impl Clone for RapierEngine {
         Self {
             gravity: self.gravity,
             container: self.container,
-            setups: self.setups.clone(),
+            setups: Arc::clone(&self.setups),
             names: self.names.clone(),
             kinds: self.kinds.clone(),
             handles: self.handles.clone(),
@@ -43,7 +43,7 @@ impl RapierEngine {
         self.kinds.clone_from(&other.kinds);
         self.handles.clone_from(&other.handles);
         self.scripts.clone_from(&other.scripts);
-        self.setups.clone_from(&other.setups);
+        self.setups = Arc::clone(&other.setups);
         // rapier3d has no copy in place.
         self.islands = other.islands.clone();
         self.broad_phase = other.broad_phase.clone();

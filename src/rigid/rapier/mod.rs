@@ -15,7 +15,7 @@ use rapier3d::prelude::{
     RigidBodyHandle, RigidBodySet, RigidBodyType, SoftBodySet,
 };
 pub use shapes::shape_of;
-use std::any::Any;
+use std::{any::Any, sync::Arc};
 
 /// Largest number of rapier3d steps in one step.
 const MAXIMUM_PASSES: f32 = 32.0;
@@ -38,7 +38,7 @@ pub struct RapierEngine {
     gravity: Vec3,
     container: Option<(Vec3, Vec3)>,
     /// The bodies as they were built.
-    setups: Vec<BodySetup>,
+    setups: Arc<Vec<BodySetup>>,
     names: Vec<String>,
     kinds: Vec<BodyKind>,
     handles: Vec<RigidBodyHandle>,
@@ -90,7 +90,7 @@ impl RapierEngine {
         let mut engine = Self {
             gravity,
             container,
-            setups: bodies.to_vec(),
+            setups: Arc::new(bodies.to_vec()),
             names: bodies.iter().map(|body| body.name.clone()).collect(),
             kinds: bodies.iter().map(|body| body.kind).collect(),
             handles: Vec::with_capacity(bodies.len()),

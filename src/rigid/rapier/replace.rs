@@ -15,7 +15,7 @@ impl RapierEngine {
         if let Some(container) = self.container {
             check_container(container, std::slice::from_ref(body))?;
         }
-        let mut setups = self.setups.clone();
+        let mut setups = self.setups.to_vec();
         for (own, setup) in setups.iter_mut().enumerate() {
             if self.kinds[own] == BodyKind::Dynamic {
                 setup.state = self.moving_state(own);
