@@ -65,7 +65,7 @@ pub unsafe extern "C" fn sorb_world_push_pose(
             // SAFETY: as above.
             Quat::from_array(unsafe { numbers::<4>(rotation, "rotation") }?)
         };
-        push(world, Command::Pose { body, position, rotation, duration })
+        push(world, Command::Pose { body: body.into(), position, rotation, duration })
     })
 }
 
@@ -82,7 +82,7 @@ pub unsafe extern "C" fn sorb_world_push_velocity(
         let linear_velocity = unsafe { vector(linear_velocity, "linear_velocity") }?;
         // SAFETY: as above.
         let angular_velocity = unsafe { vector(angular_velocity, "angular_velocity") }?;
-        push(world, Command::Velocity { body, linear_velocity, angular_velocity })
+        push(world, Command::Velocity { body: body.into(), linear_velocity, angular_velocity })
     })
 }
 
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn sorb_world_push_force(
         let force = unsafe { vector(force, "force") }?;
         // SAFETY: as above.
         let torque = unsafe { vector(torque, "torque") }?;
-        push(world, Command::Force { body, force, torque })
+        push(world, Command::Force { body: body.into(), force, torque })
     })
 }
 
@@ -117,7 +117,7 @@ pub unsafe extern "C" fn sorb_world_push_impulse(
         let impulse = unsafe { vector(impulse, "impulse") }?;
         // SAFETY: as above.
         let angular_impulse = unsafe { vector(angular_impulse, "angular_impulse") }?;
-        push(world, Command::Impulse { body, impulse, angular_impulse })
+        push(world, Command::Impulse { body: body.into(), impulse, angular_impulse })
     })
 }
 
