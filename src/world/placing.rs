@@ -193,9 +193,12 @@ impl World {
                 *driven = [0.0; 4];
             }
         }
+        // With a solve for the divergence, the pressure of the water that it was in would press it out.
+        let is_solved = self.params.fluid.divergence().is_some();
         for (row, place) in &water {
             columns.fluid.position[*row] = place.extend(columns.fluid.position[*row][3]).to_array();
-            columns.fluid.velocity[*row] = [x, y, z, columns.fluid.velocity[*row][3]];
+            let kept = if is_solved { 0.0 } else { columns.fluid.velocity[*row][3] };
+            columns.fluid.velocity[*row] = [x, y, z, kept];
         }
         let speed = velocity.length();
         self.clock.node_speed = self.clock.node_speed.max(speed);

@@ -55,11 +55,12 @@ fn water_in_the_pores_comes_along() {
     common::steps(&mut world, 1);
     assert!(middle(&world, 0).y > before.y + 0.05);
     let ledger = world.ledger();
-    assert!(ledger.absorbed as f64 > 0.9 * held as f64, "{} of {held}", ledger.absorbed);
+    // What hangs from its faces, outside of the tets, counts as absorbed and stays behind.
+    assert!(ledger.absorbed as f64 > 0.75 * held as f64, "{} of {held}", ledger.absorbed);
     audit(&world);
     // The control: water around it stays.
     let high = world.particle_positions().iter().filter(|row| row[1] > 0.09).count() as u64;
-    assert!(high >= ledger.absorbed && high < ledger.present / 2, "{high} {ledger:?}");
+    assert!(high == ledger.absorbed && high < ledger.present / 2, "{high} {ledger:?}");
     for _ in 0..20 {
         common::frame(&mut world);
         audit(&world);
