@@ -81,8 +81,8 @@ struct Absorption {
 
 /// Looks at a world from time to time, and tells what has begun and ended since the last look. Begin with a new one: it has seen nothing.
 ///
-/// It changes nothing in the world, so that a world that nobody watches costs nothing. What begins and ends between two looks is not seen. On
-/// a GPU a look reads the state back.
+/// It changes nothing in the world, so that a world that nobody watches costs nothing. What begins and ends between two looks is not seen.
+/// On a GPU a look reads the state back.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test binary uses a part of it")]
 
 pub(crate) mod busy;
+pub(crate) mod random;
 pub(crate) mod resting;
 
 use std::fmt::Display;

@@ -7,26 +7,13 @@ use sorb::{
     scene::{Body, Drain, Emitter, FluidSolver, GravityKey, Material, Motion, Scene, ShapeKind},
 };
 
-use super::{audit, pool};
+use super::{audit, common::random::Random, pool};
 
 const FRAMES: u64 = 8;
 
-/// Numbers from a seed (splitmix64).
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^ (bits >> 31)
-    }
     fn below(&mut self, count: u64) -> u64 {
         self.next() % count
-    }
-    fn unit(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1_u32 << 24) as f32
     }
     fn signed(&mut self) -> f32 {
         2.0 * self.unit() - 1.0

@@ -6,24 +6,11 @@ use sorb::{
     scene::{Drain, Emitter, FluidSolver, Scene},
 };
 
-use super::{audit, busy_cup};
+use super::{audit, busy_cup, common::random::Random};
 
 const FRAMES: u64 = 12;
 
-/// Numbers from a seed (splitmix64).
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^ (bits >> 31)
-    }
-    fn unit(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1_u32 << 24) as f32
-    }
     fn point(&mut self) -> Vec3 {
         Vec3::new(self.unit() - 0.5, self.unit() * 1.6, self.unit() - 0.5) * 0.1
     }

@@ -11,6 +11,7 @@ use super::{
 pub(crate) use super::{
     images::images,
     noise::{approach, damping},
+    shift::shift,
 };
 use crate::{
     body::{Body, Wrench},
@@ -249,7 +250,7 @@ fn rate(params: &Params, fluid: &Fluid, images: &[Seen], (v, of_images): (&[DVec
     (0..v.len()).map(one).collect()
 }
 
-fn is_sparse(fluid: &Fluid, i: usize) -> bool {
+pub(super) fn is_sparse(fluid: &Fluid, i: usize) -> bool {
     fluid.renormalisation[i][lane::fluid::renormalisation::DENSITY] < 0.75
 }
 
@@ -377,29 +378,4 @@ pub(crate) fn kick(params: &Params, columns: &mut Columns) {
         own
     });
     store.fluid_wrenches.0 = sums.collect();
-}
-
-pub(crate) fn shift(params: &Params, columns: &mut Columns) {
-    let Some(divergence) = params.fluid.divergence() else { return };
-    let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
-    let (images, spacing) = (seen(&fluid.images), f64::from(params.fluid.spacing));
-    for i in 0..columns.rows.fluid {
-        if is_sparse(fluid, i) || fluid.moment[i][lane::fluid::moment::MATERIAL] > 0.02 {
-            continue;
-        }
-        let (x, z) = (vector(fluid.position[i]), vector(fluid.moment[i]));
-        let share = (1.0 - z.length() / (0.5 * f64::from(divergence.surface_moment))).max(0.0);
-        let mut shift = -0.2 * spacing * spacing * share * z;
-        for (index, body) in bodies.iter().enumerate() {
-            let has_image = images.iter().any(|image| image.source == i && image.body == Some(index));
-            let (distance, normal) = super::shapes::distance(body, x);
-            if has_image && distance < 2.0 * spacing {
-                shift -= shift.dot(normal) * normal;
-            }
-            if has_image {
-                shift = super::obstacles::beside_parts((bodies, index), x, shift, 0.3 * spacing);
-            }
-        }
-        fluid.position[i] = keep(fluid.position[i], x + shift.clamp_length_max(0.1 * spacing));
-    }
 }

@@ -20,6 +20,7 @@ pub(crate) mod obstacles;
 pub(crate) mod pbd;
 pub(crate) mod porous;
 mod shapes;
+mod shift;
 pub(crate) mod solid;
 pub(crate) mod sph;
 pub(crate) mod surface;
