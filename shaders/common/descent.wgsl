@@ -84,6 +84,19 @@ fn touch_of(row: u32) -> array<vec3<f32>, 3> {
 
 // Force on a node at `x` by its material and its contacts, and its stiffness.
 fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f32) -> Local {
+    return with_touch(row, material_energy(row, x, old, sponge, step, 0u, 1u));
+}
+
+// The part of the material, by every `stride`-th of the directions from `first` on.
+fn material_energy(
+    row: u32,
+    x: vec3<f32>,
+    old: vec3<f32>,
+    sponge: Sponge,
+    step: f32,
+    first: u32,
+    stride: u32,
+) -> Local {
     let base = row * STAR_WORDS;
     let tets = node_stars[base + STAR_TETS];
     let weights = node_stars[base + STAR_WEIGHTS];
@@ -104,7 +117,7 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
     var stiffness = mat3x3<f32>();
     var damping = Local(vec3<f32>(0.0), mat3x3<f32>(), 0.0);
     var strain = 0.0;
-    for (var direction = 0u; direction < DIRECTIONS; direction += 1u) {
+    for (var direction = first; direction < DIRECTIONS; direction += stride) {
         let ring = rings[direction];
         let partner = node_stars[base + STAR_DIRECTIONS + direction];
         let u = node_predicted[partner].xyz;
@@ -152,20 +165,24 @@ fn local_energy(row: u32, x: vec3<f32>, old: vec3<f32>, sponge: Sponge, step: f3
             }
         }
     }
-    var force = pull + pressure + damping.force;
-    stiffness += diagonal(count) + damping.stiffness;
+    return Local(pull + pressure + damping.force, stiffness + diagonal(count) + damping.stiffness, strain);
+}
+
+// With the contacts.
+fn with_touch(row: u32, material: Local) -> Local {
+    var local = material;
     if (params.pair_radius > 0.0) {
         let touch = touch_of(row);
-        force += touch[0];
-        stiffness += mat3x3<f32>(
+        local.force += touch[0];
+        local.stiffness += mat3x3<f32>(
             vec3<f32>(touch[1].x, touch[2].x, touch[2].y),
             vec3<f32>(touch[2].x, touch[1].y, touch[2].z),
             vec3<f32>(touch[2].y, touch[2].z, touch[1].z),
         );
         // A node in contact moves to its minimum, without over-relaxation.
-        strain += select(0.0, 1.0, touch[1].x + touch[1].y + touch[1].z > 0.0);
+        local.strain += select(0.0, 1.0, touch[1].x + touch[1].y + touch[1].z > 0.0);
     }
-    return Local(force, stiffness, strain);
+    return local;
 }
 
 // The way to the minimum of the energy without obstacles.

@@ -1,8 +1,9 @@
 // The material of sponges mirrored by walls, as in `solid_mirrors.rs`.
 
-struct NodeImage {
-    position: vec3<f32>,
+struct Mirror {
+    // Of the images: -1 times the coordinate and this, or the coordinate itself.
     signs: vec3<f32>,
+    shift: vec3<f32>,
     is_there: bool,
 }
 
@@ -18,18 +19,22 @@ fn walls_near(point: vec3<f32>) -> u32 {
     return lower.x | lower.y | lower.z | upper.x | upper.y | upper.z;
 }
 
-// The image of a node by one of the combinations of walls; 0 is the node itself.
-fn mirrored(near: u32, index: u32, node: vec3<f32>) -> NodeImage {
+// One of the combinations of walls; 0 is none of them, whose image is the node itself.
+fn mirror_of(near: u32, index: u32) -> Mirror {
     let by = vec3<u32>(index / 9u, index / 3u % 3u, index % 3u);
-    var image = NodeImage(node, vec3<f32>(1.0), true);
+    var mirror = Mirror(vec3<f32>(1.0), vec3<f32>(0.0), true);
     for (var axis = 0u; axis < 3u; axis += 1u) {
         if (by[axis] > 0u) {
-            let is_near = (near >> (2u * axis + by[axis] - 1u) & 1u) == 1u;
             let wall = select(params.wall_high[axis], params.wall_low[axis], by[axis] == 1u);
-            image.position[axis] = 2.0 * wall - node[axis];
-            image.signs[axis] = -1.0;
-            image.is_there = image.is_there && is_near;
+            mirror.shift[axis] = 2.0 * wall;
+            mirror.signs[axis] = -1.0;
+            mirror.is_there = mirror.is_there && (near >> (2u * axis + by[axis] - 1u) & 1u) == 1u;
         }
     }
-    return image;
+    return mirror;
+}
+
+// The image of a node.
+fn mirrored(mirror: Mirror, node: vec3<f32>) -> vec3<f32> {
+    return mirror.signs * node + mirror.shift;
 }

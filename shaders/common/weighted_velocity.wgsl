@@ -1,15 +1,14 @@
-// Sum over the controls of a particle of V_a W_ia times their velocity rows.
-fn weighted_velocity(row: u32, rows: u32, end: u32) -> vec4<f32> {
-    let point = fluid_position[row].xyz;
-    var slot = row;
+// Sum over the controls of a particle of V_a W_ia times their velocity rows; all threads of a group take part. Needs `shares`.
+fn weighted_velocity(share: SharedRow, rows: u32, lane: u32) -> vec4<f32> {
+    let point = fluid_position[share.row].xyz;
+    let end = fluid_controls[share.row];
     var sum = vec4<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_controls[share.row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_velocity[other];
     }
-    return sum;
+    return share_sum(lane, sum);
 }

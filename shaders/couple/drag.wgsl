@@ -1,4 +1,4 @@
-// #include smoothing, drag, weighted_velocity
+// #include smoothing, drag, shares, weighted_velocity
 // Drag of the sponge on the particles: one sweep for the impulse of each on the sponge; `drag.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -18,17 +18,20 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
-    let end = fluid_controls[row];
-    if (end == 0u) {
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
+    let sum = weighted_velocity(share, rows, lane);
+    if (!share.writes) {
+        return;
+    }
+    if (fluid_controls[row] == 0u) {
         fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let sum = weighted_velocity(row, rows, end);
     let inverse = weight_inside(fluid_interior[row]);
     let rate = fluid_drag_rate[row].x * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;

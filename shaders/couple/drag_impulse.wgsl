@@ -1,4 +1,4 @@
-// #include smoothing, drag, weighted_velocity
+// #include smoothing, drag, shares, weighted_velocity
 // Drag impulse that every particle loses to the sponge, at the present velocities of the nodes; `drag_impulse.rs` has the
 // formulas.
 
@@ -19,17 +19,20 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
-    let end = fluid_controls[row];
-    if (end == 0u) {
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
+    let sum = weighted_velocity(share, rows, lane);
+    if (!share.writes) {
+        return;
+    }
+    if (fluid_controls[row] == 0u) {
         fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let sum = weighted_velocity(row, rows, end);
     let inverse = weight_inside(fluid_interior[row]);
     let relative = fluid_velocity[row].xyz - sum.xyz * inverse;
     // The speed that the drag leaves.

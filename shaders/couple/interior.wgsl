@@ -1,4 +1,4 @@
-// #include smoothing
+// #include smoothing, shares
 // Interior value of every particle in a sponge, and the drag rates there.
 //
 //     chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
@@ -26,21 +26,20 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let end = fluid_controls[row];
-    var slot = row;
     var sum = 0.0;
     var rate = vec2<f32>(0.0);
     var mobile = 0.0;
     var follows = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
@@ -52,6 +51,14 @@ fn main(
         if (params.has_wetting != 0u) {
             mobile += weight * node_wetting[node].w;
         }
+    }
+    let all = share_sum(lane, vec4<f32>(rate, sum, mobile));
+    follows = share_sum(lane, vec4<f32>(follows, 0.0, 0.0, 0.0)).x;
+    rate = all.xy;
+    sum = all.z;
+    mobile = all.w;
+    if (!share.writes) {
+        return;
     }
     if (mobile > 0.0) {
         let slower = sum / mobile;

@@ -1,4 +1,4 @@
-// #include grid
+// #include grid, shares
 // For every particle, the controls within the coupling radius; the list has the layout of `fluid_neighbors.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -10,17 +10,8 @@
 @group(0) @binding(6) var<storage, read_write> fluid_controls: array<u32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
-@compute @workgroup_size(GROUP)
-fn main(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
-        return;
-    }
+// Visits the lines of cells of one thread; the list goes on at `slot`. The number of controls.
+fn visit(row: u32, part: u32, slot: u32) -> u32 {
     let point = fluid_position[row].xyz;
     let radius = params.coupling.support_radius;
     let square = radius * radius;
@@ -33,41 +24,62 @@ fn main(
     );
     let span_y = cells_around(control_grid, at.y, reach + slack(at.y), 1u);
     let span_z = cells_around(control_grid, at.z, reach + slack(at.z), 2u);
-    var found = 0u;
-    var slot = row;
-    for (var z = span_z.x; z <= span_z.y; z += 1) {
+    var count = 0u;
+    // Threads of a row take its lines of cells by turns.
+    let wide = span_y.y - span_y.x + 1;
+    let lines = wide * (span_z.y - span_z.x + 1);
+    for (var index = i32(part); index < lines; index += i32(SHARES)) {
+        let z = span_z.x + index / wide;
+        let y = span_y.x + index % wide;
         let dz = slab_distance(control_grid, at.z, z, 2u);
-        let plane = wrapped(control_grid, z, 2u) * control_grid.size.y;
-        for (var y = span_y.x; y <= span_y.y; y += 1) {
-            let dy = slab_distance(control_grid, at.y, y, 1u);
-            let chord = cell_square - dy * dy - dz * dz;
-            if (chord <= 0.0) {
-                continue;
-            }
-            let line = (plane + wrapped(control_grid, y, 1u)) * control_grid.size.x;
-            let span_x = cells_around(control_grid, at.x, sqrt(chord) + slack(at.x), 0u);
-            var x = span_x.x;
-            // One run, or two where it crosses the end of the torus.
-            while (x <= span_x.y) {
-                let first = wrapped(control_grid, x, 0u);
-                let last = min(first + u32(span_x.y - x), control_grid.size.x - 1u);
-                x += i32(last - first) + 1;
-                let end = control_starts[line + last + 1u];
-                for (var other = control_starts[line + first]; other < end; other += 1u) {
-                    let apart = point - control_position[other].xyz;
-                    if (dot(apart, apart) < square) {
-                        if (found < params.control_capacity) {
-                            slot += rows;
-                            fluid_controls[slot] = other;
-                        }
-                        found += 1u;
+        let dy = slab_distance(control_grid, at.y, y, 1u);
+        let chord = cell_square - dy * dy - dz * dz;
+        if (chord <= 0.0) {
+            continue;
+        }
+        let line = (wrapped(control_grid, z, 2u) * control_grid.size.y + wrapped(control_grid, y, 1u)) * control_grid.size.x;
+        let span_x = cells_around(control_grid, at.x, sqrt(chord) + slack(at.x), 0u);
+        var x = span_x.x;
+        // One run, or two where it crosses the end of the torus.
+        while (x <= span_x.y) {
+            let first = wrapped(control_grid, x, 0u);
+            let last = min(first + u32(span_x.y - x), control_grid.size.x - 1u);
+            x += i32(last - first) + 1;
+            let end = control_starts[line + last + 1u];
+            for (var other = control_starts[line + first]; other < end; other += 1u) {
+                let apart = point - control_position[other].xyz;
+                if (dot(apart, apart) < square) {
+                    if (slot + count < params.control_capacity) {
+                        fluid_controls[row + (slot + count + 1u) * params.fluid_rows] = other;
                     }
+                    count += 1u;
                 }
             }
         }
     }
-    fluid_controls[row] = found;
-    if (found > params.control_capacity) {
-        atomicMax(&extremes[EXTREME_CONTROLS], found);
+    return count;
+}
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let share = shared_row(group, groups, lane, params.fluid_rows);
+    var slot = 0u;
+    if (SHARES > 1u) {
+        // Threads that share a row count first.
+        slot = share_before(lane, visit(share.row, share.first, params.control_capacity));
+    }
+    let found = slot + visit(share.row, share.first, select(params.control_capacity, slot, share.is_row));
+    if (share.is_row && share.first == SHARES - 1u) {
+        fluid_controls[share.row] = found;
+        if (found > params.control_capacity) {
+            atomicMax(&extremes[EXTREME_CONTROLS], found);
+        }
     }
 }

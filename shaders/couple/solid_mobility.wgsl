@@ -1,4 +1,4 @@
-// #include smoothing, drag
+// #include smoothing, drag, shares
 // First pass of `couple::solid_moments`: how much the drag leaves of a change of the velocity, and the mass that moves with the nodes.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -18,27 +18,30 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let end = fluid_controls[row];
-    var slot = row;
     var sum = vec3<f32>(0.0);
     var interior = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_material[other].xyz;
         interior += weight;
     }
-    let inverse = weight_inside(interior);
-    let relative = fluid_velocity[row].xyz - sum * inverse;
+    let all = share_sum(lane, vec4<f32>(sum, interior));
+    if (!share.writes) {
+        return;
+    }
+    let inverse = weight_inside(all.w);
+    let relative = fluid_velocity[row].xyz - all.xyz * inverse;
     let drag = fluid_drag_rate[row].xy;
     let rate = select(0.0, (drag.x + drag.y * length(relative)) * clock.step, inverse > 0.0);
     let mobility = 1.0 / (1.0 + rate);

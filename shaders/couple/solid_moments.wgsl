@@ -1,4 +1,4 @@
-// #include smoothing, drag, solid_mirrors
+// #include smoothing, drag, solid_mirrors, shares
 // Fourth pass of `couple::solid_moments`: sums over the nodes around a particle; `solid_moments.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -18,37 +18,36 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let near = walls_near(point);
     let mirrors = select(1u, MIRRORS, near != 0u);
     let end = fluid_controls[row];
-    var slot = row;
     var moment = vec4<f32>(0.0);
     var along = vec3<f32>(0.0);
     var between = vec3<f32>(0.0);
     var direct = 0.0;
     var follows = 0.0;
     var interior = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
-        let response = control_compliance[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         interior += weight;
-        follows += weight * response.y;
-        for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
-            let image = mirrored(near, mirror, there.xyz);
-            if (!image.is_there) {
-                continue;
-            }
-            let offset = image.position - point;
+        follows += weight * control_compliance[other].y;
+    }
+    for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
+        let by = mirror_of(near, mirror);
+        for (var k = share.first; k < end && by.is_there; k += SHARES) {
+            let other = fluid_controls[row + (k + 1u) * rows];
+            let response = control_compliance[other];
+            let offset = mirrored(by, control_position[other].xyz) - point;
             let u = closeness(params.solid, dot(offset, offset));
             let push = (response.w * params.solid.gradient * (u * u * u)) * offset;
             moment += vec4<f32>(push, response.w * params.solid.value * shape(u));
@@ -57,10 +56,17 @@ fn main(
             direct += dot(push, push) * response.x;
         }
     }
+    moment = share_sum(lane, moment);
+    let first = share_sum(lane, vec4<f32>(along, interior));
+    let second = share_sum(lane, vec4<f32>(between, follows));
+    direct = share_sum(lane, vec4<f32>(direct, 0.0, 0.0, 0.0)).x;
+    if (!share.writes) {
+        return;
+    }
     let own = fluid_mobility[row].x;
-    let with_nodes = own + (1.0 - own) * (follows * weight_inside(interior));
+    let with_nodes = own + (1.0 - own) * (second.w * weight_inside(first.w));
     fluid_mobility[row] = vec4<f32>(own, with_nodes, direct * (params.particle_mass / 3.0), 0.0);
     fluid_moment[row] = moment;
-    fluid_renormalisation[row] = vec4<f32>(along, 0.0);
-    fluid_renormalisation_between[row] = vec4<f32>(between, 0.0);
+    fluid_renormalisation[row] = vec4<f32>(first.xyz, 0.0);
+    fluid_renormalisation_between[row] = vec4<f32>(second.xyz, 0.0);
 }

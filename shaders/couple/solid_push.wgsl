@@ -36,19 +36,20 @@ fn main(
     var drawn = vec3<f32>(0.0);
     for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let other = control_fluid[first + 1u + k];
-        let particle = fluid_predicted[other];
-        let apart = own.xyz - particle.xyz;
+        let apart = own.xyz - fluid_predicted[other].xyz;
         drawn += (scale * shape(closeness(params.coupling, dot(apart, apart)))) * fluid_held[other].xyz;
-        let along = fluid_renormalisation[other].xyz;
-        let between = fluid_renormalisation_between[other].xyz;
-        for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
-            let image = mirrored(near, mirror, own.xyz);
-            if (!image.is_there) {
-                continue;
-            }
-            let offset = image.position - particle.xyz;
+    }
+    for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
+        let by = mirror_of(near, mirror);
+        let there = mirrored(by, own.xyz);
+        for (var k = lane % CONTROL_THREADS; k < end && by.is_there; k += CONTROL_THREADS) {
+            let other = control_fluid[first + 1u + k];
+            let particle = fluid_predicted[other];
+            let along = fluid_renormalisation[other].xyz;
+            let between = fluid_renormalisation_between[other].xyz;
+            let offset = there - particle.xyz;
             let u = closeness(params.solid, dot(offset, offset));
-            push += image.signs * ((particle.w * (u * u * u)) * symmetric_times(along, between, offset));
+            push += by.signs * ((particle.w * (u * u * u)) * symmetric_times(along, between, offset));
         }
     }
     let pushed = control_sum(lane, vec4<f32>(push, 0.0));

@@ -1,4 +1,4 @@
-// #include smoothing
+// #include smoothing, shares
 // Solid volume fraction around a particle, at the expected positions at the end of the step.
 //
 //     lambda_i += sum_a V_s W(x*_i - x*_a)
@@ -16,21 +16,24 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_predicted[row].xyz;
     let end = fluid_controls[row];
-    var slot = row;
-    var sum = vec4<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let solid = control_solid[fluid_controls[slot]];
+    var part = vec4<f32>(0.0);
+    for (var k = share.first; k < end; k += SHARES) {
+        let solid = control_solid[fluid_controls[row + (k + 1u) * rows]];
         let apart = point - solid.xyz;
         let u = closeness(params.solid, dot(apart, apart));
-        sum += solid.w * vec4<f32>(apart * (u * u * u), shape(u));
+        part += solid.w * vec4<f32>(apart * (u * u * u), shape(u));
+    }
+    let sum = share_sum(lane, part);
+    if (!share.writes) {
+        return;
     }
     let before = fluid_boundary[row];
     let slope = sum.xyz * params.solid.gradient;

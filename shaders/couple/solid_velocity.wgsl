@@ -1,4 +1,4 @@
-// #include smoothing, drag, solid_mirrors, image
+// #include smoothing, drag, solid_mirrors, image, shares
 // Velocities with the drag, and the material that flows past them; `solid_velocity.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -18,17 +18,14 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
-        return;
-    }
-    let end = fluid_controls[row];
-    if (end == 0u) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
+    let end = fluid_controls[row];
     let point = fluid_position[row].xyz;
-    var slot = row;
     let near = walls_near(point);
     let mirrors = select(1u, MIRRORS, near != 0u);
     var sum = vec3<f32>(0.0);
@@ -36,31 +33,37 @@ fn main(
     var moment = vec3<f32>(0.0);
     var on = vec3<f32>(0.0);
     var off = vec3<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
         let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
-        let node = control_solved[other];
-        sum += weight * node.xyz;
+        sum += weight * control_solved[other].xyz;
         interior += weight;
-        for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
-            let image = mirrored(near, mirror, there.xyz);
-            if (!image.is_there) {
-                continue;
-            }
-            let offset = point - image.position;
+    }
+    for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
+        let by = mirror_of(near, mirror);
+        for (var k = share.first; k < end && by.is_there; k += SHARES) {
+            let other = fluid_controls[row + (k + 1u) * rows];
+            let node = control_solved[other];
+            let offset = point - mirrored(by, control_position[other].xyz);
             let u = closeness(params.solid, dot(offset, offset));
             let apart = (node.w * (u * u * u)) * offset;
-            let v = image.signs * node.xyz;
+            let v = by.signs * node.xyz;
             moment += apart;
             on += v * apart;
             off += v.yzx * apart.zxy + v.zxy * apart.yzx;
         }
     }
+    let all = share_sum(lane, vec4<f32>(sum, interior));
+    moment = share_sum3(lane, moment);
+    on = share_sum3(lane, on);
+    off = share_sum3(lane, off);
+    if (!share.writes || end == 0u) {
+        return;
+    }
     let mobility = fluid_mobility[row].x;
-    let own = mobility * fluid_correction[row].xyz + ((1.0 - mobility) * weight_inside(interior)) * sum;
+    let own = mobility * fluid_correction[row].xyz + ((1.0 - mobility) * weight_inside(all.w)) * all.xyz;
     on -= own * moment;
     off -= own.yzx * moment.zxy + own.zxy * moment.yzx;
     let rate = dot(on, fluid_renormalisation[row].xyz) + dot(off, fluid_renormalisation_between[row].xyz);

@@ -1,4 +1,4 @@
-// #include smoothing
+// #include smoothing, shares
 // Compliance of the material of the sponge to the pressure change of a solve; `solid_yield.rs` has the reason.
 //
 //     y_i = 2 f_i sum_j c_ij f_j (dP_j - dP_i)
@@ -16,26 +16,28 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let own = fluid_predicted[row];
     let follows = fluid_drag_rate[row].z;
     var sum = 0.0;
     if (follows > 0.0) {
         let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
         let end = fluid_neighbors[row];
-        var slot = row;
-        for (var k = 0u; k < end; k += 1u) {
-            slot += rows;
-            let other = fluid_neighbors[slot];
+        for (var k = share.first; k < end; k += SHARES) {
+            let other = fluid_neighbors[row + (k + 1u) * rows];
             let there = fluid_predicted[other];
             let apart = own.xyz - there.xyz;
             let u = closeness(params.smoothing, dot(apart, apart));
             sum += gradient * (u * u * u) * fluid_drag_rate[other].z * (there.w - own.w);
         }
     }
-    fluid_solid_yield[row] = 2.0 * follows * sum;
+    let all = share_sum(lane, vec4<f32>(sum, 0.0, 0.0, 0.0)).x;
+    if (share.writes) {
+        fluid_solid_yield[row] = 2.0 * follows * all;
+    }
 }

@@ -1,4 +1,4 @@
-// #include smoothing
+// #include smoothing, shares
 // Suction: the pressure force with control nodes in place of particles.
 //
 //     F_i = -V_0 sum_a V_a p_a grad W_ia
@@ -17,23 +17,25 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let end = fluid_controls[row];
-    var slot = row;
     var sum = vec3<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_controls[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_controls[row + (k + 1u) * rows];
         let apart = point - control_position[other].xyz;
         let u = closeness(params.coupling, dot(apart, apart));
         sum += (control_suction[other] * (u * u * u)) * apart;
     }
-    let before = fluid_acceleration[row];
-    let scale = params.coupling.gradient * (1.0 / params.rest_density);
-    fluid_acceleration[row] = vec4<f32>(before.xyz + sum * scale, before.w);
+    let all = share_sum3(lane, sum);
+    if (share.writes) {
+        let before = fluid_acceleration[row];
+        let scale = params.coupling.gradient * (1.0 / params.rest_density);
+        fluid_acceleration[row] = vec4<f32>(before.xyz + all * scale, before.w);
+    }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // Velocities by the pressure of each other; `acceleration.rs` has the formula.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -17,23 +17,26 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let own = fluid_predicted[row];
-    var sum = own.w * fluid_factors[row].xyz;
+    var sum = vec3<f32>(0.0);
     let end = fluid_neighbors[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_neighbors[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_neighbors[row + (k + 1u) * rows];
         let there = fluid_predicted[other];
         let apart = apart_from(own.xyz, there.xyz);
         let along = fluid_renormalisation[other].xyz;
         let between = fluid_renormalisation_between[other].xyz;
         sum += (pair_factor(apart) * there.w) * symmetric_times(along, between, apart);
     }
-    fluid_correction[row] = vec4<f32>(fluid_velocity[row].xyz + clock.step * sum, 0.0);
+    let all = share_sum3(lane, sum);
+    if (share.writes) {
+        let push = own.w * fluid_factors[row].xyz + all;
+        fluid_correction[row] = vec4<f32>(fluid_velocity[row].xyz + clock.step * push, 0.0);
+    }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // First pass of `divergence::acceleration`: what images in bodies receive by the pressure.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -17,22 +17,24 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= image_grid.rows) {
+    if (clock.running == 0u || group_of(group, groups) * (GROUP / SHARES) >= image_grid.rows) {
         return;
     }
+    let share = shared_row(group, groups, lane, image_grid.rows);
+    let row = share.row;
     let point = image_position[row];
     var sum = vec3<f32>(0.0);
     let end = image_particles[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += params.image_capacity;
-        let other = image_particles[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = image_particles[row + (k + 1u) * params.image_capacity];
         let there = fluid_predicted[other];
         let apart = apart_from(point.xyz, there.xyz);
         let along = fluid_renormalisation[other].xyz;
         let between = fluid_renormalisation_between[other].xyz;
         sum += (pair_factor(apart) * there.w) * symmetric_times(along, between, apart);
     }
-    image_forces[row] = vec4<f32>(sum * point.w, 0.0);
+    let all = share_sum3(lane, sum);
+    if (share.writes) {
+        image_forces[row] = vec4<f32>(all * point.w, 0.0);
+    }
 }

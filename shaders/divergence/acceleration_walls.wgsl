@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // What the images in walls, which mirror the pressure, add to the velocities.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -17,18 +17,17 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_predicted[row].xyz;
     var sum = vec3<f32>(0.0);
     let end = fluid_near_images[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_near_images[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_near_images[row + (k + 1u) * rows];
         let image = images[other];
         if (image.body != NO_BODY) {
             continue;
@@ -38,5 +37,8 @@ fn main(
         let between = mirrored_between(image, fluid_renormalisation_between[image.source].xyz);
         sum += (pair_factor(apart) * fluid_predicted[image.source].w) * symmetric_times(along, between, apart);
     }
-    fluid_correction[row] += vec4<f32>(clock.step * sum, 0.0);
+    let all = share_sum3(lane, sum);
+    if (share.writes) {
+        fluid_correction[row] += vec4<f32>(clock.step * all, 0.0);
+    }
 }

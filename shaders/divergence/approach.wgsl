@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // Mean velocity of the neighbours and images along the lines to them; `approach.rs` has the formula.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -17,30 +17,30 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let own = fluid_velocity[row].xyz;
     var sum = vec3<f32>(0.0);
     let end = fluid_neighbors[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_neighbors[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_neighbors[row + (k + 1u) * rows];
         let apart = apart_from(point, fluid_position[other].xyz);
         sum += (pair_factor(apart) * dot(fluid_velocity[other].xyz - own, apart)) * apart;
     }
     let seen = fluid_near_images[row];
-    slot = row;
-    for (var k = 0u; k < seen; k += 1u) {
-        slot += rows;
-        let other = fluid_near_images[slot];
+    for (var k = share.first; k < seen; k += SHARES) {
+        let other = fluid_near_images[row + (k + 1u) * rows];
         let there = image_position[other];
         let apart = apart_from(point, there.xyz);
         sum += (there.w * pair_factor(apart) * dot(fluid_image_vectors[other].xyz - own, apart)) * apart;
     }
-    fluid_approach[row] = vec4<f32>(sum / params.lattice_moment, 0.0);
+    let all = share_sum3(lane, sum);
+    if (share.writes) {
+        fluid_approach[row] = vec4<f32>(all / params.lattice_moment, 0.0);
+    }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // Second pass of `divergence::hydrostatic`: by the images in the list of the particle, and by the counterparts of those in walls.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -22,19 +22,18 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     var own = vec3<f32>(0.0);
     var mirrored = vec3<f32>(0.0);
     let end = fluid_near_images[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_near_images[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_near_images[row + (k + 1u) * rows];
         let image = images[other];
         let there = image_position[other];
         let apart = apart_from(point, there.xyz);
@@ -48,7 +47,10 @@ fn main(
             mirrored += symmetric_times(along, between, push) * difference(walls + (signs - 1.0) * point);
         }
     }
-    let before = fluid_acceleration[row];
-    let sum = symmetric_times(fluid_renormalisation[row].xyz, fluid_renormalisation_between[row].xyz, own) + mirrored;
-    fluid_acceleration[row] = vec4<f32>(before.xyz + sum, before.w);
+    let part = symmetric_times(fluid_renormalisation[row].xyz, fluid_renormalisation_between[row].xyz, own) + mirrored;
+    let sum = share_sum3(lane, part);
+    if (share.writes) {
+        let before = fluid_acceleration[row];
+        fluid_acceleration[row] = vec4<f32>(before.xyz + sum, before.w);
+    }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // First pass of `divergence::hydrostatic`: what images in bodies receive.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -23,22 +23,24 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= image_grid.rows) {
+    if (clock.running == 0u || group_of(group, groups) * (GROUP / SHARES) >= image_grid.rows) {
         return;
     }
+    let share = shared_row(group, groups, lane, image_grid.rows);
+    let row = share.row;
     let point = image_position[row];
     var sum = vec3<f32>(0.0);
     let end = image_particles[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += params.image_capacity;
-        let other = image_particles[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = image_particles[row + (k + 1u) * params.image_capacity];
         let apart = apart_from(point.xyz, fluid_position[other].xyz);
         let along = fluid_renormalisation[other].xyz;
         let between = fluid_renormalisation_between[other].xyz;
         sum += pair_factor(apart) * symmetric_times(along, between, apart);
     }
-    let d = difference(point.xyz - fluid_position[images[row].source].xyz);
-    image_forces[row] = vec4<f32>(sum * (point.w * d), 0.0);
+    let all = share_sum3(lane, sum);
+    if (share.writes) {
+        let d = difference(point.xyz - fluid_position[images[row].source].xyz);
+        image_forces[row] = vec4<f32>(all * (point.w * d), 0.0);
+    }
 }

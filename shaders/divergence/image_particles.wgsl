@@ -1,4 +1,4 @@
-// #include grid, ball
+// #include grid, shares, ball
 // For every image in a body, the particles within the support radius; none for those in walls alone. `list[row]` is their number,
 // `list[(k + 1) * capacity + row]` the k-th.
 
@@ -13,17 +13,18 @@
 @group(0) @binding(8) var<storage, read_write> image_particles: array<u32>;
 @group(0) @binding(9) var<storage, read_write> extremes: array<atomic<u32>>;
 
+var<private> list_row: u32;
+// Where the list goes on, and how many were found since.
+var<private> first_slot: u32;
 var<private> found: u32;
-var<private> slot: u32;
 
 fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
     let radius = params.smoothing.support_radius;
     for (var other = begin; other < end; other += 1u) {
         let apart = point - fluid_position[other].xyz;
         if (dot(apart, apart) < radius * radius) {
-            if (found < params.image_particle_capacity) {
-                slot += params.image_capacity;
-                image_particles[slot] = other;
+            if (first_slot + found < params.image_particle_capacity) {
+                image_particles[list_row + (first_slot + found + 1u) * params.image_capacity] = other;
             }
             found += 1u;
         }
@@ -36,17 +37,33 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= image_grid.rows) {
+    if (clock.running == 0u || group_of(group, groups) * (GROUP / SHARES) >= image_grid.rows) {
         return;
     }
-    found = 0u;
-    slot = row;
-    if (images[row].body != NO_BODY) {
-        visit_near(image_position[row].xyz, params.smoothing.support_radius);
+    let share = shared_row(group, groups, lane, image_grid.rows);
+    let point = image_position[share.row].xyz;
+    let radius = params.smoothing.support_radius;
+    let is_in_body = images[share.row].body != NO_BODY;
+    list_row = share.row;
+    if (SHARES > 1u) {
+        // Threads that share a row count first.
+        first_slot = params.image_particle_capacity;
+        if (is_in_body) {
+            visit_near(point, radius, share.first);
+        }
+        first_slot = share_before(lane, found);
     }
-    image_particles[row] = found;
-    if (found > params.image_particle_capacity) {
-        atomicMax(&extremes[EXTREME_IMAGE_PARTICLES], found);
+    let before = first_slot;
+    first_slot = select(params.image_particle_capacity, before, share.is_row);
+    found = 0u;
+    if (is_in_body) {
+        visit_near(point, radius, share.first);
+    }
+    if (share.is_row && share.first == SHARES - 1u) {
+        let all = before + found;
+        image_particles[share.row] = all;
+        if (all > params.image_particle_capacity) {
+            atomicMax(&extremes[EXTREME_IMAGE_PARTICLES], all);
+        }
     }
 }

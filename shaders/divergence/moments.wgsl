@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // Moments of the neighbourhoods with the images, and the divergence that errors of the density ask for; `moments.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -50,11 +50,12 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     var first = vec3<f32>(0.0);
     var along = vec3<f32>(0.0);
@@ -64,10 +65,8 @@ fn main(
     var squares = vec3<f32>(0.0);
     var squares_between = vec3<f32>(0.0);
     let end = fluid_neighbors[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_neighbors[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_neighbors[row + (k + 1u) * rows];
         let offset = -apart_from(point, fluid_position[other].xyz);
         let push = pair_factor(offset) * offset;
         first += push;
@@ -78,10 +77,8 @@ fn main(
         shapes += shape(closeness(params.smoothing, dot(offset, offset)));
     }
     let seen = fluid_near_images[row];
-    slot = row;
-    for (var k = 0u; k < seen; k += 1u) {
-        slot += rows;
-        let other = fluid_near_images[slot];
+    for (var k = share.first; k < seen; k += SHARES) {
+        let other = fluid_near_images[row + (k + 1u) * rows];
         let there = image_position[other];
         let offset = -apart_from(point, there.xyz);
         let push = (there.w * pair_factor(offset)) * offset;
@@ -91,6 +88,16 @@ fn main(
         squares += push * push;
         squares_between += push.yzx * push.zxy;
         shapes += there.w * shape(closeness(params.smoothing, dot(offset, offset)));
+    }
+    let all_first = share_sum(lane, vec4<f32>(first, shapes));
+    first = all_first.xyz;
+    shapes = all_first.w;
+    along = share_sum3(lane, along);
+    between = share_sum3(lane, between);
+    squares = share_sum3(lane, squares);
+    squares_between = share_sum3(lane, squares_between);
+    if (!share.writes) {
+        return;
     }
     let volume = params.particle_mass / params.rest_density;
     // Beginning with the material of sponges.

@@ -1,4 +1,4 @@
-// #include grid, ball
+// #include grid, shares, ball
 // For every particle, the images within the support radius; the list has the layout of `fluid_neighbors.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -11,8 +11,10 @@
 @group(0) @binding(7) var<storage, read_write> fluid_near_images: array<u32>;
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
 
+var<private> list_row: u32;
+// Where the list goes on, and how many were found since.
+var<private> first_slot: u32;
 var<private> found: u32;
-var<private> slot: u32;
 
 fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
     let radius = params.smoothing.support_radius;
@@ -20,9 +22,8 @@ fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
         let image = image_order[place];
         let apart = point - points[image].xyz;
         if (dot(apart, apart) < radius * radius) {
-            if (found < params.near_image_capacity) {
-                slot += params.fluid_rows;
-                fluid_near_images[slot] = image;
+            if (first_slot + found < params.near_image_capacity) {
+                fluid_near_images[list_row + (first_slot + found + 1u) * params.fluid_rows] = image;
             }
             found += 1u;
         }
@@ -35,15 +36,28 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let share = shared_row(group, groups, lane, params.fluid_rows);
+    let point = fluid_position[share.row].xyz;
+    let radius = params.smoothing.support_radius;
+    list_row = share.row;
+    if (SHARES > 1u) {
+        // Threads that share a row count first.
+        first_slot = params.near_image_capacity;
+        visit_near(point, radius, share.first);
+        first_slot = share_before(lane, found);
+    }
+    let before = first_slot;
+    first_slot = select(params.near_image_capacity, before, share.is_row);
     found = 0u;
-    slot = row;
-    visit_near(fluid_position[row].xyz, params.smoothing.support_radius);
-    fluid_near_images[row] = found;
-    if (found > params.near_image_capacity) {
-        atomicMax(&extremes[EXTREME_NEAR_IMAGES], found);
+    visit_near(point, radius, share.first);
+    if (share.is_row && share.first == SHARES - 1u) {
+        let all = before + found;
+        fluid_near_images[share.row] = all;
+        if (all > params.near_image_capacity) {
+            atomicMax(&extremes[EXTREME_NEAR_IMAGES], all);
+        }
     }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // Rate at which neighbours come closer: the opposite of the renormalised divergence, particles alone. `rate_images.wgsl` adds the images.
 //
 //     -div v_i = sum_j c_ij (v_j - v_i) . L_i x_ij
@@ -18,21 +18,20 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let moved = fluid_correction[row];
     let own = moved.xyz;
     var on = vec3<f32>(0.0);
     var off = vec3<f32>(0.0);
     let end = fluid_neighbors[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_neighbors[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_neighbors[row + (k + 1u) * rows];
         let offset = apart_from(point, fluid_position[other].xyz);
         let apart = pair_factor(offset) * offset;
         let v = fluid_correction[other].xyz - own;
@@ -41,6 +40,9 @@ fn main(
     }
     let along = fluid_renormalisation[row].xyz;
     let between = fluid_renormalisation_between[row].xyz;
-    // Beside the velocity is the part of the material of sponges.
-    fluid_rate[row] = dot(on, along) + dot(off, between) + moved.w;
+    let rate = share_sum(lane, vec4<f32>(dot(on, along) + dot(off, between), 0.0, 0.0, 0.0)).x;
+    if (share.writes) {
+        // Beside the velocity is the part of the material of sponges.
+        fluid_rate[row] = rate + moved.w;
+    }
 }

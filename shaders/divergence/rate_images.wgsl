@@ -1,4 +1,4 @@
-// #include smoothing, images, image
+// #include smoothing, images, image, shares
 // The part of the images in the rate of `rate.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -18,20 +18,19 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    if (clock.running == 0u || row >= params.fluid_rows) {
+    if (clock.running == 0u) {
         return;
     }
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let own = fluid_correction[row].xyz;
     var on = vec3<f32>(0.0);
     var off = vec3<f32>(0.0);
     let end = fluid_near_images[row];
-    var slot = row;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_near_images[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_near_images[row + (k + 1u) * rows];
         let there = image_position[other];
         let offset = apart_from(point, there.xyz);
         let apart = (there.w * pair_factor(offset)) * offset;
@@ -41,5 +40,8 @@ fn main(
     }
     let along = fluid_renormalisation[row].xyz;
     let between = fluid_renormalisation_between[row].xyz;
-    fluid_rate[row] += dot(on, along) + dot(off, between);
+    let rate = share_sum(lane, vec4<f32>(dot(on, along) + dot(off, between), 0.0, 0.0, 0.0)).x;
+    if (share.writes) {
+        fluid_rate[row] += rate;
+    }
 }

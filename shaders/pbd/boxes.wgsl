@@ -26,7 +26,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     lows[lane] = low;
     highs[lane] = high;
-    for (var half = 64u; half > 0u; half = half / 2u) {
+    for (var half = SPONGE_THREADS / 2u; half > 0u; half = half / 2u) {
         workgroupBarrier();
         if (lane < half) {
             lows[lane] = min(lows[lane], lows[lane + half]);

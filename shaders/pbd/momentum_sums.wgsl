@@ -24,7 +24,8 @@ struct Sums {
     angular: vec3<f32>,
 }
 
-var<workgroup> sums: array<Sums, SPONGE_THREADS>;
+// Half of the threads add their own to those of the others: all of them would not fit.
+var<workgroup> sums: array<Sums, SPONGE_THREADS / 2u>;
 
 // Whether a sponge is corrected together with another.
 fn is_joined(own: u32, other: u32) -> bool {
@@ -78,7 +79,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let origin = node_position[sponge_ranges[first * RANGES].x].xyz;
     var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
-    for (var index = first * VERTEX_COLORS; index < SPONGES * VERTEX_COLORS; index += 1u) {
+    let end = arrayLength(&sponge_ranges) / RANGES * VERTEX_COLORS;
+    for (var index = first * VERTEX_COLORS; index < end; index += 1u) {
         let sponge = index / VERTEX_COLORS;
         if (sponge == group.x || is_joined(group.x, sponge)) {
             let range = sponge_ranges[sponge * RANGES + index % VERTEX_COLORS];
@@ -87,8 +89,15 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
             }
         }
     }
-    sums[lane] = own;
-    for (var half = 64u; half > 0u; half = half / 2u) {
+    let middle = SPONGE_THREADS / 2u;
+    if (lane >= middle) {
+        sums[lane - middle] = own;
+    }
+    workgroupBarrier();
+    if (lane < middle) {
+        sums[lane] = join(own, sums[lane]);
+    }
+    for (var half = middle / 2u; half > 0u; half = half / 2u) {
         workgroupBarrier();
         if (lane < half) {
             sums[lane] = join(sums[lane], sums[lane + half]);

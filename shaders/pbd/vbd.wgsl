@@ -1,4 +1,4 @@
-// #include body, surface, sweep, sponges, descent
+// #include body, surface, sweep, sponges, descent, shares
 // Vertex block descent for the nodes of one vertex colour; `vbd.rs` has the formulas. Neighbours have other colours.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -12,24 +12,30 @@
 @group(0) @binding(8) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_predicted: array<vec4<f32>>;
 
-@compute @workgroup_size(GROUP_THREADS)
+@compute @workgroup_size(GROUP)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = row_of(group, groups, lane);
-    if (clock.running == 0u || index >= batch.count) {
+    if (clock.running == 0u) {
         return;
     }
-    let row = batch.first + index;
+    let share = shared_row(group, groups, lane, batch.count);
+    let row = batch.first + share.row;
     let sponge = sponges.all[node_stars[row * STAR_WORDS + STAR_SPONGE]];
     let x = node_predicted[row];
-    if (x.w <= 0.0 || sponge.solver != SOLVER_VBD) {
+    let moves = x.w > 0.0 && sponge.solver == SOLVER_VBD;
+    let old = node_position[row].xyz;
+    var part = no_energy();
+    if (moves) {
+        part = material_energy(row, x.xyz, old, sponge, clock.step, share.first, SHARES);
+    }
+    let material = all_of(lane, part);
+    if (!moves || !share.writes) {
         return;
     }
-    let old = node_position[row].xyz;
-    let local = local_energy(row, x.xyz, old, sponge, clock.step);
+    let local = with_touch(row, material);
     let quadratic = minimum(local, x.xyz, node_target[row], clock.step);
     var relaxation = 1.0;
     let edges = quadratic.way / sponge.edge;
@@ -46,6 +52,23 @@ fn main(
         point = pushed(quadratic, moved(x.xyz, quadratic.way), old, sponge);
     }
     node_predicted[row] = vec4<f32>(point, x.w);
+}
+
+fn no_energy() -> Local {
+    return Local(vec3<f32>(0.0), mat3x3<f32>(), 0.0);
+}
+
+// The sums over the threads of a node, whose stiffness is symmetric.
+fn all_of(lane: u32, part: Local) -> Local {
+    let force = share_sum3(lane, part.force);
+    let on = share_sum3(lane, vec3<f32>(part.stiffness[0].x, part.stiffness[1].y, part.stiffness[2].z));
+    let off = share_sum3(lane, vec3<f32>(part.stiffness[1].z, part.stiffness[0].z, part.stiffness[0].y));
+    let stiffness = mat3x3<f32>(
+        vec3<f32>(on.x, off.z, off.y),
+        vec3<f32>(off.z, on.y, off.x),
+        vec3<f32>(off.y, off.x, on.z),
+    );
+    return Local(force, stiffness, share_maximum(lane, part.strain));
 }
 
 // Adds a way to a point with stochastic rounding, with a probability in proportion to the remainder; see `vbd.rs`.

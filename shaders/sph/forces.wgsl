@@ -1,4 +1,4 @@
-// #include smoothing, images
+// #include smoothing, images, shares
 // Acceleration by gravity, pressure and viscosity.
 //
 //     a_i = g - sum_j m (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij + mu / rho_i sum_j V_j (v_j - v_i) lap W_visc(r_ij)
@@ -18,15 +18,15 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let own = fluid_position[row];
     let own_velocity = fluid_velocity[row];
     let end = fluid_neighbors[row];
-    var slot = row;
     var push = vec3<f32>(0.0);
     var pull = vec3<f32>(0.0);
     var central = vec3<f32>(0.0);
@@ -37,9 +37,8 @@ fn main(
     let own_volume = select(own_velocity.w, rest_volume, is_known);
     let softening = SOFTENING * params.smoothing.support_radius * params.smoothing.support_radius;
     let weight = params.gravity / params.rest_density;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_neighbors[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_neighbors[row + (k + 1u) * rows];
         let there = fluid_position[other];
         let its_velocity = fluid_velocity[other];
         let apart = apart_from(own.xyz, there.xyz);
@@ -63,6 +62,9 @@ fn main(
     let viscosity_scale = params.smoothing.viscosity * (params.viscosity / params.particle_mass) * own_volume;
     let central_scale =
         params.smoothing.gradient * (10.0 * params.central_viscosity / params.particle_mass) * own_volume;
-    let sum = push * pressure_scale + pull * viscosity_scale + central * central_scale + params.gravity;
-    fluid_acceleration[row] = vec4<f32>(sum, roughness * (pressure_scale * params.roughness));
+    let part = push * pressure_scale + pull * viscosity_scale + central * central_scale;
+    let sum = share_sum(lane, vec4<f32>(part, roughness * (pressure_scale * params.roughness)));
+    if (share.writes) {
+        fluid_acceleration[row] = vec4<f32>(sum.xyz + params.gravity, sum.w);
+    }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, middle, roughness, images
+// #include smoothing, middle, roughness, images, shares
 // Iteration of the pressure solve: acceleration by the change of the pressure since the beginning of the step.
 //
 //     a_i = dP_i B_i + sum_j c_ij dP_j x_ij,   w_i = a_i . x_i - b e / h^2 dP_i
@@ -16,24 +16,27 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let own = fluid_predicted[row];
     let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
     let end = fluid_neighbors[row];
-    var slot = row;
-    var sum = vec3<f32>(0.0);
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let there = fluid_predicted[fluid_neighbors[slot]];
+    var part = vec3<f32>(0.0);
+    for (var k = share.first; k < end; k += SHARES) {
+        let there = fluid_predicted[fluid_neighbors[row + (k + 1u) * rows]];
         let apart = apart_from(own.xyz, there.xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
-        sum += (gradient * (u * u * u) * there.w) * apart;
+        part += (gradient * (u * u * u) * there.w) * apart;
     }
-    sum += own.w * fluid_factors[row].xyz;
+    let all = share_sum3(lane, part);
+    if (!share.writes) {
+        return;
+    }
+    let sum = all + own.w * fluid_factors[row].xyz;
     let roughness = prompt_roughness() / (clock.step * clock.step);
     fluid_correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()) - own.w * roughness);
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images
+// #include smoothing, images, shares
 // Surface tension from the colour field.
 //
 //     n = sum_j V_j grad W_ij,   a_i -= sigma / rho_i (sum_j V_j lap W_ij) n / |n|   where |n| H > 1
@@ -16,29 +16,32 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u) {
         return;
     }
+    let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     let point = fluid_position[row].xyz;
     let end = fluid_neighbors[row];
-    var slot = row;
     var slopes = vec3<f32>(0.0);
     var laplacian = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let other = fluid_neighbors[slot];
+    for (var k = share.first; k < end; k += SHARES) {
+        let other = fluid_neighbors[row + (k + 1u) * rows];
         let apart = apart_from(point, fluid_position[other].xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
         let weight = fluid_velocity[other].w * u * u;
         slopes -= (weight * u) * apart;
         laplacian -= weight * (u + u - 1.0);
     }
-    let normal = slopes * params.smoothing.gradient;
+    let all = share_sum(lane, vec4<f32>(slopes, laplacian));
+    if (!share.writes) {
+        return;
+    }
+    let normal = all.xyz * params.smoothing.gradient;
     let length = sqrt(dot(normal, normal));
     if (length > SURFACE_THRESHOLD / params.smoothing.support_radius) {
-        let strength = laplacian * params.smoothing.laplacian * fluid_velocity[row].w
+        let strength = all.w * params.smoothing.laplacian * fluid_velocity[row].w
             * (params.surface_tension / params.particle_mass);
         let own = fluid_acceleration[row];
         fluid_acceleration[row] = vec4<f32>(own.xyz - (strength / length) * normal, own.w);

@@ -162,6 +162,12 @@ impl Device {
         }
     }
 
+    /// Whether a step has iterations that end when they have converged.
+    pub(crate) fn has_rounds(&self) -> bool {
+        let mut stages = self.shares.segments.iter().flat_map(|share| &share.stages);
+        stages.any(|stage| matches!(stage, Stage::Rounds { .. }))
+    }
+
     /// Requests the columns that the host reads; none if there is nothing on the device.
     pub(crate) fn ask(&self) -> Result<Option<Pending>, GpuError> {
         self.resident.as_ref().map(|on| on.resident.ask(&self.looked_at)).transpose()

@@ -58,7 +58,7 @@ impl World {
         })
     }
 
-    /// All steps of a frame in one or two submissions, if no bodies move in between and no part sleeps.
+    /// Steps that fill a frame: all in one submission, if no bodies move in between, no part sleeps, and nothing is iterated.
     fn fill_frame(&mut self) -> Result<FrameReport, StepError> {
         let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
         let mut report = FrameReport {
@@ -115,9 +115,11 @@ impl World {
     fn steps_to(&self, end: f64) -> u32 {
         // Fixed bodies need no host.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
-        // Awake parts may come near sleeping ones in any step; gravity is set anew for every step.
+        // Awake parts may come near sleeping ones in any step; gravity is set anew for every step. Where rounds do not suffice, the
+        // steps behind would leave at once, at the cost of all their barriers.
         let is_carried = self.is_carried(self.clock.time, end);
-        if is_moved || is_carried || self.sleep.dormant() != Dormant::default() {
+        let has_rounds = self.stores.device.as_ref().is_some_and(Device::has_rounds);
+        if is_moved || is_carried || has_rounds || self.sleep.dormant() != Dormant::default() {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);

@@ -40,6 +40,7 @@ pub(super) struct Summary {
 struct Phase {
     name: &'static str,
     ms_median: f32,
+    ms_total: f64,
     calls: u64,
     skipped: bool,
     why: Option<&'static str>,
@@ -128,6 +129,7 @@ fn phases(world: &World) -> Vec<Phase> {
         phases.push(Phase {
             name: line.name,
             ms_median: time.map_or(0.0, |time| time.median_ms()),
+            ms_total: time.map_or(0.0, |time| time.total_s * 1e3),
             calls: time.map_or(0, |time| time.calls),
             skipped: why.is_some(),
             why,

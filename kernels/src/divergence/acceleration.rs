@@ -40,10 +40,10 @@ declare! {
     oracle: crate::oracle::divergence::acceleration,
     bound: 1e-5,
     twin: [
-        pass("divergence::acceleration_images", Images),
+        pass("divergence::acceleration_images", ImagesOfBodies),
         pass(NAME, Fluid),
         pass("divergence::acceleration_walls", Fluid),
-        pass("divergence::image_reaction", Fluid).from("push").on(&[
+        pass("divergence::image_reaction", FluidBesideBodies).from("push").on(&[
             ("points", "fluid_predicted"),
             ("vectors", "fluid_correction"),
             ("wrenches", "body_pressure_wrenches"),

@@ -43,7 +43,7 @@ declare! {
             ("angular", "body_expected_spin"),
         ]),
         pass(NAME, Fluid),
-        pass("divergence::damping_bodies", Fluid),
+        pass("divergence::damping_bodies", FluidBesideBodies),
     ],
     constants: {
         /// Largest part of a difference that is damped in a step.

@@ -38,9 +38,9 @@ declare! {
     oracle: crate::oracle::divergence::hydrostatic,
     bound: 1e-5,
     twin: [
-        pass("divergence::hydrostatic_images", Images),
+        pass("divergence::hydrostatic_images", ImagesOfBodies),
         pass(NAME, Fluid),
-        pass("divergence::image_reaction", Fluid).on(&[
+        pass("divergence::image_reaction", FluidBesideBodies).on(&[
             ("points", "fluid_position"),
             ("vectors", "fluid_acceleration"),
             ("wrenches", "body_fluid_wrenches"),

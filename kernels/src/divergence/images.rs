@@ -37,7 +37,7 @@ declare! {
         pass("grid::scatter", Images).on(IMAGE_CELLS),
         pass("divergence::image_order", Images).on(IMAGE_CELLS),
         pass("divergence::near_images", Fluid).on(IMAGE_CELLS),
-        pass("divergence::image_particles", Images).on(FLUID_CELLS),
+        pass("divergence::image_particles", ImagesOfBodies).on(FLUID_CELLS),
         CHECK,
     ],
 }

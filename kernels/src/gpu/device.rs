@@ -8,7 +8,10 @@ use std::{
 
 use wgpu::{Adapter, AdapterInfo, Backends, Device, DeviceType, Features, Instance, Limits, Queue};
 
-use super::{error::GpuError, pipeline::Pipeline};
+use super::{
+    error::GpuError,
+    pipeline::{Pipeline, Threads},
+};
 
 /// What is known of an adapter of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,8 +82,8 @@ pub fn required_limits(adapter: &Adapter) -> Limits {
     }
 }
 
-/// Pipelines by shader, entry point and threads of a group.
-type Pipelines = BTreeMap<(&'static str, &'static str, u32), Arc<Pipeline>>;
+/// Pipelines by shader, entry point and threads.
+type Pipelines = BTreeMap<(&'static str, &'static str, Threads), Arc<Pipeline>>;
 
 /// A device to run kernels on, and the pipelines compiled for it so far. Worlds can share one.
 pub struct Gpu {

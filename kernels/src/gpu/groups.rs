@@ -10,13 +10,28 @@ constants! {
     /// Controls of a group.
     pub(super) const CONTROLS_PER_GROUP: u32 = GROUP_THREADS / CONTROL_THREADS;
     /// Threads of a group for each sponge.
-    pub(super) const SPONGE_THREADS: u32 = 128;
+    pub(super) const SPONGE_THREADS: u32 = 256;
 }
 
 /// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP_THREADS`].
-pub(super) const SMALL_GROUP_THREADS: u32 = 64;
+const SMALL_GROUP_THREADS: u32 = 64;
 /// Rows from which on groups are not small.
-pub(super) const SMALL_GROUP_ROWS: u64 = 65_536;
+const SMALL_GROUP_ROWS: u64 = 65_536;
+/// Threads that keep a device busy.
+const BUSY_THREADS: u64 = 131_072;
+/// Most threads that share a row.
+const MAXIMUM_SHARES: u64 = 16;
+
+/// Threads of a group of a pass over this many rows.
+pub(super) const fn group_of(rows: u64) -> u32 {
+    if rows < SMALL_GROUP_ROWS { SMALL_GROUP_THREADS } else { GROUP_THREADS }
+}
+
+/// Threads that share a row of a pass over this many rows: a power of two.
+pub(super) fn shares_of(rows: u64) -> u32 {
+    let shares = (BUSY_THREADS / rows.max(1)).clamp(1, MAXIMUM_SHARES);
+    1 << shares.ilog2()
+}
 
 /// Groups of a pass over this many rows.
 pub(super) const fn groups_of(rows: usize) -> usize {

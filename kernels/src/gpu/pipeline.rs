@@ -9,10 +9,24 @@ use super::{device::Gpu, error::GpuError, wgsl};
 
 /// The constant of `rows.wgsl` for the threads of a group.
 const GROUP: &str = "GROUP";
+/// The constant of `shares.wgsl` for the threads of a row.
+const SHARES: &str = "SHARES";
 
 /// Whether the groups of a pass can have any number of threads; else they have 256, or one.
 pub(super) fn has_any_group(source: &str) -> bool {
     source.contains("@workgroup_size(GROUP)")
+}
+
+/// Whether several threads can share a row of a pass.
+pub(super) fn has_shares(source: &str) -> bool {
+    source.contains("override SHARES")
+}
+
+/// Threads of a group, and how many of them share a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Threads {
+    pub(super) group: u32,
+    pub(super) shares: u32,
 }
 
 /// One binding of a pass.
@@ -62,9 +76,9 @@ impl Gpu {
         &self,
         shader: &'static str,
         entry: &'static str,
-        group: u32,
+        threads: Threads,
     ) -> Result<Arc<Pipeline>, GpuError> {
-        let key = (shader, entry, group);
+        let key = (shader, entry, threads);
         if let Some(found) = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
             return Ok(Arc::clone(found));
         }
@@ -72,12 +86,12 @@ impl Gpu {
         let text = subgroups
             .or_else(|| sorb_shaders::shader(shader))
             .ok_or_else(|| GpuError::Refused { reason: format!("there is no shader {shader}") })?;
-        let made = Arc::new(self.guarded(None, || self.compile(text, entry, group))?);
+        let made = Arc::new(self.guarded(None, || self.compile(text, entry, threads))?);
         let mut all = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         Ok(Arc::clone(all.entry(key).or_insert(made)))
     }
 
-    pub(super) fn compile(&self, shader: &'static Shader, entry: &'static str, group: u32) -> Pipeline {
+    pub(super) fn compile(&self, shader: &'static Shader, entry: &'static str, threads: Threads) -> Pipeline {
         let bindings = bindings(shader.source);
         let entries: Vec<_> = bindings
             .iter()
@@ -106,7 +120,13 @@ impl Gpu {
             label: Some(shader.name),
             source: wgpu::ShaderSource::Wgsl(wgsl::complete(shader.source).into()),
         });
-        let constants = [(GROUP, f64::from(group))];
+        let mut constants = Vec::new();
+        if has_any_group(shader.source) {
+            constants.push((GROUP, f64::from(threads.group)));
+        }
+        if has_shares(shader.source) {
+            constants.push((SHARES, f64::from(threads.shares)));
+        }
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(shader.name),
             layout: Some(&pipeline_layout),
@@ -115,7 +135,7 @@ impl Gpu {
             compilation_options: wgpu::PipelineCompilationOptions {
                 // Every workgroup variable is written before it is read.
                 zero_initialize_workgroup_memory: false,
-                constants: if has_any_group(shader.source) { &constants } else { &[] },
+                constants: &constants,
             },
             cache: None,
         });

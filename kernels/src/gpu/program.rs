@@ -7,11 +7,11 @@ use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 use super::{
     cells::ONE_GROUP_PAGES,
     error::GpuError,
-    groups::{CONTROLS_PER_GROUP, GROUP_THREADS, SMALL_GROUP_ROWS, SMALL_GROUP_THREADS},
+    groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of},
     layout::Value,
     lists::IMAGES,
     pack::{BATCH_STRIDE, BATCHES, Batch, Repetition},
-    pipeline::{Pipeline, has_any_group},
+    pipeline::{Pipeline, Threads, has_any_group, has_shares},
     resident::Resident,
     twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows},
 };
@@ -104,15 +104,13 @@ impl Program {
         })
     }
 
-    /// Plans a few rounds more than were needed, and fewer again if that is far too many.
+    /// Plans one round more than were needed: one that leaves at once costs as much as its barriers, one that is missing costs
+    /// an answer. A step that is encoded already stays, unless more rounds were needed than it has.
     pub(super) fn expect(&mut self, needed: [u32; REPETITIONS]) {
         let mut grew = false;
         for (rounds, needed) in self.repetitions().zip(needed).filter(|(_, needed)| *needed > 0) {
-            let enough = (needed + needed / 4 + 1).min(rounds.maximum);
-            grew |= enough > rounds.planned;
-            if enough > rounds.planned || rounds.planned > 2 * enough {
-                rounds.planned = enough;
-            }
+            grew |= needed > rounds.planned;
+            rounds.planned = (needed + 1).min(rounds.maximum);
         }
         if grew {
             self.prepared = None;
@@ -122,7 +120,7 @@ impl Program {
     /// Rounds to hand in for a repetition, counted from 1, of which some did not suffice.
     pub(super) fn more(&mut self, index: usize, done: u32) -> u32 {
         let rounds = self.repetitions().nth(index - 1);
-        rounds.map_or(1, |rounds| rounds.planned.max(done).min(rounds.maximum.saturating_sub(done)).max(1))
+        rounds.map_or(1, |rounds| (done / 4).max(2).min(rounds.maximum.saturating_sub(done)).max(1))
     }
 }
 
@@ -223,27 +221,24 @@ impl Resident {
         own: Option<(&str, &Buffer)>,
         into: &mut Vec<Dispatch>,
     ) -> Result<(), GpuError> {
-        let any_group = sorb_shaders::shader(pass.shader).is_some_and(|text| has_any_group(text.source));
+        let text = sorb_shaders::shader(pass.shader).map_or("", |text| text.source);
         let batches = match pass.rows {
             Rows::Colors => 0..COLORS,
             Rows::VertexColors => COLORS..BATCHES,
             _ => 0..1,
         };
         for color in batches {
-            let (group, count) = match self.threads(pass.rows, color) {
-                Threads::Groups(count) => (GROUP_THREADS, count),
-                Threads::Single(rows) => {
-                    let group = if any_group && rows < SMALL_GROUP_ROWS {
-                        SMALL_GROUP_THREADS
-                    } else {
-                        GROUP_THREADS
-                    };
-                    (group, rows.div_ceil(u64::from(group)))
+            let (threads, count) = match self.work(pass.rows, color) {
+                Work::Groups(count) => (Threads { group: GROUP_THREADS, shares: 1 }, count),
+                Work::Rows(rows) => {
+                    let shares = if has_shares(text) { shares_of(rows) } else { 1 };
+                    let group = if has_any_group(text) { group_of(rows) } else { GROUP_THREADS };
+                    (Threads { group, shares }, rows.div_ceil(u64::from(group / shares)))
                 }
             };
             let groups = self.lines(count);
             if groups[0] > 0 {
-                let pipeline = self.gpu.pipeline(pass.shader, pass.entry, group)?;
+                let pipeline = self.gpu.pipeline(pass.shader, pass.entry, threads)?;
                 let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color, own))?;
                 into.push(Dispatch { kernel, pipeline, bind, groups });
             }
@@ -279,11 +274,11 @@ impl Resident {
         })
     }
 
-    /// Threads of a pass, or groups if they come in groups.
-    fn threads(&self, rows: Rows, color: usize) -> Threads {
+    /// Rows of a pass, or groups if its threads come in groups.
+    fn work(&self, rows: Rows, color: usize) -> Work {
         let RowCounts { fluid, nodes, tets, bodies } = self.rows;
-        let threads = |rows: usize| Threads::Single(rows as u64);
-        let groups = Threads::Groups;
+        let threads = |rows: usize| Work::Rows(rows as u64);
+        let groups = Work::Groups;
         match rows {
             Rows::One => groups(1),
             Rows::Fluid => threads(fluid),
@@ -304,6 +299,8 @@ impl Resident {
             Rows::ImageScan => groups(u64::from(self.grids[3].pages() > u64::from(ONE_GROUP_PAGES))),
             Rows::ImagePages => groups(self.grids[3].pages()),
             Rows::Images => threads(self.capacities[IMAGES] as usize),
+            Rows::ImagesOfBodies => threads(if bodies > 0 { self.capacities[IMAGES] as usize } else { 0 }),
+            Rows::FluidBesideBodies => threads(if bodies > 0 { fluid } else { 0 }),
             Rows::Bodies => groups(bodies as u64),
         }
     }
@@ -319,10 +316,10 @@ impl Resident {
     }
 }
 
-/// How many threads a pass has.
-enum Threads {
-    /// One by one: groups are as large as is best.
-    Single(u64),
-    /// In groups.
+/// What a pass is over.
+enum Work {
+    /// Rows: groups are as large as is best, and threads share rows where there are few.
+    Rows(u64),
+    /// Groups of threads.
     Groups(u64),
 }

@@ -6,6 +6,7 @@ use sorb_shaders::Shader;
 
 use super::{
     device::Gpu,
+    pipeline::Threads,
     program::{Dispatch, Part, Program},
     resident::Resident,
     twins::{Pass, Rows},
@@ -53,7 +54,7 @@ const NEEDED: u32 = 7;
 
 fn dispatch(resident: &Resident, entry: &'static str) -> Vec<Dispatch> {
     let pass = Pass { shader: "test::halving", entry, rows: Rows::One, names: &[] };
-    let pipeline = Arc::new(resident.gpu.compile(&HALVING, entry, 1));
+    let pipeline = Arc::new(resident.gpu.compile(&HALVING, entry, Threads { group: 1, shares: 1 }));
     let bind = resident.bind_group(&pass, &pipeline, 0, None);
     vec![Dispatch { kernel: "test::halving", pipeline, bind, groups: [1, 1] }]
 }

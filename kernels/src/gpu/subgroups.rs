@@ -3,7 +3,7 @@
 use sorb_shaders::PROBE;
 use wgpu::{BufferUsages, util::DeviceExt};
 
-use super::{device::Gpu, groups::GROUP_THREADS};
+use super::{device::Gpu, groups::GROUP_THREADS, pipeline::Threads};
 
 impl Gpu {
     /// Whether the subgroups of a group are runs of its threads, in order: WGSL does not say so. Tried out once per
@@ -11,7 +11,7 @@ impl Gpu {
     pub(super) fn subgroups_are_runs(&self) -> bool {
         let try_out = || {
             let buffer = self.guarded(None, || {
-                let pipeline = self.compile(&PROBE, "main", GROUP_THREADS);
+                let pipeline = self.compile(&PROBE, "main", Threads { group: GROUP_THREADS, shares: 1 });
                 let found = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                     label: Some("probe"),
                     contents: &[0xff; 1024],

@@ -31,6 +31,10 @@ pub(crate) enum Rows {
     ImageLineScan,
     /// A thread per image that there is room for.
     Images,
+    /// The same where there are bodies, else none.
+    ImagesOfBodies,
+    /// A thread per particle where there are bodies, else none.
+    FluidBesideBodies,
     /// A group per page of the cells over the images.
     ImagePages,
     /// One group if those cells have many pages.
