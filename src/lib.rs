@@ -28,6 +28,7 @@ mod schedule;
 mod setup;
 pub mod sponge;
 mod state;
+mod stopwatch;
 mod stores;
 mod text;
 mod watcher;

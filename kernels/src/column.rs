@@ -153,6 +153,15 @@ pub trait ColumnData {
     }
 }
 
+/// The bits of every NaN in digests and files. Its sign and payload depend on the machine, and WebAssembly leaves them open.
+const NOT_A_NUMBER: u32 = 0x7FC0_0000;
+
+/// The bits of a float, the same for every NaN.
+#[must_use]
+pub fn bits(value: f32) -> u32 {
+    if value.is_nan() { NOT_A_NUMBER } else { value.to_bits() }
+}
+
 /// Takes over the words of the first rows, `width` words each, if there are as many; the padding stays.
 pub(crate) fn take_rows<T>(
     data: &mut [T],
@@ -171,7 +180,7 @@ pub(crate) fn take_rows<T>(
 
 impl ColumnData for Vec<f32> {
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
-        self.iter().take(rows).for_each(|value| visit(value.to_bits()));
+        self.iter().take(rows).for_each(|value| visit(bits(*value)));
     }
     fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
         take_rows(self, rows, words, 1, |own, words| *own = f32::from_bits(words[0]))
@@ -189,7 +198,7 @@ impl ColumnData for Vec<f32> {
 
 impl ColumnData for Vec<[f32; 4]> {
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32)) {
-        self.iter().take(rows).flatten().for_each(|value| visit(value.to_bits()));
+        self.iter().take(rows).flatten().for_each(|value| visit(bits(*value)));
     }
     fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
         take_rows(self, rows, words, 4, |own, words| {

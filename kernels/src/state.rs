@@ -4,7 +4,7 @@ use glam::{Quat, Vec3};
 
 use crate::{
     body::{Bodies, BodyState},
-    column::{ColumnData, Plain, PlainMut, padded, take_rows},
+    column::{ColumnData, Plain, PlainMut, bits, padded, take_rows},
     columns::{Column, Columns, Fluid, Store},
     reduce::Wrenches,
 };
@@ -121,10 +121,10 @@ impl ColumnData for Bodies {
     fn visit_words(&self, _rows: usize, visit: &mut dyn FnMut(u32)) {
         for body in &self.0 {
             let BodyState { position, rotation, linear_velocity, angular_velocity } = body.state;
-            position.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-            rotation.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-            linear_velocity.to_array().into_iter().for_each(|value| visit(value.to_bits()));
-            angular_velocity.to_array().into_iter().for_each(|value| visit(value.to_bits()));
+            position.to_array().into_iter().for_each(|value| visit(bits(value)));
+            rotation.to_array().into_iter().for_each(|value| visit(bits(value)));
+            linear_velocity.to_array().into_iter().for_each(|value| visit(bits(value)));
+            angular_velocity.to_array().into_iter().for_each(|value| visit(bits(value)));
         }
     }
     fn take_words(&mut self, _rows: usize, words: &[u32]) -> bool {

@@ -237,10 +237,11 @@ impl<'a> Player<'a> {
         Ok(key.first_difference(&found).map(|difference| (at, difference)))
     }
 
-    /// The present frame as it was recorded, computed from the key frame before on one thread without SIMD; none if that gives
+    /// The present frame as it was recorded, computed from the key frame before on one thread at the lowest SIMD level; none if that gives
     /// another digest.
     fn recomputed(&self, recorded: u64) -> Option<Save> {
-        let options = Options { threads: Some(1), simd: Some(SimdLevel::Fallback), ..self.options.clone() };
+        let options =
+            Options { threads: Some(1), simd: SimdLevel::supported().next(), ..self.options.clone() };
         let from = self.tick.checked_sub(1)?;
         let (tick, world) = match self.recording.key_before(from) {
             Some(key) => key.ok().and_then(|(at, save)| {

@@ -1,7 +1,5 @@
 //! Runs a plan on the CPU, and measures the time of every phase.
 
-use std::time::Instant;
-
 use sorb_kernels::{columns::Columns, cpu::Cpu, params::Params};
 
 use super::{
@@ -9,6 +7,7 @@ use super::{
     order::Part,
     plan::{Plan, Verdict},
 };
+use crate::stopwatch::Stopwatch;
 
 /// Times of a phase that are kept for its median.
 const RECENT: usize = 512;
@@ -38,8 +37,8 @@ impl PhaseTime {
         sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
     }
 
-    fn record(&mut self, start: Instant) {
-        self.record_seconds(start.elapsed().as_secs_f64());
+    fn record(&mut self, start: Stopwatch) {
+        self.record_seconds(start.seconds());
     }
 
     pub(crate) fn record_seconds(&mut self, seconds: f64) {
@@ -97,7 +96,7 @@ impl Runner {
         host: impl FnMut(&mut Columns) + Send,
     ) {
         let Self { sequences, times, step } = self;
-        let start = Instant::now();
+        let start = Stopwatch::start();
         // Waking the threads would be the whole cost of an empty scene.
         if let Some(sequence) = sequences.get(awake.index()).filter(|sequence| !sequence.parts.is_empty()) {
             cpu.enter(|| sequence.run((cpu, params), columns, host, times));
@@ -151,12 +150,12 @@ impl Sequence {
         for (part, slots) in &self.parts {
             match part {
                 Part::Kernels(stage, _) => stage.run(columns, |index, kernel, columns| {
-                    let start = Instant::now();
+                    let start = Stopwatch::start();
                     (kernel.cpu)(cpu, params, columns);
                     times[slots[index]].record(start);
                 }),
                 Part::Host(_) => {
-                    let start = Instant::now();
+                    let start = Stopwatch::start();
                     host(columns);
                     times[slots[0]].record(start);
                 }

@@ -46,6 +46,14 @@ macro_rules! views {
                 &columns.fluid.id[..columns.rows.fluid]
             }
 
+            /// Share of each particle that sponges hold \[1\], 0 outside and about 1 inside; empty without sponges.
+            #[must_use]
+            pub fn particle_interiors(&self) -> &[f32] {
+                let columns = self.columns();
+                let interior = &columns.fluid.interior;
+                &interior[..interior.len().min(columns.rows.fluid)]
+            }
+
             /// Positions of the sponge nodes \[m\], of all sponges: x, y, z, and the inverse mass \[1/kg\], 0 for nodes that a body holds.
             /// Rows keep their order, that of the lattice.
             #[must_use]

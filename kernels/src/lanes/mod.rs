@@ -32,17 +32,19 @@ pub enum SimdLevel {
     Avx512,
     /// 64-bit ARM.
     Neon,
+    /// WebAssembly with `simd128`; the code must have been built with it.
+    Simd128,
 }
 
 impl SimdLevel {
     /// Every level, worst first.
-    pub const ALL: [Self; 6] =
-        [Self::Fallback, Self::Sse2, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon];
+    pub const ALL: [Self; 7] =
+        [Self::Fallback, Self::Sse2, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon, Self::Simd128];
 
     /// The best level of this machine.
     #[must_use]
     pub fn best() -> Self {
-        [Self::Avx512, Self::Avx2, Self::Neon, Self::Sse42, Self::Sse2]
+        [Self::Avx512, Self::Avx2, Self::Neon, Self::Simd128, Self::Sse42, Self::Sse2]
             .into_iter()
             .find(|level| level.is_supported())
             .unwrap_or(Self::Fallback)
@@ -69,6 +71,7 @@ impl SimdLevel {
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
             Self::Neon => "neon",
+            Self::Simd128 => "simd128",
         }
     }
 
@@ -82,6 +85,8 @@ impl SimdLevel {
     pub(crate) fn token(self) -> Option<Level> {
         let best = Level::new();
         match self {
+            // A module with simd128 does not load without it: there a second version of all kernels would only be downloaded.
+            #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
             Self::Fallback => Some(Level::fallback()),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Self::Sse2 => best.as_sse2().map(Level::Sse2),
@@ -93,6 +98,8 @@ impl SimdLevel {
             Self::Avx512 => best.as_avx512().map(Level::Avx512),
             #[cfg(target_arch = "aarch64")]
             Self::Neon => best.as_neon().map(Level::Neon),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Self::Simd128 => best.as_wasm_simd128().map(Level::WasmSimd128),
             #[allow(unreachable_patterns, reason = "which levels remain depends on the target")]
             _ => {
                 let _ = best;
@@ -139,6 +146,7 @@ macro_rules! levels {
                             $crate::lanes::dispatch!(@at token, $dollar simd => $dollar body)
                         }
                     )*
+                    #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
                     fearless_simd::Level::Fallback(token) => {
                         $crate::lanes::dispatch!(@at token, $dollar simd => $dollar body)
                     }
