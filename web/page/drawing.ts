@@ -304,7 +304,7 @@ export class Drawing {
       gl.cullFace(face);
       for (const body of shells) {
         const colour = body.description.colour ?? GLASS;
-        this.programs.glass.use({ view: view.matrix, eye: view.eye, sun: SUN, model: this.model(body), colour });
+        this.programs.glass.use({ view: view.matrix, eye: view.eye, sun: SUN, model: this.model(body), colour, least: 0.1 });
         body.mesh.draw();
       }
     }
@@ -331,10 +331,12 @@ export class Drawing {
         way[(axis + 2) % 3] = v * half[(axis + 2) % 3]!;
         const place = plus(centre, way);
         if (length(minus(place, view.eye)) < length(minus(centre, view.eye)) !== isFront) continue;
-        const scale: Vector = [0.0003, 0.0003, 0.0003];
+        // Half of a line of 1.3 pixels: thinner ones break into dots.
+        const width = (1.3 * view.slope * length(minus(place, view.eye))) / this.canvas.height;
+        const scale: Vector = [width, width, width];
         scale[axis] = half[axis]!;
         const model = pose(place, [0, 0, 0, 1], scale);
-        this.programs.glass.use({ view: view.matrix, eye: view.eye, sun: SUN, model, colour: [0.85, 0.88, 0.9] });
+        this.programs.glass.use({ view: view.matrix, eye: view.eye, sun: SUN, model, colour: [0.5, 0.57, 0.6], least: 0.42 });
         this.cube.draw();
       }
     }

@@ -11,6 +11,10 @@ import { digits, showSliders } from "./sliders";
 /** Most pixels of a picture, and pixels of it for one of the page. */
 const MOST_PIXELS = 1_700_000;
 const FINEST = 1.5;
+/** Time from picture to picture that is too long (ms), and pictures over which it is looked at: then they become coarser. */
+const SLOW = 40;
+const LOOK = 20;
+const COARSEST = 0.5;
 
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 
@@ -52,6 +56,9 @@ class Page {
   private readonly waiting = new Map<number, (status: Status) => void>();
   private asked = 0;
   private stepTimes: number[] = [];
+  /** Share of the pixels along each side, and pictures since it was looked at. */
+  private share = 1;
+  private drawn = { count: 0, since: 0 };
 
   constructor() {
     this.drawing = new Drawing(this.canvas);
@@ -69,10 +76,13 @@ class Page {
     this.resize();
     this.buttons();
     this.files();
-    const draw = (): void => {
+    const draw = (now: number): void => {
       if (this.isStale && this.stage) {
         this.isStale = false;
         this.drawing.draw(this.camera.view(this.canvas.width / this.canvas.height));
+        this.keepUp(now);
+      } else {
+        this.drawn = { count: 0, since: now };
       }
       requestAnimationFrame(draw);
     };
@@ -185,10 +195,20 @@ class Page {
     this.makeSurface();
   }
 
+  /** Draws coarser pictures where they follow each other too slowly. A world that steps slowly leaves pictures out in between. */
+  private keepUp(now: number): void {
+    if (++this.drawn.count < LOOK) return;
+    const isSlow = now - this.drawn.since > LOOK * SLOW;
+    this.drawn = { count: 0, since: now };
+    if (!isSlow || this.share <= COARSEST) return;
+    this.share = Math.max(0.8 * this.share, COARSEST);
+    this.resize();
+  }
+
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     const wanted = Math.min(devicePixelRatio, FINEST);
-    const scale = Math.min(wanted, Math.sqrt(MOST_PIXELS / Math.max(clientWidth * clientHeight, 1)));
+    const scale = Math.min(wanted, Math.sqrt(MOST_PIXELS / Math.max(clientWidth * clientHeight, 1))) * this.share;
     this.canvas.width = Math.max(Math.round(clientWidth * scale), 1);
     this.canvas.height = Math.max(Math.round(clientHeight * scale), 1);
     this.isStale = true;
@@ -210,6 +230,7 @@ class Page {
       });
     }
     element("hand").classList.add("on");
+    element("panel").classList.toggle("folded", innerWidth <= 640);
     on("record", () => this.send({ kind: this.status?.recorded ? "end_recording" : "record" }));
     on("save", () => this.send({ kind: "save" }));
     on("fold", () => element("panel").classList.toggle("folded"));

@@ -12,7 +12,7 @@ export interface Choice {
 /** Those of the library at a resolution of a page, and those made for it. */
 export const CHOICES: Choice[] = [
   { name: "basin", title: "Squeeze a sponge by hand", load: { scene: basin } },
-  { name: "ball_drop", title: "A ball falls on a wet sponge", load: { scene: "ball_drop", resolution: 0.5 } },
+  { name: "ball_drop", title: "A ball falls on a wet sponge", load: { scene: "ball_drop", resolution: 0.45 } },
   { name: "squish", title: "Two plates squeeze a sponge", load: { scene: "squish", resolution: 0.5 } },
   { name: "life", title: "Dropped, soaked, squeezed, let go", load: { scene: "life", resolution: 0.5 } },
   { name: "standing", title: "A dry sponge drinks", load: { scene: "standing", resolution: 0.6 } },

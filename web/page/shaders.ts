@@ -35,6 +35,7 @@ void main() {
 export const GLASS_FRAGMENT = `${ROOM}
 uniform vec3 eye, sun;
 uniform vec3 colour;
+uniform float least;
 in vec3 place, up;
 out vec4 result;
 void main() {
@@ -43,7 +44,7 @@ void main() {
   vec3 r = reflect(d, dot(n, d) < 0.0 ? n : -n);
   float fresnel = 0.05 + 0.75 * pow(1.0 - min(facing, 1.0), 4.0);
   float spot = pow(max(dot(r, sun), 0.0), 250.0) * 3.0;
-  float cover = clamp(fresnel + 0.10, 0.0, 0.9);
+  float cover = clamp(fresnel + least, 0.0, 0.9);
   vec3 light = mix(colour, min(room(r), vec3(1.8)), fresnel / cover) + spot;
   result = vec4(light * cover, cover);
 }`;

@@ -73,7 +73,7 @@ void main() {
   result = vec4(up / max(length(up), 1e-6), far);
 }`;
 
-/** Length of the ray in water before what is solid, as a sum over all surfaces. */
+/** Length of the ray in water before what is solid, and of all of it, as sums over all surfaces. */
 export const THICKNESS_FRAGMENT = `${DISTANCE}
 in vec3 place, up;
 uniform vec3 eye;
@@ -82,8 +82,8 @@ out vec4 result;
 void main() {
   vec3 way = place - eye;
   float far = length(way);
-  far = min(far, distance_at(gl_FragCoord.xy / size, way / far));
-  result = vec4(gl_FrontFacing ? -far : far, 0.0, 0.0, 0.0);
+  float near = min(far, distance_at(gl_FragCoord.xy / size, way / far));
+  result = vec4(gl_FrontFacing ? -vec2(near, far) : vec2(near, far), 0.0, 0.0);
 }`;
 
 export const SCREEN_VERTEX = `
@@ -102,7 +102,7 @@ uniform vec3 eye, sun, right, above;
 uniform mat4 view;
 uniform float spacing, reach, floor_height;
 out vec4 result;
-const int STEPS = 36;
+const int STEPS = 48;
 vec2 seen_at(vec3 q) {
   vec4 clip = view * vec4(q, 1.0);
   return 0.5 * clip.xy / clip.w + 0.5;
@@ -114,22 +114,34 @@ bool is_in_solid(vec3 q) {
   vec2 there = seen_at(q);
   return far > distance_at(there, way / far) && far < distance_in(backs, there, way / far);
 }
+// A ray that is bent where it enters the water, and bent back where it leaves it.
+struct Ray {
+  vec3 start, inside, outside;
+  float leaves;
+};
+vec3 along(Ray ray, float t) {
+  return ray.start + ray.inside * min(t, ray.leaves) + ray.outside * max(t - ray.leaves, 0.0);
+}
+float down_to_floor(vec3 from, vec3 way) { return way.y < -0.01 ? (from.y - floor_height) / -way.y : 1e3; }
 // Light that comes along a ray from what it meets, and the length of the ray.
-vec4 march(vec3 p, vec3 ray, vec2 at, float path) {
-  float floor_at = ray.y < -0.01 ? (p.y - floor_height) / -ray.y : 1e3;
-  float step = min(floor_at, 2.2 * reach) / float(STEPS);
+vec4 march(Ray ray, vec2 at) {
+  float floor_at = down_to_floor(ray.start, ray.inside);
+  if (floor_at > ray.leaves) floor_at = ray.leaves + down_to_floor(along(ray, ray.leaves), ray.outside);
+  float step = min(floor_at, ray.leaves + 0.5 * reach) / float(STEPS);
+  // Steps begin at another place in every pixel: outlines that they miss would have teeth.
+  float shift = fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(0.067, 0.00584))));
   for (int index = 1; index <= STEPS; index++) {
-    float high = step * float(index), low = high - step;
-    if (!is_in_solid(p + ray * high)) continue;
+    float high = step * (float(index) - shift), low = max(high - step, 0.0);
+    if (!is_in_solid(along(ray, high))) continue;
     for (int round = 0; round < 5; round++) {
       float t = 0.5 * (low + high);
-      if (is_in_solid(p + ray * t)) high = t;
+      if (is_in_solid(along(ray, t))) high = t;
       else low = t;
     }
-    return vec4(texture(solid, seen_at(p + ray * high)).rgb, high);
+    return vec4(texture(solid, seen_at(along(ray, high))).rgb, high);
   }
-  if (floor_at > 4.0 * reach) return vec4(texture(ground, at).rgb, path);
-  vec2 there = seen_at(p + ray * floor_at);
+  if (floor_at > 9.0 * reach) return vec4(texture(ground, at).rgb, ray.leaves);
+  vec2 there = seen_at(along(ray, floor_at));
   return vec4(texture(ground, clamp(there, 0.0, 1.0)).rgb, floor_at);
 }
 void main() {
@@ -143,18 +155,19 @@ void main() {
   vec3 n = normalize(first.xyz + vec3(0.0, 1e-5, 0.0));
   if (dot(n, d) > 0.0) n = normalize(n - 1.02 * dot(n, d) * d);
   vec3 p = eye + d * first.w;
-  float path = max(texture(thickness, at).r, 0.0);
+  vec2 paths = max(texture(thickness, at).rg, vec2(0.0));
+  float path = paths.x;
   vec3 bent = refract(d, n, 0.75);
-  vec4 met = march(p, bent, at, path);
-  // In water to what it meets, or as long as the straight ray where it leaves the water.
-  vec2 leaving = clamp(seen_at(p + bent * min(met.w, path)), 0.0, 1.0);
-  float length_in = min(met.w, max(path, texture(thickness, leaving).r) * 1.2);
+  // A film that is thinner than a particle is no surface.
+  float firm = smoothstep(0.05, 0.9, path / spacing);
+  vec4 met = march(Ray(p, bent, d, 1.15 * paths.y), at);
+  float length_in = min(met.w, max(path, min(1.15 * paths.y, 1.5 * path + 0.3 * reach)));
+  // Towards its outlines water is thin: a little colour shows where it ends.
+  length_in += 0.1 * reach * firm;
   vec3 straight = behind;
   behind = met.rgb;
   vec3 inside = behind * transmitted(length_in) + SCATTER * (1.0 - exp(-9.0 * length_in));
   float facing = clamp(dot(-d, n), 0.0, 1.0);
-  // A film that is thinner than a particle is no surface.
-  float firm = smoothstep(0.05, 0.9, path / spacing);
   float fresnel = (0.02 + 0.98 * pow(1.0 - facing, 5.0)) * firm;
   vec3 r = reflect(d, n);
   vec3 mirrored = min(room(r), vec3(2.6));

@@ -59,7 +59,7 @@ async function picture(page: Page, name: string): Promise<Buffer> {
 
 /** The digest of the page is that of node and of the native program. */
 async function sameBits(browser: Browser, address: string): Promise<void> {
-  for (const [scene, resolution] of [["ball_drop", 0.5], ["squish", 0.5]] as const) {
+  for (const [scene, resolution] of [["ball_drop", 0.45], ["squish", 0.5]] as const) {
     const { page, errors } = await open(browser, address, `paused&scene=${scene}`);
     const { digest } = await frames(page, FRAMES);
     const own = await module();
