@@ -6,8 +6,8 @@ pub use sorb_kernels::clock::Bound;
 use sorb_kernels::{
     body::Body,
     clock::{
-        ACCELERATION_COURANT, CUT_TOLERANCE, DIVERGENCE_COURANT, LATTICE_COURANT, PEAK_PRESSURE,
-        PRESSURE_COURANT, SHORTEST_BY_BODY, StepLimits,
+        ACCELERATION_COURANT, CUT_TOLERANCE, LATTICE_COURANT, PEAK_PRESSURE, PRESSURE_COURANT,
+        SHORTEST_BY_BODY, StepLimits,
     },
     params::{Params, Solver},
 };
@@ -158,11 +158,9 @@ impl Steps {
             let sound_speed = if fluid.incompressible.is_some() { 0.0 } else { fluid.sound_speed };
             bounds.push((limits.courant * h / (sound_speed + clock.fluid_speed), Bound::Courant));
             let pressure = PEAK_PRESSURE * clock.fluid_pressure;
-            let solves_divergence = fluid.divergence().is_some();
-            let courant = if solves_divergence { DIVERGENCE_COURANT } else { PRESSURE_COURANT };
-            bounds.push((courant * fluid.spacing / pressure.sqrt(), Bound::Pressure));
+            bounds.push((PRESSURE_COURANT * fluid.spacing / pressure.sqrt(), Bound::Pressure));
             // A solve for the divergence has no error that grows with the acceleration of a particle.
-            if !solves_divergence {
+            if fluid.divergence().is_none() {
                 let crossing = (h / clock.fluid_acceleration).sqrt();
                 bounds.push((ACCELERATION_COURANT * crossing, Bound::Acceleration));
             }

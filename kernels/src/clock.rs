@@ -61,9 +61,6 @@ constants! {
     /// (docs/pressure-solve.md).
     pub const PRESSURE_COURANT: f32 = 0.4;
 
-    /// The same of a solve for the divergence, whose pools come to rest as well at twice the step.
-    pub const DIVERGENCE_COURANT: f32 = 0.8;
-
     /// Largest pressure of a column at rest over the root of the mean of its square: the root of three.
     pub const PEAK_PRESSURE: f32 = 1.732_050_8;
 

@@ -22,8 +22,7 @@ fn choose_step() {
             offer(params.courant * radius / speed, BOUND_COURANT);
         }
         if (clock.fluid_pressure > 0.0) {
-            let courant = select(PRESSURE_COURANT, DIVERGENCE_COURANT, params.divergence != 0u);
-            offer(courant * params.spacing / sqrt(PEAK_PRESSURE * clock.fluid_pressure), BOUND_PRESSURE);
+            offer(PRESSURE_COURANT * params.spacing / sqrt(PEAK_PRESSURE * clock.fluid_pressure), BOUND_PRESSURE);
         }
         // A solve for the divergence has no error that grows with the acceleration of a particle.
         if (clock.fluid_acceleration > 0.0 && params.divergence == 0u) {
