@@ -61,16 +61,15 @@ unpack_compiler() {
 }
 
 build_module() {
-  local options=(build --locked --release --target wasm32-unknown-unknown --target-dir "$target") run=()
-  [ "$(id -u)" != 0 ] || run=(nice -n 10)
+  local options=(build --locked --release --target wasm32-unknown-unknown --target-dir "$target")
   if has_rustup_target; then
-    "${run[@]}" cargo "${options[@]}"
+    cargo "${options[@]}"
   else
     [ -x "$cache/usr/bin/rustc" ] || unpack_compiler
     # Debian has the source of std, which is built here. Its cargo asks for no toolchain file, which only rustup reads.
     LD_LIBRARY_PATH=$(echo "$cache"/usr/lib/*-linux-gnu) RUSTC="$cache/usr/bin/rustc" RUSTC_BOOTSTRAP=1 \
       CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$(echo "$cache"/usr/lib/llvm-*/bin/wasm-ld) \
-      "${run[@]}" "$cache/usr/bin/cargo" "${options[@]}" -Zbuild-std=std,panic_abort
+      "$cache/usr/bin/cargo" "${options[@]}" -Zbuild-std=std,panic_abort
   fi
   mkdir -p dist
   cp "$target/wasm32-unknown-unknown/release/sorb_web.wasm" dist/sorb.wasm

@@ -27,11 +27,13 @@ pub(super) static CASE: Case = Case {
 
 /// Particles between the plates.
 const PARTICLES: u32 = 40;
-/// Distance of the plates \[m\], and their thickness.
+/// Height of the lattice of particles, and thickness of the plates \[m\].
 const GAP: f64 = 0.02;
 const PLATE: f64 = 0.004;
-/// Free width between the plates over that of the lattice of particles: particles jam in a full box.
+/// Free height between the plates over that of the lattice of particles: particles jam in a full box.
 const ROOM: f64 = 0.01;
+/// Distance of the plates \[m\].
+const WIDTH: f64 = GAP * (1.0 + ROOM);
 /// Period along the channel, over the distance of the plates.
 const LENGTH: f64 = 1.0;
 /// Particles across the channel, along the periodic axis without motion: pairs reach two spacings.
@@ -75,7 +77,7 @@ fn error(setting: &Setting, spacing: f64, lower: f64, profile: fn(f64) -> f64) -
 fn add_deviations(world: &World, profile: fn(f64) -> f64, layers: &mut [(f64, f64)]) {
     let rows = world.particle_positions().iter().zip(world.particle_velocities());
     for (x, v) in rows {
-        let place = (f64::from(x[1]) / GAP).clamp(0.0, 1.0);
+        let place = (f64::from(x[1]) / WIDTH).clamp(0.0, 1.0);
         let layer = ((place * layers.len() as f64) as usize).min(layers.len() - 1);
         layers[layer].0 += f64::from(v[0]) / SPEED - profile(place);
         layers[layer].1 += 1.0;
@@ -104,7 +106,7 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
     };
     // Acceleration that drives a mean velocity of that of the plates back, between plates at rest; zero where they move
     // opposite ways.
-    let back = 6.0 * VISCOSITY / DENSITY * SPEED * (1.0 + lower) / (GAP * GAP);
+    let back = 6.0 * VISCOSITY / DENSITY * SPEED * (1.0 + lower) / (WIDTH * WIDTH);
     Scene {
         gravity: Vec3::NEG_X * back as f32,
         time: Time { frame_rate: 1000.0, ..Time::default() },
@@ -114,5 +116,5 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
     .repeating([true, false, true])
     .with_fluid(fluid)
     .with_body(plate("lower", -0.5 * PLATE, lower))
-    .with_body(plate("upper", GAP + 0.5 * PLATE + f64::from(room.y), 1.0))
+    .with_body(plate("upper", WIDTH + 0.5 * PLATE, 1.0))
 }
