@@ -12,26 +12,30 @@ fn visit_ball(point: vec3<f32>, radius: f32, part: u32) {
     let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
     let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
     // Threads of a row take its lines of cells by turns.
-    let wide = span_y.y - span_y.x + 1;
-    let lines = wide * (span_z.y - span_z.x + 1);
-    for (var index = i32(part); index < lines; index += i32(SHARES)) {
-        let z = span_z.x + index / wide;
-        let y = span_y.x + index % wide;
+    var turn = 0u;
+    for (var z = span_z.x; z <= span_z.y; z += 1) {
         let dz = slab_distance(grid, at.z, z, 2u);
-        let dy = slab_distance(grid, at.y, y, 1u);
-        let chord = cell_square - dy * dy - dz * dz;
-        if (chord <= 0.0) {
-            continue;
-        }
-        let line = (wrapped(grid, z, 2u) * grid.size.y + wrapped(grid, y, 1u)) * grid.size.x;
-        let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
-        var x = span_x.x;
-        // One run, or two where it crosses the end of the torus.
-        while (x <= span_x.y) {
-            let first = wrapped(grid, x, 0u);
-            let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
-            x += i32(last - first) + 1;
-            visit_run(point, starts[line + first], starts[line + last + 1u]);
+        let plane = wrapped(grid, z, 2u) * grid.size.y;
+        for (var y = span_y.x; y <= span_y.y; y += 1) {
+            let dy = slab_distance(grid, at.y, y, 1u);
+            let chord = cell_square - dy * dy - dz * dz;
+            if (chord <= 0.0) {
+                continue;
+            }
+            turn += 1u;
+            if (turn % SHARES != part) {
+                continue;
+            }
+            let line = (plane + wrapped(grid, y, 1u)) * grid.size.x;
+            let span_x = cells_around(grid, at.x, sqrt(chord) + slack(at.x), 0u);
+            var x = span_x.x;
+            // One run, or two where it crosses the end of the torus.
+            while (x <= span_x.y) {
+                let first = wrapped(grid, x, 0u);
+                let last = min(first + u32(span_x.y - x), grid.size.x - 1u);
+                x += i32(last - first) + 1;
+                visit_run(point, starts[line + first], starts[line + last + 1u]);
+            }
         }
     }
 }

@@ -26,33 +26,37 @@ fn visit(row: u32, part: u32, slot: u32) -> u32 {
     let span_z = cells_around(control_grid, at.z, reach + slack(at.z), 2u);
     var count = 0u;
     // Threads of a row take its lines of cells by turns.
-    let wide = span_y.y - span_y.x + 1;
-    let lines = wide * (span_z.y - span_z.x + 1);
-    for (var index = i32(part); index < lines; index += i32(SHARES)) {
-        let z = span_z.x + index / wide;
-        let y = span_y.x + index % wide;
+    var turn = 0u;
+    for (var z = span_z.x; z <= span_z.y; z += 1) {
         let dz = slab_distance(control_grid, at.z, z, 2u);
-        let dy = slab_distance(control_grid, at.y, y, 1u);
-        let chord = cell_square - dy * dy - dz * dz;
-        if (chord <= 0.0) {
-            continue;
-        }
-        let line = (wrapped(control_grid, z, 2u) * control_grid.size.y + wrapped(control_grid, y, 1u)) * control_grid.size.x;
-        let span_x = cells_around(control_grid, at.x, sqrt(chord) + slack(at.x), 0u);
-        var x = span_x.x;
-        // One run, or two where it crosses the end of the torus.
-        while (x <= span_x.y) {
-            let first = wrapped(control_grid, x, 0u);
-            let last = min(first + u32(span_x.y - x), control_grid.size.x - 1u);
-            x += i32(last - first) + 1;
-            let end = control_starts[line + last + 1u];
-            for (var other = control_starts[line + first]; other < end; other += 1u) {
-                let apart = point - control_position[other].xyz;
-                if (dot(apart, apart) < square) {
-                    if (slot + count < params.control_capacity) {
-                        fluid_controls[row + (slot + count + 1u) * params.fluid_rows] = other;
+        let plane = wrapped(control_grid, z, 2u) * control_grid.size.y;
+        for (var y = span_y.x; y <= span_y.y; y += 1) {
+            let dy = slab_distance(control_grid, at.y, y, 1u);
+            let chord = cell_square - dy * dy - dz * dz;
+            if (chord <= 0.0) {
+                continue;
+            }
+            turn += 1u;
+            if (turn % SHARES != part) {
+                continue;
+            }
+            let line = (plane + wrapped(control_grid, y, 1u)) * control_grid.size.x;
+            let span_x = cells_around(control_grid, at.x, sqrt(chord) + slack(at.x), 0u);
+            var x = span_x.x;
+            // One run, or two where it crosses the end of the torus.
+            while (x <= span_x.y) {
+                let first = wrapped(control_grid, x, 0u);
+                let last = min(first + u32(span_x.y - x), control_grid.size.x - 1u);
+                x += i32(last - first) + 1;
+                let end = control_starts[line + last + 1u];
+                for (var other = control_starts[line + first]; other < end; other += 1u) {
+                    let apart = point - control_position[other].xyz;
+                    if (dot(apart, apart) < square) {
+                        if (slot + count < params.control_capacity) {
+                            fluid_controls[row + (slot + count + 1u) * params.fluid_rows] = other;
+                        }
+                        count += 1u;
                     }
-                    count += 1u;
                 }
             }
         }
