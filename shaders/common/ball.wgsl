@@ -12,18 +12,14 @@ fn visit_ball(point: vec3<f32>, radius: f32, part: u32) {
     let span_y = cells_around(grid, at.y, reach + slack(at.y), 1u);
     let span_z = cells_around(grid, at.z, reach + slack(at.z), 2u);
     // Threads of a row take its lines of cells by turns.
-    var turn = 0u;
+    var y = span_y.x + i32(part);
     for (var z = span_z.x; z <= span_z.y; z += 1) {
         let dz = slab_distance(grid, at.z, z, 2u);
         let plane = wrapped(grid, z, 2u) * grid.size.y;
-        for (var y = span_y.x; y <= span_y.y; y += 1) {
+        for (; y <= span_y.y; y += i32(SHARES)) {
             let dy = slab_distance(grid, at.y, y, 1u);
             let chord = cell_square - dy * dy - dz * dz;
             if (chord <= 0.0) {
-                continue;
-            }
-            turn += 1u;
-            if (turn % SHARES != part) {
                 continue;
             }
             let line = (plane + wrapped(grid, y, 1u)) * grid.size.x;
@@ -37,6 +33,7 @@ fn visit_ball(point: vec3<f32>, radius: f32, part: u32) {
                 visit_run(point, starts[line + first], starts[line + last + 1u]);
             }
         }
+        y -= span_y.y - span_y.x + 1;
     }
 }
 

@@ -26,18 +26,14 @@ fn visit(row: u32, part: u32, slot: u32) -> u32 {
     let span_z = cells_around(control_grid, at.z, reach + slack(at.z), 2u);
     var count = 0u;
     // Threads of a row take its lines of cells by turns.
-    var turn = 0u;
+    var y = span_y.x + i32(part);
     for (var z = span_z.x; z <= span_z.y; z += 1) {
         let dz = slab_distance(control_grid, at.z, z, 2u);
         let plane = wrapped(control_grid, z, 2u) * control_grid.size.y;
-        for (var y = span_y.x; y <= span_y.y; y += 1) {
+        for (; y <= span_y.y; y += i32(SHARES)) {
             let dy = slab_distance(control_grid, at.y, y, 1u);
             let chord = cell_square - dy * dy - dz * dz;
             if (chord <= 0.0) {
-                continue;
-            }
-            turn += 1u;
-            if (turn % SHARES != part) {
                 continue;
             }
             let line = (plane + wrapped(control_grid, y, 1u)) * control_grid.size.x;
@@ -60,6 +56,7 @@ fn visit(row: u32, part: u32, slot: u32) -> u32 {
                 }
             }
         }
+        y -= span_y.y - span_y.x + 1;
     }
     return count;
 }

@@ -55,18 +55,14 @@ fn add_ball(before: Found, point: vec3<f32>, part: u32) -> Found {
     let span_y = cells_around(fluid_grid, at.y, reach + slack(at.y), 1u);
     let span_z = cells_around(fluid_grid, at.z, reach + slack(at.z), 2u);
     // Threads of a row take its lines of cells by turns.
-    var turn = 0u;
+    var y = span_y.x + i32(part);
     for (var z = span_z.x; z <= span_z.y; z += 1) {
         let dz = slab_distance(fluid_grid, at.z, z, 2u);
         let plane = wrapped(fluid_grid, z, 2u) * fluid_grid.size.y;
-        for (var y = span_y.x; y <= span_y.y; y += 1) {
+        for (; y <= span_y.y; y += i32(SHARES)) {
             let dy = slab_distance(fluid_grid, at.y, y, 1u);
             let chord = cell_square - dy * dy - dz * dz;
             if (chord <= 0.0) {
-                continue;
-            }
-            turn += 1u;
-            if (turn % SHARES != part) {
                 continue;
             }
             let line = (plane + wrapped(fluid_grid, y, 1u)) * fluid_grid.size.x;
@@ -81,6 +77,7 @@ fn add_ball(before: Found, point: vec3<f32>, part: u32) -> Found {
                 found = add_run(found, point, fluid_starts[line + first], end);
             }
         }
+        y -= span_y.y - span_y.x + 1;
     }
     return found;
 }
