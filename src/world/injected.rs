@@ -273,11 +273,14 @@ fn particles_at_one_place_are_driven_apart() {
     }
 }
 
+/// Times the stable step that a world takes without an error.
+const LONG: f32 = 8.0;
+
 #[test]
 #[expect(clippy::print_stdout, reason = "the table of the documentation")]
 fn steps_far_beyond_what_is_stable() {
     for name in ["ball_drop", "dry", "water"] {
-        for factor in [8.0, 100.0] {
+        for factor in [LONG, 100.0] {
             let mut world = busy(name);
             let (mut fastest, mut maximum, mut refused) = (0.0_f32, 0, false);
             for _ in 0..50 {
@@ -287,7 +290,7 @@ fn steps_far_beyond_what_is_stable() {
                 world.clock.time += f64::from(long);
                 let result = world.run_phases(long, &[]).and_then(|()| world.check());
                 // Viscosity between particles is explicit: a hundred times its bound is an error that names a row.
-                if factor > 8.0 && result.is_err() {
+                if factor > LONG && result.is_err() {
                     refused = true;
                     break;
                 }
@@ -304,7 +307,7 @@ fn steps_far_beyond_what_is_stable() {
             let after = survives(&mut world, 0.5);
             println!("| {name} | {factor} | {fastest:.1} m/s | {maximum} outside | {after:?} |");
             let is_refused = after.as_ref().is_err_and(|text| text.contains("asks for a step of"));
-            assert!(after.is_ok() || (factor > 8.0 && is_refused), "{name} x{factor}: {after:?}");
+            assert!(after.is_ok() || (factor > LONG && is_refused), "{name} x{factor}: {after:?}");
         }
     }
 }

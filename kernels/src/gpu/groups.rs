@@ -50,3 +50,19 @@ pub(super) const fn wrench_bytes(rows: usize, bodies: usize) -> usize {
     const BYTES: usize = 32;
     groups_of(rows) * bodies * BYTES
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_of_a_row_are_a_part_of_a_group_and_keep_a_device_busy() {
+        let shares = [1, 8_192, 16_384, 32_768, 65_536, 131_072, 4_000_000].map(shares_of);
+        assert_eq!(shares, [16, 16, 8, 4, 2, 1, 1]);
+        for rows in (0..200_000).step_by(997) {
+            let (group, shares) = (group_of(rows), shares_of(rows));
+            assert!(shares.is_power_of_two() && group % shares == 0, "{rows}");
+            assert!(shares == 1 || rows * u64::from(shares) <= BUSY_THREADS, "{rows}");
+        }
+    }
+}
