@@ -60,13 +60,16 @@ float distance_in(sampler2D depth, vec2 at, vec3 d) {
 float distance_at(vec2 at, vec3 d) { return distance_in(depth, at, d); }
 `;
 
-/** Normal and distance of the first water in a pixel. */
-export const WATER_FRAGMENT = `${DISTANCE}
+/** Of the surface of the water in a pixel. */
+const SURFACE = `${DISTANCE}
 in vec3 place, up;
 uniform vec3 eye;
 uniform vec2 size;
 out vec4 result;
-void main() {
+`;
+
+/** Normal and distance of the first water in a pixel. */
+export const WATER_FRAGMENT = `${SURFACE}void main() {
   vec3 way = place - eye;
   float far = length(way);
   if (far > distance_at(gl_FragCoord.xy / size, way / far) + 0.0004) discard;
@@ -74,12 +77,7 @@ void main() {
 }`;
 
 /** Length of the ray in water before what is solid, and of all of it, as sums over all surfaces. */
-export const THICKNESS_FRAGMENT = `${DISTANCE}
-in vec3 place, up;
-uniform vec3 eye;
-uniform vec2 size;
-out vec4 result;
-void main() {
+export const THICKNESS_FRAGMENT = `${SURFACE}void main() {
   vec3 way = place - eye;
   float far = length(way);
   float near = min(far, distance_at(gl_FragCoord.xy / size, way / far));
