@@ -1,6 +1,9 @@
 // Runs of points in the cells that a ball intersects, periodic images included. Needs `grid` and `shares`. The pass binds `grid` and
 // `starts`, and says what it does with a run: `visit_run(point, begin, end)`, with the ball around `point`.
 
+// Number of entries of a list with those of this thread so far. From its capacity on none is stored.
+var<private> found: u32;
+
 fn visit_ball(point: vec3<f32>, radius: f32, part: u32) {
     let cell_square = radius * radius * grid.inverse_edge * grid.inverse_edge;
     let reach = radius * grid.inverse_edge;
@@ -56,4 +59,18 @@ fn visit_near(point: vec3<f32>, radius: f32, part: u32) {
             visit_ball(point - image * params.periods, radius, part);
         }
     }
+}
+
+// Finds the entries of the list of a row, threads of the row by turns: they count first, so that each knows where its own begin. In the
+// last of them it is the length of the list.
+fn find(share: SharedRow, lane: u32, point: vec3<f32>, radius: f32, capacity: u32) -> u32 {
+    var before = 0u;
+    if (SHARES > 1u) {
+        found = capacity;
+        visit_near(point, radius, share.first);
+        before = share_before(lane, found - capacity);
+    }
+    found = select(capacity, before, share.is_row);
+    visit_near(point, radius, share.first);
+    return found;
 }

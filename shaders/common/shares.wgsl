@@ -12,17 +12,21 @@ struct SharedRow {
     is_row: bool,
     // Whether the thread writes the results of the row.
     writes: bool,
+    // Whether it is the last of the row, which knows the length of a list.
+    is_last: bool,
 }
 
 // The row of a thread of `rows`. Threads without one repeat the last, since all threads of a group add up.
 fn shared_row(group: vec3<u32>, groups: vec3<u32>, lane: u32, rows: u32) -> SharedRow {
     let wide = GROUP / SHARES;
     let row = group_of(group, groups) * wide + lane % wide;
-    return SharedRow(min(row, rows - 1u), lane / wide, row < rows, row < rows && lane < wide);
+    let first = lane / wide;
+    let is_row = row < rows;
+    return SharedRow(min(row, rows - 1u), first, is_row, is_row && first == 0u, is_row && first == SHARES - 1u);
 }
 
-// Sum over the threads of a row, always in the same order. All threads of a group take part.
-fn share_sum(lane: u32, own: vec4<f32>) -> vec4<f32> {
+// Sum or largest values over the threads of a row, always in the same order. All threads of a group take part.
+fn share_all(lane: u32, own: vec4<f32>, is_largest: bool) -> vec4<f32> {
     if (SHARES == 1u) {
         return own;
     }
@@ -30,37 +34,33 @@ fn share_sum(lane: u32, own: vec4<f32>) -> vec4<f32> {
     for (var half = GROUP / 2u; half >= GROUP / SHARES; half = half / 2u) {
         workgroupBarrier();
         if (lane < half) {
-            share_parts[lane] += share_parts[lane + half];
+            let a = share_parts[lane];
+            let b = share_parts[lane + half];
+            share_parts[lane] = select(a + b, max(a, b), is_largest);
         }
     }
     workgroupBarrier();
-    let sum = share_parts[lane % (GROUP / SHARES)];
-    // The next sum overwrites the memory of this one.
+    let all = share_parts[lane % (GROUP / SHARES)];
+    // The next ones overwrite the memory of these.
     workgroupBarrier();
-    return sum;
+    return all;
 }
 
-// The largest value over the threads of a row.
+fn share_sum(lane: u32, own: vec4<f32>) -> vec4<f32> {
+    return share_all(lane, own, false);
+}
+
+fn share_sum3(lane: u32, own: vec3<f32>) -> vec3<f32> {
+    return share_sum(lane, vec4<f32>(own, 0.0)).xyz;
+}
+
 fn share_maximum(lane: u32, own: f32) -> f32 {
-    if (SHARES == 1u) {
-        return own;
-    }
-    share_parts[lane].x = own;
-    for (var half = GROUP / 2u; half >= GROUP / SHARES; half = half / 2u) {
-        workgroupBarrier();
-        if (lane < half) {
-            share_parts[lane].x = max(share_parts[lane].x, share_parts[lane + half].x);
-        }
-    }
-    workgroupBarrier();
-    let largest = share_parts[lane % (GROUP / SHARES)].x;
-    workgroupBarrier();
-    return largest;
+    return share_all(lane, vec4<f32>(own), true).x;
 }
 
 var<workgroup> share_counts: array<u32, GROUP_THREADS>;
 
-// The sum over the threads of a row before this one.
+// The sum over the threads of a row before this one; once in a pass.
 fn share_before(lane: u32, own: u32) -> u32 {
     share_counts[lane] = own;
     workgroupBarrier();
@@ -69,8 +69,4 @@ fn share_before(lane: u32, own: u32) -> u32 {
         sum += share_counts[other];
     }
     return sum;
-}
-
-fn share_sum3(lane: u32, own: vec3<f32>) -> vec3<f32> {
-    return share_sum(lane, vec4<f32>(own, 0.0)).xyz;
 }

@@ -14,17 +14,14 @@
 @group(0) @binding(9) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<private> list_row: u32;
-// Where the list goes on, and how many were found since.
-var<private> first_slot: u32;
-var<private> found: u32;
 
 fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
     let radius = params.smoothing.support_radius;
     for (var other = begin; other < end; other += 1u) {
         let apart = point - fluid_position[other].xyz;
         if (dot(apart, apart) < radius * radius) {
-            if (first_slot + found < params.image_particle_capacity) {
-                image_particles[list_row + (first_slot + found + 1u) * params.image_capacity] = other;
+            if (found < params.image_particle_capacity) {
+                image_particles[list_row + (found + 1u) * params.image_capacity] = other;
             }
             found += 1u;
         }
@@ -41,29 +38,15 @@ fn main(
         return;
     }
     let share = shared_row(group, groups, lane, image_grid.rows);
-    let point = image_position[share.row].xyz;
-    let radius = params.smoothing.support_radius;
-    let is_in_body = images[share.row].body != NO_BODY;
+    let capacity = params.image_particle_capacity;
+    // A ball without a radius meets no cell.
+    let radius = select(params.smoothing.support_radius, 0.0, images[share.row].body == NO_BODY);
     list_row = share.row;
-    if (SHARES > 1u) {
-        // Threads that share a row count first.
-        first_slot = params.image_particle_capacity;
-        if (is_in_body) {
-            visit_near(point, radius, share.first);
-        }
-        first_slot = share_before(lane, found);
-    }
-    let before = first_slot;
-    first_slot = select(params.image_particle_capacity, before, share.is_row);
-    found = 0u;
-    if (is_in_body) {
-        visit_near(point, radius, share.first);
-    }
-    if (share.is_row && share.first == SHARES - 1u) {
-        let all = before + found;
-        image_particles[share.row] = all;
-        if (all > params.image_particle_capacity) {
-            atomicMax(&extremes[EXTREME_IMAGE_PARTICLES], all);
+    let length = find(share, lane, image_position[share.row].xyz, radius, capacity);
+    if (share.is_last) {
+        image_particles[share.row] = length;
+        if (length > capacity) {
+            atomicMax(&extremes[EXTREME_IMAGE_PARTICLES], length);
         }
     }
 }

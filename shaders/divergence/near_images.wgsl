@@ -12,9 +12,6 @@
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
 
 var<private> list_row: u32;
-// Where the list goes on, and how many were found since.
-var<private> first_slot: u32;
-var<private> found: u32;
 
 fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
     let radius = params.smoothing.support_radius;
@@ -22,8 +19,8 @@ fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
         let image = image_order[place];
         let apart = point - points[image].xyz;
         if (dot(apart, apart) < radius * radius) {
-            if (first_slot + found < params.near_image_capacity) {
-                fluid_near_images[list_row + (first_slot + found + 1u) * params.fluid_rows] = image;
+            if (found < params.near_image_capacity) {
+                fluid_near_images[list_row + (found + 1u) * params.fluid_rows] = image;
             }
             found += 1u;
         }
@@ -40,24 +37,13 @@ fn main(
         return;
     }
     let share = shared_row(group, groups, lane, params.fluid_rows);
-    let point = fluid_position[share.row].xyz;
-    let radius = params.smoothing.support_radius;
+    let capacity = params.near_image_capacity;
     list_row = share.row;
-    if (SHARES > 1u) {
-        // Threads that share a row count first.
-        first_slot = params.near_image_capacity;
-        visit_near(point, radius, share.first);
-        first_slot = share_before(lane, found);
-    }
-    let before = first_slot;
-    first_slot = select(params.near_image_capacity, before, share.is_row);
-    found = 0u;
-    visit_near(point, radius, share.first);
-    if (share.is_row && share.first == SHARES - 1u) {
-        let all = before + found;
-        fluid_near_images[share.row] = all;
-        if (all > params.near_image_capacity) {
-            atomicMax(&extremes[EXTREME_NEAR_IMAGES], all);
+    let length = find(share, lane, fluid_position[share.row].xyz, params.smoothing.support_radius, capacity);
+    if (share.is_last) {
+        fluid_near_images[share.row] = length;
+        if (length > capacity) {
+            atomicMax(&extremes[EXTREME_NEAR_IMAGES], length);
         }
     }
 }

@@ -127,7 +127,7 @@ fn main(
     if (share.writes) {
         fluid_density[share.row] = sum * (params.smoothing.value * params.particle_mass);
     }
-    if (share.is_row && share.first == SHARES - 1u) {
+    if (share.is_last) {
         fluid_neighbors[share.row] = found.count;
         if (found.count > params.neighbor_capacity) {
             atomicMax(&extremes[EXTREME_NEIGHBORS], found.count);

@@ -24,7 +24,7 @@ declare! {
         pass("grid::scan_pages", ControlPages).on(CONTROL_CELLS),
         pass("grid::scatter", Nodes).on(CONTROL_CELLS),
         pass(NAME, Nodes),
-        pass("couple::near_fluid", Fluid),
+        pass("couple::near_fluid", Fluid).on(CONTROL_CELLS),
         pass("couple::near_controls", Controls),
         CHECK,
     ],
