@@ -4,7 +4,7 @@
 use sorb::{
     World,
     glam::{UVec3, Vec3},
-    scene::{Body, Fluid, FluidBlock, Mesh, Scene, ShapeKind, Sponge, SpongeShape},
+    scene::{BlockShape, Body, Fluid, FluidBlock, Mesh, Scene, ShapeKind, Sponge},
 };
 
 /// A square bowl: rings of four corners, from the underside over the rim to the hollow. A file would do as well:
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let water = FluidBlock::new(Vec3::new(-0.035, 0.02, -0.035), Vec3::new(0.035, 0.045, 0.035));
     let sponge = Sponge {
         cells: UVec3::splat(6),
-        shape: SpongeShape::Mesh { mesh: octahedron() },
+        shape: BlockShape::Mesh { mesh: octahedron() },
         permeability: 5e-9,
         young_modulus: 2e4,
         ..Sponge::new("octahedron", Vec3::new(-0.03, 0.055, -0.03))

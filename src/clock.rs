@@ -102,7 +102,8 @@ impl Steps {
         let has_fluid = fluid.particle_mass > 0.0 && !dormant.fluid;
         let solves_divergence = fluid.divergence().is_some();
         let sponges = || params.sponges.iter().zip(&scene.sponges).enumerate();
-        let sponges = || sponges().filter(|(index, _)| !dormant.sponges.contains(index)).map(|(_, own)| own);
+        let is_out = |index: usize| dormant.sponges.contains(&index) || scene.sponges[index].is_removed();
+        let sponges = || sponges().filter(|(index, _)| !is_out(*index)).map(|(_, own)| own);
         if let Some(water) = scene.fluid.as_ref().filter(|_| has_fluid) {
             let h = fluid.smoothing.support_radius;
             // Along the line between particles this form is five times as stiff as the other.

@@ -25,12 +25,13 @@ use crate::{
     rigid::{BodySetup, RigidEngine, check_engine},
     scene::{self, Scene},
     sponge::{self, Lattice, LatticeSponge, SLOT_VERTEX_COLOR},
-    world::WorldError,
+    world::{Origin, WorldError},
 };
 
 pub(crate) use params::params;
-pub(crate) use seed::{Beside, jitter};
+pub(crate) use seed::{Beside, jitter, pores};
 use shapes::Mask;
+pub(crate) use shapes::mask;
 
 /// Tets of a chunk that one thread solves at a time.
 const TETS_PER_CHUNK: usize = 256;
@@ -71,11 +72,7 @@ impl Setup {
         place_bodies(scene, &setups, &*engine, &mut columns);
         let masks = shapes::masks(&scene.sponges)?;
         let lattice = match &begin.cut_by {
-            Some(bodies) => {
-                // Where they were when the sponges were made.
-                let rows = bodies.iter().map(|body| Ok(cutter(body, &body_setup(body, spacing(scene))?)));
-                lattice(scene, &masks, &rows.collect::<Result<Vec<_>, WorldError>>()?)?
-            }
+            Some(bodies) => lattice(scene, &masks, &cutters(scene, bodies)?)?,
             None => lattice(scene, &masks, &columns.bodies.states.0)?,
         };
         overlap::check(scene, &lattice)?;
@@ -84,10 +81,39 @@ impl Setup {
             columns.nodes.interior = cpu.enter(|| node_interior(cpu, &params, &columns));
         }
         if !begin.is_dry {
-            seed::seed_fluid(scene, &masks, &params, &mut columns);
+            seed::seed_fluid(scene, &masks, &params, &mut columns)?;
         }
         Ok(Self { params, columns, lattice, engine })
     }
+}
+
+/// Bodies where they were when the sponges were made.
+fn cutters(scene: &Scene, bodies: &[scene::Body]) -> Result<Vec<Body>, WorldError> {
+    bodies.iter().map(|body| Ok(cutter(body, &body_setup(body, spacing(scene))?))).collect()
+}
+
+/// The nodes of what commands have made of a scene, which nothing holds.
+pub(crate) fn node_columns(
+    scene: &Scene,
+    params: &Params,
+    cpu: &Cpu,
+    origin: &Origin,
+) -> Result<(Lattice, Columns), WorldError> {
+    let masks = shapes::masks(&scene.sponges)?;
+    let bodies = origin.cut_by.as_ref().unwrap_or(&scene.bodies);
+    let lattice = lattice(scene, &masks, &cutters(scene, bodies)?)?;
+    let mut columns = Columns::default();
+    fill_nodes(scene, params, &lattice, &mut columns);
+    if scene.fluid.is_some() {
+        columns.nodes.interior = cpu.enter(|| node_interior(cpu, params, &columns));
+    }
+    Ok((lattice, columns))
+}
+
+/// The lattice of a sponge alone, which no body has cut.
+pub(crate) fn sponge_lattice(sponge: &scene::Sponge) -> Result<Lattice, WorldError> {
+    let scene = Scene::new("sponge").with_sponge(sponge.clone());
+    lattice(&scene, &shapes::masks(&scene.sponges)?, &[])
 }
 
 /// The bodies of a scene as an engine takes them, in order: shapes about their centres of mass, and states at time zero. For hosts that
@@ -178,16 +204,17 @@ fn place_bodies(scene: &Scene, setups: &[BodySetup], engine: &dyn RigidEngine, c
 pub(crate) const TOUCH: f32 = 1.0e-3;
 
 /// The sponges, without cells that begin inside a body: these would be thrown out of it. Grips hold the nodes that they
-/// contain instead.
+/// contain instead. Sponges that were added later are not cut.
 fn lattice(scene: &Scene, masks: &[Mask], bodies: &[Body]) -> Result<Lattice, WorldError> {
     let rooms: Vec<_> = scene
         .sponges
         .iter()
         .map(|sponge| {
             let (origin, size, depth) = (sponge.position, sponge.size(), TOUCH * sponge.edge);
+            let is_uncut = sponge.added;
             move |place: Vec3| {
                 let point = origin + place * size;
-                !bodies.iter().any(|body| body.touches_nodes && body.distance(point) < -depth)
+                is_uncut || !bodies.iter().any(|body| body.touches_nodes && body.distance(point) < -depth)
             }
         })
         .collect();
@@ -198,9 +225,11 @@ fn lattice(scene: &Scene, masks: &[Mask], bodies: &[Body]) -> Result<Lattice, Wo
         .map(|(sponge, (mask, room))| LatticeSponge {
             edge: sponge.edge,
             cells: sponge.cells.to_array(),
-            origin: sponge.position,
-            keep: &**mask,
+            // Where removed ones are, a lattice has no digits left.
+            origin: if sponge.is_removed() { Vec3::ZERO } else { sponge.position },
+            keep: if sponge.is_removed() { &|_| false } else { &**mask },
             has_room: room,
+            may_be_empty: sponge.is_removed(),
         })
         .collect();
     Ok(Lattice::new(&sponges)?)

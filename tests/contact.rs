@@ -7,7 +7,7 @@ use common::Claims;
 use sorb::{
     SimdLevel, World, WorldError,
     glam::{DVec3, UVec3, Vec3},
-    scene::{Axis, Body, Domain, Motion, Scene, ShapeKind, Solver, Sponge, SpongeShape},
+    scene::{Axis, BlockShape, Body, Domain, Motion, Scene, ShapeKind, Solver, Sponge},
 };
 
 const EDGE: f32 = 0.01;
@@ -236,7 +236,7 @@ fn a_wrung_bar_keeps_its_twist() {
 #[test]
 fn sponges_inside_each_other_are_refused() {
     let mut scene = pair(-0.02);
-    scene.sponges.iter_mut().for_each(|sponge| sponge.shape = SpongeShape::Ellipsoid);
+    scene.sponges.iter_mut().for_each(|sponge| sponge.shape = BlockShape::Ellipsoid);
     let refused = World::new(&scene).expect_err("they overlap");
     assert!(matches!(refused, WorldError::Overlap { .. }), "{refused}");
     assert!(refused.to_string().contains("`lower`") && refused.to_string().contains("`upper`"), "{refused}");
@@ -252,7 +252,7 @@ fn sponges_inside_each_other_are_refused() {
 #[test]
 fn a_slight_overlap_is_pushed_apart_without_a_jump() {
     let mut scene = pair(-0.003);
-    scene.sponges.iter_mut().for_each(|sponge| sponge.shape = SpongeShape::Cylinder { axis: Axis::Y });
+    scene.sponges.iter_mut().for_each(|sponge| sponge.shape = BlockShape::Cylinder { axis: Axis::Y });
     let mut world = common::world(&scene);
     let mut fastest = 0.0_f32;
     for _ in 0..60 {

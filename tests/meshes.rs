@@ -1,13 +1,13 @@
-//! Bodies and sponges from files of meshes.
+//! Bodies, sponges and blocks of water from meshes.
 
 mod common;
 
 use std::{fs, path::PathBuf};
 
 use sorb::{
-    World,
+    Command, Region, World,
     glam::{UVec3, Vec3},
-    scene::{Mesh, Scene, ShapeKind, Sponge, SpongeShape},
+    scene::{Axis, BlockShape, Fluid, FluidBlock, Mesh, Scene, ShapeKind, Sponge},
 };
 
 /// A folder of its own for a test.
@@ -160,14 +160,74 @@ fn ball(rounds: u32) -> Mesh {
 
 #[test]
 fn a_sponge_of_a_ball_is_as_large_as_an_ellipsoid() {
-    let volume = |shape: SpongeShape| {
+    let volume = |shape: BlockShape| {
         let sponge = Sponge { shape, cells: UVec3::splat(12), ..Sponge::new("ball", Vec3::ZERO) };
         let world = common::world(&Scene::new("ball").with_sponge(sponge));
         world.measures().sponge_volume
     };
-    let (mesh, ellipsoid) = (volume(SpongeShape::Mesh { mesh: ball(4) }), volume(SpongeShape::Ellipsoid));
+    let (mesh, ellipsoid) = (volume(BlockShape::Mesh { mesh: ball(4) }), volume(BlockShape::Ellipsoid));
     assert!((mesh / ellipsoid - 1.0).abs() < 0.02, "{mesh} and {ellipsoid} m^3");
     // Negative controls: the block, and an octahedron, which is a ball of no rounds.
-    let (block, octahedron) = (volume(SpongeShape::Block), volume(SpongeShape::Mesh { mesh: ball(0) }));
+    let (block, octahedron) = (volume(BlockShape::Block), volume(BlockShape::Mesh { mesh: ball(0) }));
     assert!(block > 1.7 * ellipsoid && octahedron < 0.5 * ellipsoid, "{block} and {octahedron} m^3");
+}
+
+/// Particles of a block of water of a shape, 12 cm wide, in a container; of a pour of it where that is asked for.
+fn particles(shape: BlockShape, is_poured: bool) -> usize {
+    let (low, high) = (Vec3::splat(-0.06), Vec3::splat(0.06));
+    let block = FluidBlock { shape: shape.clone(), ..FluidBlock::new(low, high) };
+    let blocks = if is_poured { Vec::new() } else { vec![block] };
+    let fluid = Fluid { blocks, spacing: 0.005, ..Fluid::default() };
+    let scene = Scene::new("shapes").in_box(Vec3::splat(-0.1), Vec3::splat(0.1)).with_fluid(fluid);
+    let mut world = common::world(&scene);
+    if is_poured {
+        let region = Region::Block { minimum: low, maximum: high, shape: Box::new(shape) };
+        let command = Command::Pour { region, velocity: Vec3::ZERO };
+        world.push(command).unwrap_or_else(|error| panic!("{error}"));
+        common::frame(&mut world);
+    }
+    world.particle_count()
+}
+
+#[test]
+fn blocks_of_water_have_shapes() {
+    for is_poured in [false, true] {
+        let count = |shape: BlockShape| particles(shape, is_poured) as f64;
+        let whole = count(BlockShape::Block);
+        assert_eq!(whole, 24.0 * 24.0 * 24.0);
+        let mesh = BlockShape::Mesh { mesh: ball(4) };
+        for (shape, share) in [
+            (BlockShape::Ellipsoid, std::f64::consts::FRAC_PI_6),
+            (BlockShape::Cylinder { axis: Axis::Z }, std::f64::consts::FRAC_PI_4),
+            (mesh, std::f64::consts::FRAC_PI_6),
+        ] {
+            let found = count(shape.clone()) / whole;
+            assert!((found / share - 1.0).abs() < 0.03, "{is_poured}: {found} of {share}");
+        }
+        // The control: an octahedron, which is a ball of no rounds, is a third of its box less than that.
+        assert!(count(BlockShape::Mesh { mesh: ball(0) }) < 0.2 * whole);
+    }
+}
+
+#[test]
+fn shapes_of_water_that_are_no_meshes_are_refused() {
+    let mut open = ball(1);
+    open.triangles.pop();
+    let scene = |mesh: Mesh| {
+        let shape = BlockShape::Mesh { mesh };
+        let block = FluidBlock { shape, ..FluidBlock::new(Vec3::splat(-0.05), Vec3::splat(0.05)) };
+        Scene::new("open").with_fluid(Fluid { blocks: vec![block], ..Fluid::default() })
+    };
+    let error = scene(open.clone()).validate().map_err(|error| error.to_string()).unwrap_err();
+    assert!(error.contains("fluid.blocks[0].shape.mesh.triangles"), "{error}");
+    assert!(scene(ball(1)).validate().is_ok());
+    let mut world = common::world(&scene(ball(1)));
+    let mut pour = |mesh: Mesh| {
+        let shape = Box::new(BlockShape::Mesh { mesh });
+        let region = Region::Block { minimum: Vec3::splat(0.06), maximum: Vec3::splat(0.2), shape };
+        world.push(Command::Pour { region, velocity: Vec3::ZERO }).map_err(|error| error.to_string())
+    };
+    let error = pour(open).unwrap_err();
+    assert!(error.contains("pour.region.block.shape.mesh.triangles"), "{error}");
+    assert_eq!(pour(ball(1)), Ok(()));
 }

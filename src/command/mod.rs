@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     handle::{BodyHandle, SpongeHandle},
     rigid::{BodyKind, Target},
-    scene::{Body, Drain, Emitter, GravityKey, KindKey, Material, Motion, Problem},
+    scene::{Body, Drain, Emitter, GravityKey, KindKey, Material, Motion, Problem, Sponge},
 };
 
 pub use region::Region;
@@ -130,6 +130,20 @@ pub enum Command {
         rotation: Quat,
         /// Velocity of all of it. Range -100 to 100 m/s.
         velocity: Vec3,
+    },
+    /// Another sponge, with the water in its pores. Bodies that grip hold the nodes that are in them. A place in a body or in a sponge is
+    /// an error, and one in water if the sponge brings water along. Rows of nodes change.
+    AddSponge {
+        /// Its handle, which is that of [`World::next_sponge`](crate::World::next_sponge).
+        sponge: SpongeHandle,
+        /// What it is, of the ranges and rules of scenes. A mesh needs vertices: a file is not read.
+        #[serde(with = "crate::text")]
+        description: Box<Sponge>,
+    },
+    /// A sponge goes; the water in it stays where it is. Rows of nodes change.
+    RemoveSponge {
+        /// The sponge.
+        sponge: SpongeHandle,
     },
     /// Another material of a sponge, from the next step on.
     Material {

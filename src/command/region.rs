@@ -3,8 +3,10 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::{scene::BlockShape, setup::mask};
+
 /// A region of space. Its surface belongs to it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Region {
@@ -31,13 +33,23 @@ pub enum Region {
         /// Its radius. Range 0.0001 to 100 m.
         radius: f32,
     },
+    /// A shape cut out of a box along the axes, as [`FluidBlock`](crate::scene::FluidBlock) has it.
+    Block {
+        /// Lowest corner of the box. Range -1000 to 1000 m.
+        minimum: Vec3,
+        /// Highest corner, above the lowest along every axis. Range -1000 to 1000 m.
+        maximum: Vec3,
+        /// The shape. A mesh needs the feature `rigid`, and vertices: a file is not read.
+        #[serde(with = "crate::text")]
+        shape: Box<BlockShape>,
+    },
 }
 
 impl Region {
     /// Its lowest and its highest corner \[m\].
     pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
         match *self {
-            Self::Box { minimum, maximum } => (minimum, maximum),
+            Self::Box { minimum, maximum } | Self::Block { minimum, maximum, .. } => (minimum, maximum),
             Self::Sphere { centre, radius } => (centre - radius, centre + radius),
             Self::Cylinder { start, end, radius } => {
                 let axis = (end - start).normalize_or_zero();
@@ -47,16 +59,26 @@ impl Region {
         }
     }
 
-    /// Whether a point lies in it.
-    pub(crate) fn contains(&self, point: Vec3) -> bool {
+    /// Whether points lie in it. In a mesh that is none, or without the feature `rigid`, lie none.
+    pub(crate) fn inside(&self) -> Box<dyn Fn(Vec3) -> bool> {
         match *self {
-            Self::Box { minimum, maximum } => point.cmpge(minimum).all() && point.cmple(maximum).all(),
-            Self::Sphere { centre, radius } => point.distance_squared(centre) <= radius * radius,
-            Self::Cylinder { start, end, radius } => {
+            Self::Box { minimum, maximum } => {
+                Box::new(move |point| point.cmpge(minimum).all() && point.cmple(maximum).all())
+            }
+            Self::Sphere { centre, radius } => {
+                Box::new(move |point| point.distance_squared(centre) <= radius * radius)
+            }
+            Self::Cylinder { start, end, radius } => Box::new(move |point| {
                 let (axis, way) = (end - start, point - start);
                 let along = way.dot(axis) / axis.length_squared();
                 (0.0..=1.0).contains(&along) && (way - axis * along).length_squared() <= radius * radius
-            }
+            }),
+            Self::Block { minimum, maximum, ref shape } => match mask(shape, maximum - minimum, "region") {
+                Ok(mask) => {
+                    Box::new(move |point| BlockShape::holds(&mask, (minimum, maximum - minimum), point))
+                }
+                Err(_) => Box::new(|_| false),
+            },
         }
     }
 
@@ -69,9 +91,9 @@ impl Region {
             move |index: [u64; 3]| corner + (Vec3::from_array(index.map(|at| at as f32)) + 0.5) * spacing;
         let rows = (0..nz).flat_map(move |z| (0..ny).map(move |y| (y, z)));
         let points = rows.flat_map(move |(y, z)| (0..nx).map(move |x| point([x, y, z])));
-        let own = *self;
+        let (is_box, is_inside) = (matches!(self, Self::Box { .. }), self.inside());
         // Rounding must not take the last row of a box.
-        points.filter(move |point| matches!(own, Self::Box { .. }) || own.contains(*point))
+        points.filter(move |point| is_box || is_inside(*point))
     }
 
     /// Points of the lattice in its bounds.
@@ -110,6 +132,14 @@ mod tests {
                 Region::Cylinder { start: Vec3::ZERO, end: Vec3::new(0.2, 0.2, 0.0), radius: 0.06 },
                 std::f32::consts::PI * 0.0036 * 0.282_843,
             ),
+            (
+                Region::Block {
+                    minimum: Vec3::splat(-0.1),
+                    maximum: Vec3::new(0.1, 0.0, 0.3),
+                    shape: Box::new(BlockShape::Ellipsoid),
+                },
+                0.2 * 0.1 * 0.4 * std::f32::consts::FRAC_PI_6,
+            ),
         ];
         for (region, volume) in regions {
             let points: Vec<Vec3> = region.lattice(spacing).collect();
@@ -119,10 +149,10 @@ mod tests {
             let (low, high) = region.bounds();
             for point in points {
                 assert!(point.cmpge(low).all() && point.cmple(high).all(), "{region:?} {point}");
-                assert!(region.contains(point), "{region:?} {point}");
+                assert!(region.inside()(point), "{region:?} {point}");
             }
             // Negative control.
-            assert!(!region.contains(high + 0.01), "{region:?}");
+            assert!(!region.inside()(high + 0.01), "{region:?}");
         }
         let thin = Region::Box { minimum: Vec3::ZERO, maximum: Vec3::new(0.1, 0.005, 0.1) };
         assert_eq!(thin.lattice(spacing).count(), 0);

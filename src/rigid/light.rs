@@ -42,7 +42,8 @@ struct Shares {
 impl LightBodies {
     pub(crate) fn new(scene: &Scene) -> Self {
         let fluid = scene.fluid.as_ref().map_or(0.0, |fluid| fluid.rest_density);
-        let sponge = scene.sponges.iter().map(|sponge| sponge.density).fold(0.0, f32::max);
+        let present = scene.sponges.iter().filter(|sponge| !sponge.is_removed());
+        let sponge = present.map(|sponge| sponge.density).fold(0.0, f32::max);
         let is_solved = scene.fluid_solver() == Some(FluidSolver::Divergence);
         let shares = scene.bodies.iter().map(|body| {
             let share =

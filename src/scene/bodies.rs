@@ -110,11 +110,11 @@ impl Body {
     }
 }
 
-/// Where removed bodies are \[m\].
-const NOWHERE: Vec3 = Vec3::splat(1000.0);
+/// Where removed bodies and sponges are \[m\].
+pub(super) const NOWHERE: Vec3 = Vec3::splat(1000.0);
 
-/// What all names of removed bodies begin with.
-const REMOVED: &str = "removed-";
+/// What all names of removed bodies and sponges begin with.
+pub(crate) const REMOVED: &str = "removed-";
 
 impl Body {
     /// What a removed body leaves behind: a body that nothing can meet.

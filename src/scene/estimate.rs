@@ -25,13 +25,15 @@ impl Scene {
     /// Estimates the numbers of particles, nodes and tets from sizes alone.
     #[must_use]
     pub fn estimate(&self) -> Estimate {
-        let nodes = self.sponges.iter().map(nodes).sum::<f64>();
-        let tets = self.sponges.iter().map(tets).sum::<f64>();
+        let sponges = || self.sponges.iter().filter(|sponge| !sponge.is_removed());
+        let nodes = sponges().map(nodes).sum::<f64>();
+        let tets = sponges().map(tets).sum::<f64>();
         let particles = self.fluid.as_ref().map_or(0.0, |fluid| {
             let particle = f64::from(fluid.spacing).powi(3);
             let free = fluid.blocks.iter().map(|block| {
                 let (counts, _) = block.lattice(self, fluid.spacing);
-                let count: f64 = counts.iter().map(|&n| f64::from(n)).product();
+                let count: f64 =
+                    counts.iter().map(|&n| f64::from(n)).product::<f64>() * block.shape.fraction();
                 let displaced: f64 = self.sponges.iter().map(|sponge| overlap(block, sponge)).sum();
                 (count - displaced / particle).max(0.0)
             });
@@ -68,7 +70,7 @@ fn overlap(block: &FluidBlock, sponge: &Sponge) -> f64 {
     let low = block.minimum.max(sponge.position);
     let high = block.maximum.min(sponge.maximum());
     let size = (high - low).max(Vec3::ZERO).as_dvec3();
-    size.x * size.y * size.z * sponge.shape.fraction()
+    size.x * size.y * size.z * sponge.shape.fraction() * block.shape.fraction()
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the cast saturates, and a count that large is refused")]

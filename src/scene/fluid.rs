@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::error::Problem;
 use super::number::number_text;
-use super::{Domain, Scene};
+use super::{BlockShape, Domain, Scene};
 
 /// Support radius of the surface energy, over that of the fluid. With as few neighbours as the pressure has, particles at
 /// the surface settle in rows without a deficit. The tension is then a tenth of the value of the scene.
@@ -217,12 +217,12 @@ pub enum EquationOfState {
     Linear,
 }
 
-/// Axis-aligned block of water at time zero.
+/// Block of water along the axes at time zero, or a shape cut out of one.
 ///
 /// Particles are at `minimum + (i + 1/2) * spacing`. A block that fills a periodic axis must be a whole number of spacings
 /// long there, within a thousandth. Particles that would start inside a sponge or a body are left out: `saturation` is the
 /// water of a sponge.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct FluidBlock {
@@ -235,13 +235,15 @@ pub struct FluidBlock {
     /// Velocity at time zero. Range -100 to 100 m/s; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub velocity: Vec3,
+    /// Shape that is cut out of the block; default all of it. The boxes of two blocks must not overlap whatever their shapes.
+    pub shape: BlockShape,
 }
 
 impl FluidBlock {
     /// Block at rest, from corner to corner \[m\].
     #[must_use]
     pub fn new(minimum: Vec3, maximum: Vec3) -> Self {
-        Self { minimum, maximum, velocity: Vec3::ZERO }
+        Self { minimum, maximum, ..Self::default() }
     }
 
     /// Number of particles along each axis at a spacing \[m\]; 0 for a block thinner than the spacing.

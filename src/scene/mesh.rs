@@ -1,9 +1,9 @@
-//! Meshes of bodies and sponges.
+//! Meshes of bodies, sponges and blocks of water.
 
 use glam::Vec3;
 
 use super::error::Problem;
-use super::{Scene, ShapeKind, SpongeShape};
+use super::{BlockShape, Scene, ShapeKind};
 use crate::mesh::{self, MeshError};
 
 /// A closed surface of triangles, from a file or in the scene itself.
@@ -83,8 +83,13 @@ impl Scene {
                 problems.push(Problem::rule(key, format!("{file:?}"), error.to_string()));
             }
         };
+        for (index, block) in self.fluid.iter_mut().flat_map(|fluid| &mut fluid.blocks).enumerate() {
+            if let BlockShape::Mesh { mesh } = &mut block.shape {
+                read(mesh, format!("fluid.blocks[{index}]"));
+            }
+        }
         for (index, sponge) in self.sponges.iter_mut().enumerate() {
-            if let SpongeShape::Mesh { mesh } = &mut sponge.shape {
+            if let BlockShape::Mesh { mesh } = &mut sponge.shape {
                 read(mesh, format!("sponges[{index}]"));
             }
         }

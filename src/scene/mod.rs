@@ -21,6 +21,7 @@
 
 use crate::rigid::{BodyKind, BodyState, Shape};
 
+mod block;
 mod bodies;
 mod body_rules;
 mod camera;
@@ -61,8 +62,9 @@ mod text;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use bodies::KindKey;
+pub use block::{Axis, BlockShape};
 pub use bodies::{Body, Look, Rotation, ShapeKind};
+pub(crate) use bodies::{KindKey, REMOVED};
 pub use camera::Camera;
 pub(crate) use container::container_problems;
 pub use container::{Container, GravityKey};
@@ -84,5 +86,5 @@ pub use presets::{Preset, preset, presets};
 pub use quality::Quality;
 #[cfg(feature = "serde")]
 pub use schema::schema;
-pub use sponge::{Axis, Solver, Sponge, SpongeShape};
+pub use sponge::{Solver, Sponge};
 pub use top::{Domain, Scene, Time, VERSION};

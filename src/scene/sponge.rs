@@ -2,61 +2,10 @@
 
 use glam::{UVec3, Vec3};
 
-use super::Mesh;
-
-/// A coordinate axis; Y is up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Axis {
-    /// The first axis.
-    X,
-    /// The upward axis.
-    #[default]
-    Y,
-    /// The third axis.
-    Z,
-}
-
-/// Shape that is cut out of the lattice block.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "serde", derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-#[non_exhaustive]
-pub enum SpongeShape {
-    /// The whole block.
-    #[default]
-    Block,
-    /// The ellipsoid that touches all six faces of the block.
-    Ellipsoid,
-    /// The (elliptic) cylinder that touches four faces of the block.
-    Cylinder {
-        /// Axis of the cylinder.
-        axis: Axis,
-    },
-    /// What a mesh encloses: as large as fits into the block, in its middle, without distortion.
-    Mesh {
-        /// The surface.
-        mesh: Mesh,
-    },
-}
-
-impl SpongeShape {
-    /// Volume of the ideal shape over that of its block \[1\].
-    #[must_use]
-    pub fn fraction(&self) -> f64 {
-        match self {
-            Self::Block => 1.0,
-            Self::Ellipsoid => std::f64::consts::PI / 6.0,
-            Self::Cylinder { .. } => std::f64::consts::PI / 4.0,
-            // An estimate: the proportions of the block may be others.
-            Self::Mesh { mesh } => mesh.solid().map_or(1.0, |mesh| {
-                let (low, high) = mesh.bounds();
-                (mesh.volume() / (high - low).as_dvec3().element_product()).clamp(0.0, 1.0)
-            }),
-        }
-    }
-}
+use super::{
+    BlockShape,
+    bodies::{NOWHERE, REMOVED},
+};
 
 /// How the elasticity of a sponge is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -94,7 +43,7 @@ pub struct Sponge {
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub position: Vec3,
     /// Shape that is cut out of the block; default all of it.
-    pub shape: SpongeShape,
+    pub shape: BlockShape,
     /// Velocity at time zero. Range -100 to 100 m/s; default (0, 0, 0).
     #[cfg_attr(feature = "serde", schemars(with = "[f32; 3]"))]
     pub velocity: Vec3,
@@ -189,6 +138,10 @@ pub struct Sponge {
     ///
     /// Both are positive where they hold water. A node goes from one to the other while its saturation changes by a tenth.
     pub receding_pressure: f32,
+    /// Whether it came while the scene ran, as after [`Command::AddSponge`](crate::Command::AddSponge): where bodies and other sponges are at
+    /// time zero does not matter then. Default false.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub added: bool,
 }
 
 impl Default for Sponge {
@@ -198,7 +151,7 @@ impl Default for Sponge {
             edge: 0.01,
             cells: UVec3::splat(8),
             position: Vec3::ZERO,
-            shape: SpongeShape::Block,
+            shape: BlockShape::Block,
             velocity: Vec3::ZERO,
             density: 50.0,
             porosity: 0.9,
@@ -225,6 +178,7 @@ impl Default for Sponge {
             wetting_time: 0.1,
             relative_permeability_exponent: 1,
             receding_pressure: 0.0,
+            added: false,
         }
     }
 }
@@ -234,6 +188,19 @@ impl Sponge {
     #[must_use]
     pub fn new(name: &str, position: Vec3) -> Self {
         Self { name: name.to_owned(), position, ..Self::default() }
+    }
+
+    /// What a removed sponge leaves behind: one without nodes.
+    pub(crate) fn removed(index: usize, own: &Self) -> Self {
+        let (name, cells) = (format!("{REMOVED}sponge-{index}"), UVec3::splat(2));
+        let (edge, solver, position) = (own.edge, own.solver, NOWHERE);
+        Self { name, edge, cells, position, solver, ..Self::default() }
+    }
+
+    /// Whether it is what [`Command::RemoveSponge`](crate::Command::RemoveSponge) has left behind.
+    #[must_use]
+    pub fn is_removed(&self) -> bool {
+        self.position == NOWHERE && self.name.starts_with(REMOVED)
     }
 
     /// Size of the lattice block \[m\].

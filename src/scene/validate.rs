@@ -8,8 +8,8 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    Coupling, Domain, Fluid, FluidSolver, GravityKey, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene, SceneError,
-    ShapeKind, Solver, Sponge, SpongeShape, VERSION,
+    BlockShape, Coupling, Domain, Fluid, FluidSolver, GravityKey, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene,
+    SceneError, ShapeKind, Solver, Sponge, VERSION,
 };
 
 /// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
@@ -55,6 +55,7 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
         check(fluid, limits::FLUID, "fluid.", problems);
         for (index, block) in fluid.blocks.iter().enumerate() {
             check(block, limits::FLUID_BLOCK, &format!("fluid.blocks[{index}]."), problems);
+            block.shape.ranges(&format!("fluid.blocks[{index}].shape"), problems);
         }
     }
     for (index, emitter) in scene.emitters.iter().enumerate() {
@@ -65,9 +66,7 @@ fn ranges(scene: &Scene, problems: &mut Vec<Problem>) {
     }
     for (index, sponge) in scene.sponges.iter().enumerate() {
         check(sponge, limits::SPONGE, &format!("sponges[{index}]."), problems);
-        if let SpongeShape::Mesh { mesh } = &sponge.shape {
-            check(mesh, limits::MESH, &format!("sponges[{index}].shape.mesh."), problems);
-        }
+        sponge.shape.ranges(&format!("sponges[{index}].shape"), problems);
     }
     for (index, body) in scene.bodies.iter().enumerate() {
         check(body, limits::BODY, &format!("bodies[{index}]."), problems);
@@ -224,6 +223,7 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         ordered(&key, block.minimum, block.maximum, problems);
         inside(&key, block.minimum, block.maximum, slack, scene, problems);
         block.seam_rules(&key, fluid.spacing, scene, problems);
+        block.shape.rules(&format!("{key}.shape"), problems);
         for (other_index, other) in fluid.blocks.iter().enumerate().take(index) {
             if overlap((block.minimum, block.maximum), (other.minimum, other.maximum), slack) {
                 let rule =
@@ -242,7 +242,7 @@ fn overlap(a: (Vec3, Vec3), b: (Vec3, Vec3), slack: f32) -> bool {
 }
 
 fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
-    for (index, sponge) in scene.sponges.iter().enumerate() {
+    for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| !sponge.is_removed()) {
         let table = format!("sponges[{index}]");
         let slack = 1e-3 * sponge.edge;
         inside(&table, sponge.position, sponge.maximum(), slack, scene, problems);
@@ -258,18 +258,16 @@ fn sponges(scene: &Scene, problems: &mut Vec<Problem>) {
             }
             None => {}
         }
-        if let SpongeShape::Mesh { mesh } = &sponge.shape {
-            mesh.rules(&format!("{table}.shape.mesh"), problems);
-        }
+        sponge.shape.rules(&format!("{table}.shape"), problems);
         wetting(sponge, &table, scene, problems);
         if sponge.self_contact && sponge.solver != Solver::Vbd {
             let rule = "needs `solver` = \"vbd\"";
             problems.push(Problem::rule(format!("{table}.self_contact"), "true", rule));
         }
         for (other_index, other) in scene.sponges.iter().enumerate().take(index) {
-            let whole = sponge.shape == SpongeShape::Block && other.shape == SpongeShape::Block;
+            let whole = sponge.shape == BlockShape::Block && other.shape == BlockShape::Block;
             let (a, b) = ((sponge.position, sponge.maximum()), (other.position, other.maximum()));
-            if whole && overlap(a, b, slack) {
+            if whole && !sponge.added && !other.added && overlap(a, b, slack) {
                 let rule = format!("overlaps `sponges[{other_index}]`");
                 problems.push(Problem::rule(format!("{table}.position"), vector_text(sponge.position), rule));
             }

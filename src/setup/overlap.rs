@@ -22,7 +22,8 @@ pub(super) fn check(scene: &Scene, lattice: &Lattice) -> Result<(), WorldError> 
             let apart = |axis: usize| {
                 sponge.maximum()[axis] < other.position[axis] || other.maximum()[axis] < sponge.position[axis]
             };
-            let may = index != other_index && touches(sponge) && touches(other) && !(0..3).any(apart);
+            let are_at_once = index != other_index && !sponge.added && !other.added;
+            let may = are_at_once && touches(sponge) && touches(other) && !(0..3).any(apart);
             if may && is_inside(lattice, other_index, (index, sponge)) {
                 let [first, second] = [sponge, other].map(|sponge| sponge.name.clone());
                 return Err(WorldError::Overlap { first, second });

@@ -27,7 +27,7 @@ pub(crate) fn params(scene: &Scene) -> Params {
         scene::Domain::Open => (Domain::Unbounded, None, None),
     };
     let reach = |sponge: &scene::Sponge| sponge.suction_radius * swollen_edge(sponge);
-    let radius = scene.sponges.iter().map(reach).fold(0.0, f32::max);
+    let radius = present(scene).map(reach).fold(0.0, f32::max);
     Params {
         step: scene.time.maximum_step,
         gravity: scene.gravity,
@@ -43,6 +43,11 @@ pub(crate) fn params(scene: &Scene) -> Params {
     }
 }
 
+/// The sponges that commands have not removed.
+fn present(scene: &Scene) -> impl Iterator<Item = &scene::Sponge> {
+    scene.sponges.iter().filter(|sponge| !sponge.is_removed())
+}
+
 /// Support radius of the material volume, over the edge of a cell. It is the smallest at which the solid volume fraction is
 /// nearly uniform: 0.96 to 1.17 of its mean between nodes. A smaller one makes gaps, a larger one blurs the faces.
 const SOLID_RADIUS: f32 = 1.2;
@@ -53,7 +58,7 @@ fn swollen_edge(sponge: &scene::Sponge) -> f32 {
 }
 
 fn solid(scene: &Scene) -> Option<Wendland> {
-    let edge = scene.sponges.iter().map(swollen_edge).fold(0.0, f32::max);
+    let edge = present(scene).map(swollen_edge).fold(0.0, f32::max);
     let is_porous = edge > 0.0 && scene.coupling() == scene::Coupling::Porous;
     is_porous.then(|| Wendland::new(SOLID_RADIUS * edge))
 }

@@ -10,8 +10,11 @@ use sorb_kernels::{
     params::Params,
 };
 
-use super::shapes::Mask;
-use crate::scene::{self, Scene};
+use super::shapes::{Mask, mask};
+use crate::{
+    scene::{self, BlockShape, Scene},
+    world::WorldError,
+};
 
 /// Displacement of initial particles over the spacing: a perfect lattice hides errors that depend on the order of particles.
 const JITTER: f32 = 0.01;
@@ -21,31 +24,29 @@ const CLEARANCE: f32 = 0.4;
 /// them, and those nearer than this are moved away.
 const MARGIN: f32 = 0.1;
 
-pub(super) fn seed_fluid(scene: &Scene, masks: &[Mask], params: &Params, columns: &mut Columns) {
-    let Some(fluid) = &scene.fluid else { return };
+pub(super) fn seed_fluid(
+    scene: &Scene,
+    masks: &[Mask],
+    params: &Params,
+    columns: &mut Columns,
+) -> Result<(), WorldError> {
+    let Some(fluid) = &scene.fluid else { return Ok(()) };
     let spacing = fluid.spacing;
     let room = Beside::new(params, &columns.bodies.states.0);
     let mut seeds = Seeds { columns, room, spacing };
-    for block in &fluid.blocks {
+    for (index, block) in fluid.blocks.iter().enumerate() {
         let (counts, pitch) = block.lattice(scene, spacing);
+        let (corner, size) = (block.minimum, block.maximum - block.minimum);
+        let shape = mask(&block.shape, size, &format!("fluid.blocks[{index}]"))?;
+        let is_whole = block.shape == BlockShape::Block;
         // The saturation of a sponge is its initial water, whatever block of water it stands in.
         let dry =
             |point: Vec3| !scene.sponges.iter().zip(masks).any(|(sponge, mask)| holds(sponge, mask, point));
-        seeds.fill(block.minimum, pitch, counts, block.velocity, dry);
+        let keep = |point: Vec3| (is_whole || BlockShape::holds(&shape, (corner, size), point)) && dry(point);
+        seeds.fill(block.minimum, pitch, counts, block.velocity, keep);
     }
-    let volume = f64::from(params.fluid.particle_mass) / f64::from(fluid.rest_density);
     for (index, sponge) in scene.sponges.iter().enumerate().filter(|(_, sponge)| sponge.saturation > 0.0) {
-        // As many particles as fill the pores, evenly spaced.
-        let size = sponge.size();
-        let fraction = f64::from(sponge.porosity * sponge.saturation);
-        let pitch = (volume / fraction).cbrt() as f32;
-        let wanted = size.to_array().map(|size| size / pitch);
-        let counts = match scene.fluid_solver() {
-            // An equation of state tolerates a few too many.
-            Some(scene::FluidSolver::Wcsph) => wanted.map(|count| count.round().max(1.0) as u32),
-            _ => filling(wanted),
-        };
-        let pitch = [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32);
+        let (counts, pitch) = pore_lattice(scene, sponge, params);
         let before =
             || scene.sponges.iter().zip(masks).take(index).filter(|(other, _)| other.saturation > 0.0);
         let keep = |point: Vec3| {
@@ -63,6 +64,7 @@ pub(super) fn seed_fluid(scene: &Scene, masks: &[Mask], params: &Params, columns
     if params.fluid.divergence().is_some() {
         rest_pressures(scene, params, columns);
     }
+    Ok(())
 }
 
 /// Distance of particles above each other over the spacing up to which they are one column of water.
@@ -113,11 +115,53 @@ fn filling(wanted: [f32; 3]) -> [u32; 3] {
     fitting.max_by_key(particles).unwrap_or_else(|| corner(0))
 }
 
+/// As many particles along the axes of a sponge as fill its pores, evenly spaced, and their distance there \[m\].
+fn pore_lattice(scene: &Scene, sponge: &scene::Sponge, params: &Params) -> ([u32; 3], [f32; 3]) {
+    let rest_density = f64::from(params.fluid.rest_density);
+    let volume = f64::from(params.fluid.particle_mass) / rest_density;
+    let size = sponge.size();
+    let fraction = f64::from(sponge.porosity * sponge.saturation);
+    let pitch = (volume / fraction).cbrt() as f32;
+    let wanted = size.to_array().map(|size| size / pitch);
+    let counts = match scene.fluid_solver() {
+        // An equation of state tolerates a few too many.
+        Some(scene::FluidSolver::Wcsph) => wanted.map(|count| count.round().max(1.0) as u32),
+        _ => filling(wanted),
+    };
+    (counts, [0, 1, 2].map(|axis| size[axis] / counts[axis] as f32))
+}
+
+/// Particles in the pores of a sponge beside bodies \[m\].
+pub(crate) fn pores(
+    scene: &Scene,
+    sponge: &scene::Sponge,
+    params: &Params,
+    bodies: &[Body],
+) -> Result<Vec<Vec3>, WorldError> {
+    if sponge.saturation <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let mask = mask(&sponge.shape, sponge.size(), &format!("sponge `{}`", sponge.name))?;
+    let room = Beside::new(params, bodies);
+    let (counts, pitch) = pore_lattice(scene, sponge, params);
+    let points = lattice_points(sponge.position, pitch, counts);
+    let inside = points.filter(|point| holds(sponge, &mask, *point));
+    Ok(inside.filter_map(|point| room.outside(point)).collect())
+}
+
+/// Centres of the cells of a lattice \[m\].
+fn lattice_points(corner: Vec3, pitch: [f32; 3], counts: [u32; 3]) -> impl Iterator<Item = Vec3> {
+    let [nx, ny, nz] = counts;
+    let indices = (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])));
+    indices.map(move |[x, y, z]| {
+        let steps = Vec3::new(x as f32, y as f32, z as f32) + 0.5;
+        corner + steps * Vec3::from_array(pitch)
+    })
+}
+
 /// Whether a point lies inside the outline of a sponge.
 fn holds(sponge: &scene::Sponge, mask: &Mask, point: Vec3) -> bool {
-    let relative = (point - sponge.position) / sponge.size();
-    let inside = relative.cmpge(Vec3::ZERO).all() && relative.cmple(Vec3::ONE).all();
-    inside && mask(relative)
+    BlockShape::holds(mask, (sponge.position, sponge.size()), point)
 }
 
 /// The room for new particles beside bodies.
@@ -170,18 +214,12 @@ impl Seeds<'_> {
         velocity: Vec3,
         keep: impl Fn(Vec3) -> bool,
     ) {
-        for z in 0..counts[2] {
-            for y in 0..counts[1] {
-                for x in 0..counts[0] {
-                    let steps = Vec3::new(x as f32, y as f32, z as f32) + 0.5;
-                    let point = corner + steps * Vec3::from_array(pitch);
-                    let Some(point) = self.room.outside(point).filter(|_| keep(point)) else { continue };
-                    let fluid = &mut self.columns.fluid;
-                    let point = point + jitter(fluid.position.len() as u64, self.spacing);
-                    fluid.position.push([point.x, point.y, point.z, 0.0]);
-                    fluid.velocity.push([velocity.x, velocity.y, velocity.z, 0.0]);
-                }
-            }
+        for point in lattice_points(corner, pitch, counts) {
+            let Some(free) = self.room.outside(point).filter(|_| keep(point)) else { continue };
+            let fluid = &mut self.columns.fluid;
+            let point = free + jitter(fluid.position.len() as u64, self.spacing);
+            fluid.position.push([point.x, point.y, point.z, 0.0]);
+            fluid.velocity.push([velocity.x, velocity.y, velocity.z, 0.0]);
         }
     }
 }

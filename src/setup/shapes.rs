@@ -1,16 +1,16 @@
-//! Shapes of a scene as bodies and sponges need them.
+//! Shapes of a scene as bodies, sponges and blocks of water need them.
 
 use glam::Vec3;
 
 use crate::{
     rigid::Shape,
-    scene::{Body, ShapeKind, Sponge, SpongeShape},
+    scene::{BlockShape, Body, ShapeKind, Sponge},
     sponge,
     world::WorldError,
 };
 
-/// Whether a point of the unit cube of a block belongs to a sponge.
-pub(super) type Mask = Box<dyn Fn(Vec3) -> bool>;
+/// Whether a point of the unit cube of a block belongs to what is cut out of it.
+pub(crate) type Mask = Box<dyn Fn(Vec3) -> bool>;
 
 /// The shape of a body about its centre of mass, for water of particles at a spacing \[m\], and the place of the centre of mass in the
 /// frame of the scene's shape \[m\].
@@ -35,38 +35,41 @@ pub(super) fn shape_of(body: &Body, spacing: f32) -> Result<(Shape, Vec3), World
                     .map_err(|source| WorldError::Mesh { what: format!("body `{}`", body.name), source })?;
                 rigid::mesh_body(&mesh, *parts, spacing)
             }
-            _ => return Err(WorldError::NeedsRigid { body: body.name.clone() }),
+            _ => return Err(WorldError::NeedsRigid { what: format!("body `{}`", body.name) }),
         }
         .map_err(refused)
     }
     #[cfg(not(feature = "rigid"))]
     {
         let _ = (spacing, ShapeKind::Plane);
-        Err(WorldError::NeedsRigid { body: body.name.clone() })
+        Err(WorldError::NeedsRigid { what: format!("body `{}`", body.name) })
     }
 }
 
 /// The shapes of sponges.
 pub(super) fn masks(sponges: &[Sponge]) -> Result<Vec<Mask>, WorldError> {
-    sponges.iter().map(mask).collect()
+    sponges
+        .iter()
+        .map(|sponge| mask(&sponge.shape, sponge.size(), &format!("sponge `{}`", sponge.name)))
+        .collect()
 }
 
-fn mask(sponge: &Sponge) -> Result<Mask, WorldError> {
-    Ok(match &sponge.shape {
-        SpongeShape::Block => Box::new(sponge::block),
-        SpongeShape::Ellipsoid => Box::new(sponge::ellipsoid),
-        SpongeShape::Cylinder { axis } => Box::new(sponge::cylinder(*axis)),
-        SpongeShape::Mesh { mesh } => {
-            let what = || format!("sponge `{}`", sponge.name);
-            let mesh = mesh.solid().map_err(|source| WorldError::Mesh { what: what(), source })?;
+/// What is cut out of a block of some size \[m\], which an error names.
+pub(crate) fn mask(shape: &BlockShape, size: Vec3, owner: &str) -> Result<Mask, WorldError> {
+    Ok(match shape {
+        BlockShape::Block => Box::new(sponge::block),
+        BlockShape::Ellipsoid => Box::new(sponge::ellipsoid),
+        BlockShape::Cylinder { axis } => Box::new(sponge::cylinder(*axis)),
+        BlockShape::Mesh { mesh } => {
+            let mesh = mesh.solid().map_err(|source| WorldError::Mesh { what: owner.to_owned(), source })?;
             #[cfg(feature = "rigid")]
             {
-                Box::new(sponge::solid(mesh, sponge.size()))
+                Box::new(sponge::solid(mesh, size))
             }
             #[cfg(not(feature = "rigid"))]
             {
-                let _ = mesh;
-                return Err(WorldError::NeedsRigid { body: sponge.name.clone() });
+                let _ = (mesh, size);
+                return Err(WorldError::NeedsRigid { what: owner.to_owned() });
             }
         }
     })

@@ -43,7 +43,7 @@ impl Grid {
             candidates: 0,
         };
         grid.select(sponge);
-        if grid.tet_count == 0 {
+        if grid.tet_count == 0 && !sponge.may_be_empty {
             return Err(LatticeError::Empty { sponge: index, cells, candidates: grid.candidates });
         }
         grid.node_count = grid.sites.iter().flatten().map(|&count| u32::from(count > 0)).sum();

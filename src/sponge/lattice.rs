@@ -26,6 +26,8 @@ pub struct LatticeSponge<'a> {
     pub keep: &'a dyn Fn(Vec3) -> bool,
     /// Whether there is room for a node at a place in the unit cube of the block. Tets with a node elsewhere are left out.
     pub has_room: &'a dyn Fn(Vec3) -> bool,
+    /// Whether there may be no tets at all.
+    pub may_be_empty: bool,
 }
 
 impl fmt::Debug for LatticeSponge<'_> {

@@ -106,6 +106,7 @@ mod tests {
             origin: Vec3::new(-0.3, 0.2, 0.0),
             keep: &block,
             has_room: &|_| true,
+            may_be_empty: false,
         };
         let lattice = Lattice::new(&[sponge]).unwrap_or_else(|error| panic!("{error}"));
         let size = Vec3::new(0.04, 0.03, 0.05);

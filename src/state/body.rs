@@ -19,7 +19,7 @@ pub(super) const CONTAINER: &str = "container";
 pub(super) type Sections = Vec<(&'static str, u64)>;
 
 /// The columns of a state, in order.
-pub(super) fn saved_columns() -> impl Iterator<Item = Column> {
+pub(crate) fn saved_columns() -> impl Iterator<Item = Column> {
     Column::ALL.iter().copied().filter(|column| column.life().is_saved())
 }
 

@@ -2,7 +2,7 @@
 
 use sorb_kernels::{
     column::PlainMut,
-    columns::{Column, Columns, RowCounts},
+    columns::{Column, Columns},
 };
 
 /// Reads as many words as there are.
@@ -13,7 +13,13 @@ pub(super) fn copy_words(bytes: &[u8], words: &mut [u32]) {
 }
 
 /// Whether bytes are those of a column of these rows: of all of them, or of none where the column may be absent.
-pub(super) fn fits(columns: &Columns, rows: RowCounts, column: Column, bytes: usize) -> bool {
+#[cfg(feature = "serde")]
+pub(super) fn fits(
+    columns: &Columns,
+    rows: sorb_kernels::columns::RowCounts,
+    column: Column,
+    bytes: usize,
+) -> bool {
     let rows = rows.of(column.store());
     let row = column.element().bytes();
     if row == 0 {
@@ -26,7 +32,7 @@ pub(super) fn fits(columns: &Columns, rows: RowCounts, column: Column, bytes: us
 }
 
 /// Takes over a column from bytes that fit.
-pub(super) fn take_column(columns: &mut Columns, column: Column, bytes: &[u8]) {
+pub(crate) fn take_column(columns: &mut Columns, column: Column, bytes: &[u8]) {
     let rows = columns.rows.of(column.store());
     let padding = column.padding();
     let to = sorb_kernels::column::padded(rows);

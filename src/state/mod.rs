@@ -5,7 +5,6 @@
 //! a list of sections. Each has a name and bytes, so that two states are compared section by section.
 
 mod body;
-#[cfg(feature = "serde")]
 mod columns;
 mod error;
 #[cfg(feature = "serde")]
@@ -22,6 +21,8 @@ mod snapshot;
 #[cfg(feature = "serde")]
 mod take;
 
+pub(crate) use body::saved_columns;
+pub(crate) use columns::take_column;
 pub use error::StateError;
 #[cfg(feature = "serde")]
 pub(crate) use file::{Kind, read, write};
@@ -29,6 +30,7 @@ pub(crate) use file::{Kind, read, write};
 pub(crate) use header::{Identity, scene_of};
 #[cfg(feature = "serde")]
 pub use save::{Difference, Save};
+pub(crate) use section::append_column;
 pub use snapshot::Snapshot;
 #[cfg(feature = "serde")]
 pub(crate) use take::invalid;
@@ -73,7 +75,7 @@ fn digest_of<'a>(sections: impl Iterator<Item = (&'a str, u64)>, bytes: &[u8]) -
     for (name, size) in sections {
         let (own, after) = rest.split_at(rest.len().min(size as usize));
         let is_kept = |column: Column| column.name() == name && column.life() == Life::Kept;
-        if name != body::LOADS && !body::saved_columns().any(is_kept) {
+        if name != body::LOADS && !saved_columns().any(is_kept) {
             hasher.update(own);
         }
         rest = after;

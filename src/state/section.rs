@@ -29,7 +29,7 @@ fn append_floats(values: &[f32], out: &mut Vec<u8>) {
 }
 
 /// Words of a column that a state has: of as many rows as the column has of those of its store.
-pub(super) fn append_column(columns: &Columns, column: Column, out: &mut Vec<u8>) {
+pub(crate) fn append_column(columns: &Columns, column: Column, out: &mut Vec<u8>) {
     let rows = columns.rows.of(column.store());
     match columns.data(column).plain() {
         Some(Plain::Rows(data)) => append_floats(data[..rows.min(data.len())].as_flattened(), out),

@@ -23,6 +23,11 @@ pub(crate) struct Room {
 }
 
 impl Room {
+    /// Room at all of some points.
+    pub(crate) fn of(points: Vec<Vec3>) -> Self {
+        Self { points, ..Self::default() }
+    }
+
     /// Places without room.
     pub(crate) fn left_out(&self) -> u64 {
         self.outside + self.in_bodies + self.in_sponges + self.in_water

@@ -6,7 +6,7 @@
 use glam::{Quat, Vec3};
 use sorb_kernels::{body::Body, reduce::Wrenches, rounding::Rounding};
 
-use super::{StepError, World, WorldError, fastest_body, sleep};
+use super::{StepError, World, WorldError, fastest_body, sleep, slots::Slots};
 use crate::{
     command::Command,
     handle::BodyHandle,
@@ -15,48 +15,19 @@ use crate::{
     setup::{TOUCH, body_setup, cutter, engine, params},
 };
 
-/// Numbers of bodies: how often each was taken before, and by what, if by anything.
-#[derive(Clone, Debug)]
-pub(crate) struct Slots(Vec<(u32, Option<BodyKind>)>);
-
-impl Slots {
+impl Slots<BodyKind> {
     /// The kind of a body; none for a stale handle.
     pub(crate) fn kind(&self, body: BodyHandle) -> Option<BodyKind> {
-        let (generation, kind) = self.0.get(body.index()).copied()?;
-        kind.filter(|_| generation == body.generation())
-    }
-
-    /// Numbers that were ever taken.
-    pub(crate) fn count(&self) -> usize {
-        self.0.len()
-    }
-
-    /// The handle of the next body.
-    pub(crate) fn next(&self) -> BodyHandle {
-        let free = self.0.iter().position(|(_, kind)| kind.is_none());
-        let index = free.unwrap_or(self.0.len());
-        BodyHandle::new(index as u32, self.0.get(index).map_or(0, |(generation, _)| *generation))
+        self.of(body.index(), body.generation())
     }
 
     fn follow(&mut self, command: &Command) {
         match command {
             Command::AddBody { body, description } => {
-                let new = (body.generation(), Some(description.kind));
-                match self.0.get_mut(body.index()) {
-                    Some(slot) => *slot = new,
-                    None => self.0.push(new),
-                }
+                self.take(body.index(), body.generation(), description.kind);
             }
-            Command::RemoveBody { body } => {
-                if let Some(slot) = self.0.get_mut(body.index()) {
-                    *slot = (body.generation() + 1, None);
-                }
-            }
-            Command::BodyKind { body, kind } => {
-                if let Some(slot) = self.0.get_mut(body.index()) {
-                    slot.1 = Some(*kind);
-                }
-            }
+            Command::RemoveBody { body } => self.free(body.index(), body.generation()),
+            Command::BodyKind { body, kind } => self.change(body.index(), *kind),
             _ => {}
         }
     }
@@ -79,7 +50,8 @@ impl World {
     /// The handle of the next body that a command adds, after those that wait.
     #[must_use]
     pub fn next_body(&self) -> BodyHandle {
-        self.slots_after_commands().next()
+        let (index, generation) = self.slots_after_commands().next();
+        BodyHandle::new(index, generation)
     }
 
     /// The handle of the body with a number.
@@ -89,16 +61,16 @@ impl World {
     }
 
     /// The numbers of bodies.
-    pub(crate) fn slots(&self) -> Slots {
+    pub(crate) fn slots(&self) -> Slots<BodyKind> {
         let slot = |(index, body): (usize, &scene::Body)| {
             let kind = (!body.is_removed()).then_some(body.kind);
             (self.handle_of(index).generation(), kind)
         };
-        Slots(self.scene.bodies.iter().enumerate().map(slot).collect())
+        Slots::new(self.scene.bodies.iter().enumerate().map(slot))
     }
 
     /// The same after the commands that wait.
-    pub(crate) fn slots_after_commands(&self) -> Slots {
+    pub(crate) fn slots_after_commands(&self) -> Slots<BodyKind> {
         let mut slots = self.slots();
         self.commands.pending.iter().for_each(|command| slots.follow(command));
         slots
@@ -166,12 +138,12 @@ impl World {
     /// Adds a body with the handle that was promised.
     pub(super) fn add_body(&mut self, body: BodyHandle, description: &scene::Body) -> Result<(), StepError> {
         // Only a state that was made up has another one.
-        if self.slots().next() != body {
+        if self.slots().next() != (body.index() as u32, body.generation()) {
             return Ok(());
         }
         self.put_body(body.index(), description.clone())?;
         if description.grip {
-            self.hold_what_is_inside(body.index());
+            self.hold_what_is_inside(body.index(), None);
         }
         Ok(())
     }
@@ -283,7 +255,7 @@ impl World {
     }
 
     /// Keeps the bodies that the sponges of the scene were cut by: those of later scenes are others.
-    fn keep_cutters(&mut self) {
+    pub(super) fn keep_cutters(&mut self) {
         let bodies = if self.scene.sponges.is_empty() { Vec::new() } else { self.scene.bodies.clone() };
         let origin = self.origin_mut();
         if origin.cut_by.is_none() {
@@ -291,12 +263,15 @@ impl World {
         }
     }
 
-    /// Gives a body the nodes that are in it.
-    fn hold_what_is_inside(&mut self, index: usize) {
+    /// Gives a body the nodes that are in it; or those of one sponge that nothing holds yet.
+    pub(super) fn hold_what_is_inside(&mut self, index: usize, of: Option<u32>) {
         let body = &self.stores.host.bodies.states.0[index];
         let is_in = |row: &[f32; 4]| body.distance(Vec3::new(row[0], row[1], row[2])) <= 0.0;
         let nodes = self.stores.host.nodes.position.iter().take(self.stores.host.rows.nodes).enumerate();
-        let rows: Vec<u32> = nodes.filter(|(_, row)| is_in(row)).map(|(row, _)| row as u32).collect();
+        let own = &self.stores.host.nodes;
+        let is_meant = |row: usize| of.is_none_or(|of| own.grip[row] == u32::MAX && own.sponge[row] == of);
+        let rows = nodes.filter(|(row, place)| is_in(place) && is_meant(*row)).map(|(row, _)| row as u32);
+        let rows: Vec<u32> = rows.collect();
         self.grip(index as u32, &crate::command::Nodes::Rows(rows));
     }
 }

@@ -9,7 +9,7 @@ use sorb_kernels::{
 use super::{StepError, World, fastest_body, sleep::Kind};
 use crate::{
     command::{Command, CommandError, Nodes},
-    handle::BodyHandle,
+    handle::{BodyHandle, SpongeHandle},
     rigid::{RigidError, Target},
     water::FlowKind,
 };
@@ -83,7 +83,9 @@ impl World {
 
     fn carry_out_one(&mut self, command: &Command) -> Result<(), StepError> {
         // Only a state that was made up has stale handles.
-        if body_of(command).is_some_and(|body| self.slots().kind(body).is_none()) {
+        if body_of(command).is_some_and(|body| self.slots().kind(body).is_none())
+            || sponge_of(command).is_some_and(|sponge| !self.has_sponge(sponge))
+        {
             return Ok(());
         }
         match command {
@@ -131,6 +133,8 @@ impl World {
             Command::AddBody { body, description } => self.add_body(*body, description)?,
             Command::RemoveBody { body } => self.remove_body(*body)?,
             Command::BodyKind { body, kind } => self.change_kind(*body, *kind)?,
+            Command::AddSponge { sponge, description } => self.add_sponge(*sponge, description)?,
+            Command::RemoveSponge { sponge } => self.remove_sponge(*sponge)?,
             Command::Material { sponge, material } => self.set_material(sponge.index(), material)?,
             Command::Pour { region, velocity } => self.pour(region, *velocity)?,
             Command::Remove { region } => self.remove_water(region)?,
@@ -237,6 +241,16 @@ fn body_of(command: &Command) -> Option<BodyHandle> {
     }
 }
 
+/// The sponge that a command acts on, which must be there.
+fn sponge_of(command: &Command) -> Option<SpongeHandle> {
+    match command {
+        Command::PlaceSponge { sponge, .. }
+        | Command::Material { sponge, .. }
+        | Command::RemoveSponge { sponge } => Some(*sponge),
+        _ => None,
+    }
+}
+
 /// Whether a command changes what a device has a copy of.
 fn changes_columns(command: &Command) -> bool {
     changes_water(command)
@@ -246,6 +260,8 @@ fn changes_columns(command: &Command) -> bool {
                 | Command::Grip { .. }
                 | Command::Release { .. }
                 | Command::PlaceSponge { .. }
+                | Command::AddSponge { .. }
+                | Command::RemoveSponge { .. }
                 | Command::Material { .. }
                 | Command::AddBody { .. }
                 | Command::RemoveBody { .. }
@@ -255,13 +271,16 @@ fn changes_columns(command: &Command) -> bool {
 
 /// Whether water comes or goes by a command.
 fn changes_water(command: &Command) -> bool {
-    matches!(command, Command::Pour { .. } | Command::Remove { .. })
+    matches!(command, Command::Pour { .. } | Command::Remove { .. } | Command::AddSponge { .. })
 }
 
 /// Rows of nodes, in order.
 fn rows_of(columns: &Columns, nodes: &Nodes) -> Vec<usize> {
     match nodes {
-        Nodes::Rows(rows) => rows.iter().map(|row| *row as usize).collect(),
+        // Only in a state that was made up others have more.
+        Nodes::Rows(rows) => {
+            rows.iter().map(|row| *row as usize).filter(|row| *row < columns.rows.nodes).collect()
+        }
         Nodes::Sphere { centre, radius } => {
             let rows = columns.nodes.position.iter().take(columns.rows.nodes).enumerate();
             let is_inside = |row: &[f32; 4]| {

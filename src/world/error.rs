@@ -32,10 +32,10 @@ pub enum WorldError {
         source: crate::mesh::MeshError,
     },
     /// A body or a sponge needs rapier3d, or its parry3d.
-    #[error("`{body}`: convex hulls, cups and meshes need the feature `rigid`")]
+    #[error("{what}: convex hulls, cups and meshes need the feature `rigid`")]
     NeedsRigid {
-        /// Name of the body.
-        body: String,
+        /// Such as "body `cup`".
+        what: String,
     },
     /// Sponges lie inside each other, which contact could not separate.
     #[error("sponges `{first}` and `{second}` overlap by more than half an edge: move one of them")]

@@ -35,6 +35,8 @@ pub(crate) struct Origin {
     /// The bodies that the sponges were cut by, if they are not those of the present scene.
     #[serde(with = "crate::text")]
     pub(crate) cut_by: Option<Vec<Body>>,
+    /// How often every number of a sponge was taken before.
+    pub(crate) sponge_generations: Vec<u32>,
 }
 
 /// Digest of a scene.
@@ -46,8 +48,7 @@ impl World {
     /// The material of a sponge as commands have left it; none if there is no such sponge.
     #[must_use]
     pub fn material(&self, sponge: SpongeHandle) -> Option<Material> {
-        let sponge = self.scene.sponges.get(sponge.index()).filter(|_| sponge.generation() == 0);
-        sponge.map(Material::from)
+        self.has_sponge(sponge).then(|| Material::from(&self.scene.sponges[sponge.index()]))
     }
 
     /// Digest of the scene that the world was built from.

@@ -18,6 +18,8 @@ mod placing;
 #[cfg(test)]
 mod pool;
 pub(crate) mod sleep;
+mod slots;
+mod sponges;
 mod start;
 mod views;
 mod water;

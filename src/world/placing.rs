@@ -15,6 +15,9 @@ use crate::{
     water::APART,
 };
 
+/// Smallest cell of a search where there are no sponges yet \[m\].
+const SMALLEST: f32 = 1e-4;
+
 /// A sponge at another place.
 #[derive(Debug)]
 pub(crate) struct Placed {
@@ -30,7 +33,7 @@ fn place(row: &[f32; 4]) -> Vec3 {
     Vec3::new(row[0], row[1], row[2])
 }
 
-fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
+pub(super) fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)))
 }
 
@@ -104,7 +107,12 @@ impl World {
         if let Some(body) = self.bodies().iter().position(in_body) {
             return Some(format!("it would be in body number {body}, `{}`", self.scene.bodies[body].name));
         }
-        if let Some(other) = self.sponge_in_the_way(sponge, placed, own) {
+        let mut new = self.node_positions().to_vec();
+        for (row, place) in placed.rows.iter().zip(&placed.places) {
+            new[*row] = place.extend(0.0).to_array();
+        }
+        let tets = self.tets_of(sponge);
+        if let Some(other) = self.sponge_at(Some(sponge), &placed.places, (&new, &tets), own) {
             return Some(format!(
                 "it would be in sponge number {other}, `{}`",
                 self.scene.sponges[other].name
@@ -118,27 +126,29 @@ impl World {
             .then(|| format!("{wet} of the {} particles in it would be in other water", placed.water.len()))
     }
 
-    /// A sponge that overlaps one at its new place.
-    fn sponge_in_the_way(&self, sponge: usize, placed: &Placed, own: (Vec3, Vec3)) -> Option<usize> {
+    /// A sponge, but for one, that overlaps nodes at some places in a box, which have tets of their own.
+    pub(super) fn sponge_at(
+        &self,
+        except: Option<usize>,
+        places: &[Vec3],
+        (new, tets): (&[[f32; 4]], &[[u32; 4]]),
+        own: (Vec3, Vec3),
+    ) -> Option<usize> {
         let nodes = self.node_positions();
-        let (tets, others): (Vec<_>, Vec<_>) = {
+        let (other_tets, others): (Vec<_>, Vec<_>) = {
             let all = self.lattice.tets.iter().zip(&self.lattice.tet_sponge);
-            all.filter(|(_, of)| **of as usize != sponge).map(|(tet, of)| (*tet, *of as usize)).unzip()
+            all.filter(|(_, of)| Some(**of as usize) != except).map(|(tet, of)| (*tet, *of as usize)).unzip()
         };
-        let edge = self.params.sponges.iter().map(|own| own.edge).fold(0.0, f32::max);
-        let grid = TetGrid::new((nodes, &tets), own, edge);
-        if let Some(found) = placed.places.iter().find_map(|point| grid.find(*point)) {
+        let edge = self.params.sponges.iter().map(|own| own.edge).fold(0.0, f32::max).max(SMALLEST);
+        let grid = TetGrid::new((nodes, &other_tets), own, edge);
+        if let Some(found) = places.iter().find_map(|point| grid.find(*point)) {
             return Some(others[found.tet as usize]);
         }
-        let mut new = nodes.to_vec();
-        for (row, place) in placed.rows.iter().zip(&placed.places) {
-            new[*row] = place.extend(0.0).to_array();
-        }
-        let tets = self.tets_of(sponge);
-        let grid = TetGrid::new((&new, &tets), own, edge);
-        let is_other = |(row, _): &(usize, &u32)| self.lattice.node_sponge[*row] as usize != sponge;
-        let mut nodes = self.lattice.node_sponge.iter().enumerate().filter(is_other);
-        nodes.find(|(row, _)| grid.find(place(&new[*row])).is_some()).map(|(_, of)| *of as usize)
+        let grid = TetGrid::new((new, tets), own, edge);
+        let mut rows = nodes.iter().zip(&self.lattice.node_sponge);
+        let meets =
+            |(row, of): &(&[f32; 4], &u32)| Some(**of as usize) != except && grid.find(place(row)).is_some();
+        rows.find(meets).map(|(_, of)| *of as usize)
     }
 
     /// Particles that it brings along and that would be in other water.
@@ -168,6 +178,7 @@ impl World {
                 let placed = self.placed(sponge.index(), (*position, *rotation));
                 Some(bounds(placed.places.iter().copied()))
             }
+            Command::AddSponge { description, .. } => Some((description.position, description.maximum())),
             Command::Pour { region, .. } => Some(region.bounds()),
             Command::AddBody { description, .. } => {
                 let spacing = self.params.fluid.spacing;

@@ -112,8 +112,9 @@ impl World {
     pub(super) fn take_water(&mut self, region: &Region, most: usize) -> Result<usize, StepError> {
         let columns = &mut self.stores.host;
         let (before, mut left) = (columns.rows.fluid, most);
+        let is_inside = region.inside();
         let stays = |row: &[f32; 4]| {
-            let goes = left > 0 && region.contains(Vec3::new(row[0], row[1], row[2]));
+            let goes = left > 0 && is_inside(Vec3::new(row[0], row[1], row[2]));
             left -= usize::from(goes);
             !goes
         };

@@ -1,4 +1,4 @@
-//! Sponges that are put elsewhere, materials and bodies that change on a device: the same bits twice and after a restore, and within the
+//! Sponges and bodies that come, go and change on a device: the same bits twice and after a restore, and within the
 //! bounds of parity those of the CPU.
 
 use sorb::{
@@ -18,6 +18,19 @@ fn scene() -> Scene {
     let wet = Sponge { saturation: 1.0, ..sponge("wet", Vec3::new(-0.045, 0.03, -0.045)) };
     let dry = sponge("dry", Vec3::new(0.01, 0.03, 0.01));
     Scene::new("pool").in_box(LOW, HIGH).with_fluid(fluid).with_sponge(wet).with_sponge(dry)
+}
+
+/// A sponge comes, and another goes.
+fn sponges(world: &mut World, frame: u32) {
+    let cells = UVec3::new(3, 2, 4);
+    let description = Sponge { cells, saturation: 0.5, ..Sponge::new("new", Vec3::new(0.0, 0.1, 0.0)) };
+    let description = Box::new(description);
+    let command = match frame {
+        3 => Command::AddSponge { sponge: world.next_sponge(), description },
+        6 => Command::RemoveSponge { sponge: 0.into() },
+        _ => return,
+    };
+    world.push(command).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// A ball comes and goes.
@@ -41,6 +54,7 @@ fn advance(world: &mut World, frame: u32) {
         4 => Command::Material { sponge: 1.into(), material: Material::default() },
         _ => {
             bodies(world, frame);
+            sponges(world, frame);
             return common::frame(world);
         }
     };
@@ -49,12 +63,12 @@ fn advance(world: &mut World, frame: u32) {
 }
 
 #[test]
-fn places_materials_and_bodies_are_as_on_the_cpu() {
+fn sponges_materials_and_bodies_are_as_on_the_cpu() {
     let scene = scene();
     let (mut on_cpu, mut on_gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
     let (mut twice, mut restored) = (on_gpu.clone(), on_gpu.clone());
     let options = Options { offload: Offload::Gpu, gpu: Some(gpu()), ..Options::default() };
-    for frame in 0..7 {
+    for frame in 0..9 {
         [&mut on_cpu, &mut on_gpu, &mut twice].into_iter().for_each(|world| advance(world, frame));
         let mut bytes = Vec::new();
         restored.save(&mut bytes).unwrap_or_else(|error| panic!("{error}"));
@@ -68,7 +82,7 @@ fn places_materials_and_bodies_are_as_on_the_cpu() {
     assert!(apart.0 < 0.05, "{apart:?}");
     // The control: without commands.
     let mut without = world(&scene, Offload::Gpu);
-    (0..7).for_each(|_| common::frame(&mut without));
+    (0..9).for_each(|_| common::frame(&mut without));
     let apart = difference(&on_gpu.measures(), &without.measures());
     assert!(apart.0 > 0.2, "{apart:?}");
 }

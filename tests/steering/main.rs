@@ -1,4 +1,4 @@
-//! What a host steers while a world runs: sponges that are put elsewhere, materials, and the same bits after interruptions.
+//! What a host steers while a world runs: bodies and sponges that come and go or are put elsewhere, materials, and the same bits after interruptions.
 
 mod bodies;
 #[path = "../common/mod.rs"]
@@ -7,6 +7,7 @@ mod materials;
 mod matrix;
 mod places;
 mod random;
+mod sponges;
 
 use sorb::{
     Command, World,

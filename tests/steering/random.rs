@@ -2,9 +2,9 @@
 
 use sorb::{
     BodyHandle, Command, Nodes, Options, Player, Recorder, Region, SimdLevel, Snapshot, SpongeHandle, World,
-    glam::{Quat, Vec3},
+    glam::{Quat, UVec3, Vec3},
     rigid::BodyKind,
-    scene::{Body, Drain, Emitter, FluidSolver, GravityKey, Material, Motion, Scene, ShapeKind},
+    scene::{Body, Drain, Emitter, FluidSolver, GravityKey, Material, Motion, Scene, ShapeKind, Sponge},
 };
 
 use super::{audit, common::random::Random, pool};
@@ -30,9 +30,10 @@ impl Random {
         let all: Vec<BodyHandle> = world.body_handles().chain([world.next_body(), 9.into()]).collect();
         all[self.below(all.len() as u64) as usize]
     }
-    fn sponge(&mut self) -> SpongeHandle {
-        // The third one is none.
-        (self.below(9) as u32 / 4).into()
+    /// A sponge that was there at some time, or may be some day.
+    fn sponge(&mut self, world: &World) -> SpongeHandle {
+        let all: Vec<SpongeHandle> = world.sponge_handles().chain([world.next_sponge(), 1.into()]).collect();
+        all[self.below(all.len() as u64) as usize]
     }
 }
 
@@ -98,9 +99,18 @@ fn to_water(random: &mut Random, world: &World) -> Command {
 
 /// A command to sponges, good or bad.
 fn to_sponges(random: &mut Random, world: &World) -> Command {
-    let (sponge, position, velocity) = (random.sponge(), random.point(), Vec3::X * random.signed());
+    let (sponge, position, velocity) = (random.sponge(world), random.point(), Vec3::X * random.signed());
     let nodes = Nodes::Sphere { centre: random.point(), radius: 0.005 + 0.02 * random.unit() };
-    match random.below(5) {
+    match random.below(8) {
+        5 => Command::RemoveSponge { sponge },
+        6 | 7 => {
+            let name = format!("sponge{}", random.below(1_000_000));
+            let saturation = 0.5 * random.below(3) as f32;
+            let cells = UVec3::new(2, 2 + random.below(2) as u32, 3);
+            let description =
+                Box::new(Sponge { cells, velocity, saturation, ..Sponge::new(&name, position) });
+            Command::AddSponge { sponge: world.next_sponge(), description }
+        }
         0 | 1 => Command::PlaceSponge { sponge, position, rotation: random.turn(), velocity },
         2 => Command::Grip { body: random.body(world), nodes },
         3 => Command::Release { nodes },

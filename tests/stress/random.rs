@@ -7,7 +7,7 @@ use proptest::{
 use sorb::{
     Options, StepError, World, WorldError,
     glam::{UVec3, Vec3},
-    scene::{self, Body, Fluid, FluidBlock, Motion, Rotation, Scene, ShapeKind, Sponge, SpongeShape, limits},
+    scene::{self, BlockShape, Body, Fluid, FluidBlock, Motion, Rotation, Scene, ShapeKind, Sponge, limits},
     sponge::LatticeError,
 };
 
@@ -92,12 +92,12 @@ fn sponge(draw: &mut Draw<'_>, name: &str, spacing: f32, wet: bool) -> Sponge {
     let cells = UVec3::new(2 + draw.choice(2), 2 + draw.choice(2), 2 + draw.choice(2));
     let x = if name == "left" { -BOX } else { 0.05 * BOX };
     let shape = match draw.choice(4) {
-        0 => SpongeShape::Ellipsoid,
-        1 => SpongeShape::Cylinder { axis: scene::Axis::Y },
-        _ => SpongeShape::Block,
+        0 => BlockShape::Ellipsoid,
+        1 => BlockShape::Cylinder { axis: scene::Axis::Y },
+        _ => BlockShape::Block,
     };
     // A shape cut out of two cells has only corners left.
-    let shape = if cells.min_element() > 2 { shape } else { SpongeShape::Block };
+    let shape = if cells.min_element() > 2 { shape } else { BlockShape::Block };
     let modulus = draw.value("sponges[].young_modulus");
     Sponge {
         edge,

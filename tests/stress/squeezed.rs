@@ -2,7 +2,7 @@
 
 use sorb::{
     glam::{UVec3, Vec3},
-    scene::{Body, Motion, Scene, ShapeKind, Sponge, SpongeShape},
+    scene::{BlockShape, Body, Motion, Scene, ShapeKind, Sponge},
 };
 
 use crate::{
@@ -79,7 +79,7 @@ fn doubled(offset: f32) -> Scene {
         scene = scene.with_sponge(Sponge {
             edge: 0.012,
             cells: UVec3::splat(4),
-            shape: SpongeShape::Ellipsoid,
+            shape: BlockShape::Ellipsoid,
             saturation: 1.0,
             ..Sponge::new(name, Vec3::new(-0.024 + shift, 0.03, -0.024))
         });

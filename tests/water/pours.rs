@@ -80,7 +80,7 @@ fn a_world_is_emptied_and_filled_again() {
         let mut last = 0;
         for round in 0..3 {
             common::frame(&mut world);
-            push(&mut world, Command::Remove { region: everything });
+            push(&mut world, Command::Remove { region: everything.clone() });
             common::frame(&mut world);
             audit(&world);
             assert!(world.particle_ids().is_empty() && world.node_saturations().is_empty(), "{round}");

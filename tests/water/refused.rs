@@ -54,7 +54,7 @@ fn a_second_removal_is_refused_unless_it_waits_behind_the_first() {
     let mut world = common::world(&busy_cup(0.03, FluidSolver::Divergence));
     let region = cuboid([0.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
     // Nobody knows yet what the second one will find.
-    push(&mut world, Command::Remove { region });
+    push(&mut world, Command::Remove { region: region.clone() });
     push(&mut world, Command::Remove { region });
     common::steps(&mut world, 1);
     let error = world.push(Command::Remove { region: cuboid([0.03, -1.0, -1.0], [1.0, 1.0, 1.0]) });
@@ -66,7 +66,7 @@ fn a_second_removal_is_refused_unless_it_waits_behind_the_first() {
 fn a_scene_without_fluid_has_no_water() {
     let mut world = common::world(&Scene::new("space"));
     let region = Region::Sphere { centre: Vec3::ZERO, radius: 0.1 };
-    let error = world.push(pour(region)).expect_err("no fluid").to_string();
+    let error = world.push(pour(region.clone())).expect_err("no fluid").to_string();
     assert!(error.contains("the scene has no `fluid`"), "{error}");
     assert!(world.push(Command::Remove { region }).is_err());
     let ledger = world.ledger();

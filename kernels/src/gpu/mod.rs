@@ -53,6 +53,9 @@ pub use resident::Resident;
 pub use sums::{FluidSums, NodeSums, Sums, TetSums};
 pub use transfer::{column_bytes, make_room};
 pub use wgpu;
+
+/// Most sponges of a scene on a device.
+pub const MAXIMUM_SPONGES: usize = pack::SPONGES;
 #[cfg(test)]
 pub(crate) use wgsl::complete;
 

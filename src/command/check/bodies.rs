@@ -7,7 +7,7 @@ use crate::{
     command::Command,
     handle::BodyHandle,
     rigid::{BodyKind, BodySetup, BodyState, Shape},
-    scene::{Body, Problem},
+    scene::{Body, Problem, REMOVED},
 };
 
 impl Check<'_> {
@@ -41,8 +41,8 @@ impl Check<'_> {
                 return;
             }
         }
-        if description.is_removed() || description.name.starts_with("removed-") {
-            let rule = "names of bodies that were removed begin with `removed-`".to_owned();
+        if description.is_removed() || description.name.starts_with(REMOVED) {
+            let rule = format!("names of bodies that were removed begin with `{REMOVED}`");
             self.rule("add_body.description.name", format!("{:?}", description.name), rule);
         }
         self.described(body.index(), description, "add_body.description.");

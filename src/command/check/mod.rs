@@ -9,7 +9,7 @@ use glam::{Quat, Vec3};
 use super::{Command, CommandError, Nodes, Region};
 use crate::{
     rigid::BodyKind,
-    scene::{Defect, MAXIMUM_PARTICLES, Problem, limit},
+    scene::{BlockShape, Defect, MAXIMUM_PARTICLES, Problem, limit},
     world::World,
 };
 
@@ -112,9 +112,11 @@ impl Check<'_> {
                 self.sponge("place_sponge.sponge", *sponge);
                 self.place(*sponge, (*position, *rotation));
             }
+            Command::AddSponge { sponge, description } => self.add_sponge(*sponge, description),
+            Command::RemoveSponge { sponge } => self.sponge("remove_sponge.sponge", *sponge),
             Command::Material { sponge, material } => {
                 self.sponge("material.sponge", *sponge);
-                self.material(sponge.index(), material);
+                self.material(*sponge, material);
             }
             Command::Pour { region, velocity } => {
                 self.as_key("pour.velocity", *velocity, "fluid.blocks[].velocity");
@@ -144,6 +146,14 @@ impl Check<'_> {
                 self.number(&format!("{key}.radius"), *radius, (1e-4, 100.0, "m"));
             }
             Nodes::Rows(rows) => {
+                if !self.knows_flows {
+                    return;
+                }
+                if self.world.has_node_commands() {
+                    let rule = "a command that waits changes the rows of nodes; take a step first".to_owned();
+                    self.rule(&format!("{key}.rows"), format!("({} rows)", rows.len()), rule);
+                    return;
+                }
                 let count = self.world.node_positions().len();
                 if let Some(row) = rows.iter().find(|row| **row as usize >= count) {
                     let rule = format!("no such node; there are {count}, numbered from 0");
@@ -153,17 +163,28 @@ impl Check<'_> {
         }
     }
 
+    fn corners(&mut self, key: &str, minimum: Vec3, maximum: Vec3) {
+        self.as_key(&format!("{key}.minimum"), minimum, "sponges[].position");
+        self.as_key(&format!("{key}.maximum"), maximum, "sponges[].position");
+        if !minimum.cmplt(maximum).all() {
+            let rule = format!("must be above `{key}.minimum` = {minimum} along every axis");
+            self.rule(&format!("{key}.maximum"), maximum.to_string(), rule);
+        }
+    }
+
     fn region(&mut self, key: &str, region: &Region) {
         let mut place = |name: &str, value: Vec3| {
             self.as_key(&format!("{key}.{name}"), value, "sponges[].position");
         };
         let radius = match *region {
-            Region::Box { minimum, maximum } => {
-                place("box.minimum", minimum);
-                place("box.maximum", maximum);
-                if !minimum.cmplt(maximum).all() {
-                    let rule = format!("must be above `{key}.box.minimum` = {minimum} along every axis");
-                    self.rule(&format!("{key}.box.maximum"), maximum.to_string(), rule);
+            Region::Box { minimum, maximum } => return self.corners(&format!("{key}.box"), minimum, maximum),
+            Region::Block { minimum, maximum, ref shape } => {
+                self.corners(&format!("{key}.block"), minimum, maximum);
+                let table = format!("{key}.block.shape");
+                shape.ranges(&table, &mut self.problems);
+                shape.rules(&table, &mut self.problems);
+                if cfg!(not(feature = "rigid")) && matches!(**shape, BlockShape::Mesh { .. }) {
+                    self.rule(&table, "mesh".to_owned(), "needs the feature `rigid`".to_owned());
                 }
                 return;
             }
@@ -253,8 +274,8 @@ impl Check<'_> {
         if !self.problems.is_empty() || !self.knows_water {
             return;
         }
-        let rows = self.world.particle_positions();
-        if !rows.iter().any(|row| region.contains(Vec3::new(row[0], row[1], row[2]))) {
+        let (rows, is_inside) = (self.world.particle_positions(), region.inside());
+        if !rows.iter().any(|row| is_inside(Vec3::new(row[0], row[1], row[2]))) {
             let rule = format!("holds none of {} particles", rows.len());
             self.rule("remove.region", format!("{region:?}"), rule);
         }

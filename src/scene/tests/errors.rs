@@ -21,7 +21,7 @@ fn syntax_errors_have_line_and_column() {
 #[test]
 fn unknown_keys_propose_the_nearest_key() {
     let text = message(&format!("{SPONGE}permeabilty = 1e-9\n"));
-    let start = "bath.toml:5:1: unknown key `sponges[0].permeabilty`; did you mean `permeability`?; keys here: cells, ";
+    let start = "bath.toml:5:1: unknown key `sponges[0].permeabilty`; did you mean `permeability`?; keys here: added, cells, ";
     assert!(text.starts_with(start), "{text}");
     let text = message("version = 1\n[fluid]\nspaceing = 1\n[time]\ncurrant = 1\n");
     assert_eq!(text.lines().count(), 2, "all unknown keys at once: {text}");

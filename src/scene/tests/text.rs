@@ -8,7 +8,7 @@ fn scenes() -> Vec<Scene> {
     let mut rich = full();
     rich.title = "Quotes \" and\nlines".to_owned();
     rich.camera = Some(Camera::default());
-    rich.sponges[0].shape = SpongeShape::Cylinder { axis: Axis::Z };
+    rich.sponges[0].shape = BlockShape::Cylinder { axis: Axis::Z };
     rich.sponges[0].permeability = 3.3e-14;
     if let Some(fluid) = &mut rich.fluid {
         fluid.sound_speed = Some(17.3);

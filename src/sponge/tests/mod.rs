@@ -16,7 +16,7 @@ use super::{Lattice, LatticeSponge, block};
 const EDGE: f32 = 0.0625;
 
 fn sponge<'a>(cells: [u32; 3], keep: &'a dyn Fn(Vec3) -> bool) -> LatticeSponge<'a> {
-    LatticeSponge { edge: EDGE, cells, origin: Vec3::ZERO, keep, has_room: &block }
+    LatticeSponge { edge: EDGE, cells, origin: Vec3::ZERO, keep, has_room: &block, may_be_empty: false }
 }
 
 fn lattice(sponges: &[LatticeSponge<'_>]) -> Lattice {
@@ -36,6 +36,7 @@ fn mixed() -> Lattice {
             origin: Vec3::new(-0.3, 0.1, 0.7),
             keep: &super::ellipsoid,
             has_room: &block,
+            may_be_empty: false,
         },
         LatticeSponge {
             edge: 0.02,
@@ -43,6 +44,7 @@ fn mixed() -> Lattice {
             origin: Vec3::new(0.5, 0.0, -0.2),
             keep: &block,
             has_room: &block,
+            may_be_empty: false,
         },
         LatticeSponge {
             edge: 0.013,
@@ -50,6 +52,7 @@ fn mixed() -> Lattice {
             origin: Vec3::new(0.0, 1.0, 0.0),
             keep: &super::cylinder(super::Axis::Y),
             has_room: &block,
+            may_be_empty: false,
         },
     ])
 }

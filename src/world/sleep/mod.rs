@@ -55,7 +55,7 @@ pub(crate) struct Sleep {
     /// How far every part has moved since then, at the times of [`BETWEEN`].
     between: Vec<Vec<Way>>,
     /// Sponges with nodes that commands have given to a body, which may move them from afar: they never sleep.
-    gripped: Vec<usize>,
+    pub(super) gripped: Vec<usize>,
     /// Memory for positions.
     spare: Places,
     /// Time up to which displacements are known \[s\].
@@ -234,8 +234,12 @@ impl World {
 
     /// Whether any sponge is awake.
     pub(crate) fn has_moving_nodes(&self) -> bool {
-        let sponges = self.scene.sponges.len();
-        (0..sponges).any(|sponge| !self.is_sponge_asleep(sponge))
+        self.present_sponges().any(|sponge| !self.is_sponge_asleep(sponge))
+    }
+
+    /// Numbers of the sponges that commands have not removed.
+    pub(crate) fn present_sponges(&self) -> impl Iterator<Item = usize> {
+        (0..).zip(&self.scene.sponges).filter(|(_, sponge)| !sponge.is_removed()).map(|(index, _)| index)
     }
 
     /// Sleeps until a time \[s\], or until a script moves a body, if the scene is asleep; returns whether the time is

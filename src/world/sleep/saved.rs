@@ -68,12 +68,12 @@ impl Sleep {
 impl World {
     /// Steps leave out parts: no wrenches of theirs are left, and a device knows them.
     pub(crate) fn leave_out(&mut self, dormant: &Dormant) {
+        let are_sponges_asleep = dormant.sponges.len() == self.present_sponges().count();
         let store = &mut self.stores.host.bodies;
         // The wrenches of phases that are left out would not be renewed.
         if dormant.fluid {
             store.fluid_wrenches = Wrenches::default();
         }
-        let are_sponges_asleep = dormant.sponges.len() == self.scene.sponges.len();
         if are_sponges_asleep {
             store.node_wrenches = Wrenches::default();
         }

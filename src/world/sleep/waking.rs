@@ -49,7 +49,8 @@ impl World {
         if has_water {
             parts.push(part(Kind::Fluid, FLUID_REACH * params.fluid.list_radius()));
         }
-        for (index, sponge) in params.sponges.iter().enumerate() {
+        for index in self.present_sponges() {
+            let sponge = &params.sponges[index];
             let coupling = if has_water { params.coupling.support_radius } else { 0.0 };
             let touch = pbd::meeting::pair_radius(params);
             parts.push(part(Kind::Sponge(index), coupling.max(touch).max(2.0 * sponge.edge)));
@@ -189,8 +190,8 @@ impl World {
         if self.sleeps_as_a_whole() || dormant == Dormant::default() {
             return Awake::EVERYTHING;
         }
-        let all = 0..self.params.sponges.len() as u32;
-        let awake: Vec<u32> = all.filter(|index| !dormant.sponges.contains(&(*index as usize))).collect();
+        let awake = self.present_sponges().filter(|index| !dormant.sponges.contains(index));
+        let awake: Vec<u32> = awake.map(|index| index as u32).collect();
         let touch = self.params.has_touch_among(&awake);
         Awake { fluid: !dormant.fluid, sponges: !awake.is_empty(), touch }
     }
@@ -203,6 +204,7 @@ impl World {
         let dormant = self.sleep.dormant();
         let rows = dormant.sponges.iter().flat_map(|sponge| self.node_rows(*sponge));
         self.params.asleep = Asleep::new(rows.collect());
+        let are_sponges_asleep = dormant.sponges.len() == self.present_sponges().count();
         let bodies = &mut self.stores.host.bodies;
         for (index, body) in bodies.states.0.iter_mut().enumerate() {
             if body.kind == BodyKind::Dynamic {
@@ -215,7 +217,6 @@ impl World {
         if dormant.fluid {
             bodies.fluid_wrenches = Wrenches::default();
         }
-        let are_sponges_asleep = dormant.sponges.len() == self.scene.sponges.len();
         if are_sponges_asleep {
             bodies.node_wrenches = Wrenches::default();
         }
