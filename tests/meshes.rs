@@ -6,7 +6,7 @@ use std::{fs, path::PathBuf};
 
 use sorb::{
     Command, Region, World,
-    glam::{UVec3, Vec3},
+    glam::{Quat, UVec3, Vec3},
     scene::{Axis, BlockShape, Fluid, FluidBlock, Mesh, Scene, ShapeKind, Sponge},
 };
 
@@ -230,4 +230,42 @@ fn shapes_of_water_that_are_no_meshes_are_refused() {
     let error = pour(open).unwrap_err();
     assert!(error.contains("pour.region.block.shape.mesh.triangles"), "{error}");
     assert_eq!(pour(ball(1)), Ok(()));
+}
+
+#[test]
+fn the_skin_of_a_sponge_is_its_mesh_and_goes_with_it() {
+    let mesh = ball(3);
+    let shape = BlockShape::Mesh { mesh: mesh.clone() };
+    let sponge = Sponge { shape, cells: UVec3::splat(6), ..Sponge::new("ball", Vec3::new(0.0, 0.1, 0.0)) };
+    let mut world = common::world(&Scene::new("ball").with_sponge(sponge));
+    let places = |world: &World| -> Vec<Vec3> {
+        let skin = world.skin(0.into()).unwrap_or_else(|| panic!("no skin"));
+        skin.positions(world.node_positions()).collect()
+    };
+    let at_rest = places(&world);
+    let middle = Vec3::new(0.03, 0.13, 0.03);
+    let off = |place: &Vec3, radius: f32| (place.distance(middle) - radius).abs();
+    assert!(at_rest.iter().all(|place| off(place, 0.03) < 1e-5), "corners of a ball of 3 cm");
+    // The control: the surface of the lattice is farther off.
+    let lattice = world.lattice();
+    let place = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
+    let corners = lattice.triangles.iter().flatten().map(|node| place(lattice.position[*node as usize]));
+    assert!(corners.map(|corner| off(&corner, 0.03)).fold(0.0, f32::max) > 2e-3);
+    let skin = world.skin(0.into()).unwrap_or_else(|| panic!("no skin"));
+    assert_eq!(skin.triangles().len(), mesh.triangles.len());
+    let ones = vec![0.25; lattice.node_count()];
+    assert!(skin.values(&ones).all(|value| (value - 0.25).abs() < 1e-6));
+    // Put elsewhere and turned, it is the same ball.
+    let (position, rotation) = (Vec3::new(0.5, 0.2, -0.3), Quat::from_rotation_z(1.0));
+    let (sponge, velocity) = (0.into(), Vec3::ZERO);
+    let command = Command::PlaceSponge { sponge, position, rotation, velocity };
+    world.push(command).unwrap_or_else(|error| panic!("{error}"));
+    common::steps(&mut world, 1);
+    let turned = places(&world);
+    let expected = at_rest.iter().map(|place| position + rotation * (*place - middle));
+    let farthest = turned.iter().zip(expected).map(|(a, b)| a.distance(b)).fold(0.0, f32::max);
+    assert!(farthest < 1e-4, "{farthest} m");
+    assert!(world.skin(1.into()).is_none());
+    let block = Scene::new("block").with_sponge(Sponge::new("block", Vec3::ZERO));
+    assert!(common::world(&block).skin(0.into()).is_none());
 }

@@ -127,6 +127,8 @@ pub struct Picture<'a> {
     pub rest: &'a [[f32; 4]],
     /// Outer surface of the sponges as indices into `nodes`, wound counter-clockwise seen from outside.
     pub triangles: &'a [[u32; 3]],
+    /// Further triangles of that kind, which are drawn as they are: of `triangles` the steps of the lattice are smoothed. Default none.
+    pub skin: &'a [[u32; 3]],
     /// Rigid bodies.
     pub bodies: &'a [DrawnBody<'a>],
     /// Lowest and highest corner of a box container: drawn as a floor with a grid and as thin edges.
@@ -153,6 +155,7 @@ impl Default for Picture<'_> {
             wetness: &[],
             rest: &[],
             triangles: &[],
+            skin: &[],
             bodies: &[],
             container: None,
             absorption: Vec3::new(8.0, 2.0, 1.1),

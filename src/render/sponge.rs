@@ -5,7 +5,7 @@ use glam::Vec3;
 
 /// The sponge's surface: only `triangles` may be used to index the other columns.
 pub(super) struct Surface {
-    /// Triangles that can be drawn: their index in the picture's list and their corners.
+    /// Triangles that can be drawn: their index in the picture's lists, one after the other, and their corners.
     pub(super) triangles: Vec<(usize, [usize; 3])>,
     /// Drawn position of each node.
     pub(super) positions: Vec<Vec3>,
@@ -21,17 +21,17 @@ impl Surface {
     pub(super) fn new(picture: &Picture<'_>) -> Self {
         let mut positions: Vec<Vec3> = picture.nodes.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
         let corner = |i: u32| Some(i as usize).filter(|&i| positions.get(i).is_some_and(|p| p.is_finite()));
-        let triangles: Vec<(usize, [usize; 3])> = picture
-            .triangles
-            .iter()
-            .enumerate()
-            .filter_map(|(i, &[a, b, c])| Some((i, [corner(a)?, corner(b)?, corner(c)?])))
-            .collect();
+        let drawn = |(i, &[a, b, c]): (usize, &[u32; 3])| Some((i, [corner(a)?, corner(b)?, corner(c)?]));
+        let mut triangles: Vec<(usize, [usize; 3])> =
+            picture.triangles.iter().enumerate().filter_map(drawn).collect();
+        let first = picture.triangles.len();
+        let skin: Vec<(usize, [usize; 3])> = (first..).zip(picture.skin).filter_map(drawn).collect();
         // A lattice cut along its planes has a zigzag surface, unlike a sponge. Taubin smoothing, a shrinking step and a
         // slightly larger growing step, removes it and keeps the volume.
         for weight in [0.6, -0.63, 0.6, -0.63, 0.6, -0.63] {
             relax(&mut positions, &triangles, weight);
         }
+        triangles.extend(skin);
         let mut rest: Vec<Vec3> = picture.rest.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
         if rest.len() != positions.len() || rest.iter().any(|place| !place.is_finite()) {
             rest.clone_from(&positions);

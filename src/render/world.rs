@@ -1,5 +1,7 @@
 //! Pictures of a world.
 
+use std::borrow::Cow;
+
 use super::{Camera, DrawnBody, Image, Look, Picture, View, draw, section};
 use crate::rigid::BodyKind;
 use crate::scene::{self, Domain};
@@ -38,7 +40,7 @@ pub(super) fn draw_positions(
             colour: keys.colour,
         })
         .collect();
-    let wetness = wetness(world);
+    let surfaces = Surfaces::new(world, nodes, view);
     let pressures = if view == View::Pressure { world.particle_pressures() } else { Vec::new() };
     let section = (view == View::Cutaway).then(|| section::plane(world, camera.eye));
     let halves = section.map(|plane| section::behind(world, plane));
@@ -48,10 +50,11 @@ pub(super) fn draw_positions(
         velocities: world.particle_velocities(),
         particle_radius: 0.5 * world.params.fluid.spacing,
         interior: &world.columns().fluid.interior,
-        nodes,
-        wetness: &wetness,
-        rest: &world.lattice().position,
-        triangles: halves.as_ref().unwrap_or(&world.lattice().triangles),
+        nodes: &surfaces.nodes,
+        wetness: &surfaces.wetness,
+        rest: &surfaces.rest,
+        triangles: halves.as_deref().unwrap_or(&surfaces.triangles),
+        skin: &surfaces.skin,
         bodies: &bodies,
         container: match world.scene().domain {
             Domain::Box { minimum, maximum, .. } => Some((minimum, maximum)),
@@ -65,6 +68,47 @@ pub(super) fn draw_positions(
         view,
     };
     draw(&picture, camera, width, height)
+}
+
+/// The sponges with the corners of their skins after the nodes.
+struct Surfaces<'a> {
+    nodes: Cow<'a, [[f32; 4]]>,
+    wetness: Vec<f32>,
+    rest: Cow<'a, [[f32; 4]]>,
+    /// Those of sponges without a skin.
+    triangles: Cow<'a, [[u32; 3]]>,
+    skin: Vec<[u32; 3]>,
+}
+
+impl<'a> Surfaces<'a> {
+    fn new(world: &'a World, nodes: &'a [[f32; 4]], view: View) -> Self {
+        let lattice = world.lattice();
+        let mut all = Self {
+            nodes: nodes.into(),
+            wetness: wetness(world),
+            rest: lattice.position.as_slice().into(),
+            triangles: lattice.triangles.as_slice().into(),
+            skin: Vec::new(),
+        };
+        let skins = world.skins();
+        // A section goes through tets, and nodes are those of the lattice.
+        if matches!(view, View::Nodes | View::Cutaway) || skins.iter().all(Option::is_none) {
+            return all;
+        }
+        let has_none = |(_, sponge): &(&[u32; 3], &u32)| skins[**sponge as usize].is_none();
+        let own = lattice.triangles.iter().zip(&lattice.triangle_sponge).filter(has_none);
+        all.triangles = own.map(|(triangle, _)| *triangle).collect();
+        for skin in skins.iter().flatten() {
+            let first = all.nodes.len() as u32;
+            let row = |place: Vec3| place.extend(0.0).to_array();
+            let wetness: Vec<f32> = skin.values(&all.wetness).collect();
+            all.wetness.extend(wetness);
+            all.nodes.to_mut().extend(skin.positions(nodes).map(row));
+            all.rest.to_mut().extend(skin.positions(&lattice.position).map(row));
+            all.skin.extend(skin.triangles().iter().map(|corners| corners.map(|corner| first + corner)));
+        }
+        all
+    }
 }
 
 /// Range of a colour map: the same for all pictures of a scene.

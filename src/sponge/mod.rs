@@ -28,6 +28,7 @@ mod locate;
 mod mask;
 mod pieces;
 mod pits;
+mod skin;
 #[cfg(feature = "rigid")]
 mod solid;
 mod surface;
@@ -45,5 +46,6 @@ pub use limits::{MAX_CELLS, MAX_EDGE, MIN_EDGE};
 pub(crate) use locate::{Located, TetGrid};
 pub use mask::{block, cylinder, ellipsoid};
 pub use pieces::{Pieces, pieces};
+pub use skin::Skin;
 #[cfg(feature = "rigid")]
 pub(crate) use solid::solid;

@@ -1,8 +1,6 @@
 //! Worlds from scenes.
 
-use std::sync::Arc;
-#[cfg(feature = "serde")]
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 use sorb_kernels::{
@@ -136,6 +134,7 @@ impl World {
             params,
             stores: Stores { host: columns, device: None },
             lattice,
+            skins: Arc::default(),
             engine,
             has_own_engine,
             light: LightBodies::new(scene),

@@ -24,9 +24,7 @@ mod start;
 mod views;
 mod water;
 
-use std::sync::Arc;
-#[cfg(feature = "serde")]
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use sorb_kernels::{
     SimdLevel,
@@ -44,7 +42,7 @@ use crate::{
     rigid::{LightBodies, RigidEngine},
     scene::Scene,
     schedule::{Offload, Plans, Runner},
-    sponge::Lattice,
+    sponge::{Lattice, Skin},
     stores::Stores,
     water::Water,
 };
@@ -117,6 +115,8 @@ pub struct World {
     pub(crate) params: Params,
     pub(crate) stores: Stores,
     lattice: Lattice,
+    /// The surfaces of the meshes that sponges were made of; made when they are first asked for.
+    skins: Arc<OnceLock<Vec<Option<Skin>>>>,
     pub(crate) engine: Box<dyn RigidEngine>,
     /// Whether the engine is that of a host.
     pub(crate) has_own_engine: bool,

@@ -60,7 +60,7 @@ impl World {
     }
 
     /// Tets of a sponge.
-    fn tets_of(&self, sponge: usize) -> Vec<[u32; 4]> {
+    pub(super) fn tets_of(&self, sponge: usize) -> Vec<[u32; 4]> {
         let tets = self.lattice.tets.iter().zip(&self.lattice.tet_sponge);
         tets.filter(|(_, own)| **own as usize == sponge).map(|(tet, _)| *tet).collect()
     }

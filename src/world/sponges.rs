@@ -3,6 +3,8 @@
 //! A sponge has a number, by which nodes, parameters and the scene know it. What is removed leaves a sponge without nodes behind, until
 //! another one takes its number. The rows of nodes are those of a world of the new scene; what others have in their rows moves with them.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use sorb_kernels::{
     columns::{Columns, Store},
@@ -14,9 +16,9 @@ use crate::{
     command::Command,
     handle::SpongeHandle,
     rigid::LightBodies,
-    scene::{Scene, Sponge},
+    scene::{BlockShape, Scene, Sponge},
     setup::{TOUCH, node_columns, params, pores, sponge_lattice},
-    sponge::{Lattice, VERTEX_COLORS},
+    sponge::{Lattice, Skin, VERTEX_COLORS},
     state::{append_column, saved_columns, take_column},
     water::{APART, Points, Room},
 };
@@ -37,6 +39,26 @@ impl World {
     pub fn next_sponge(&self) -> SpongeHandle {
         let (index, generation) = self.sponge_slots_after_commands().next();
         SpongeHandle::new(index, generation)
+    }
+
+    /// The surface of the mesh that a sponge was made of, which follows it; none for a sponge of another shape, and for a stale handle.
+    #[must_use]
+    pub fn skin(&self, sponge: SpongeHandle) -> Option<&Skin> {
+        self.has_sponge(sponge).then(|| self.skins().get(sponge.index())?.as_ref()).flatten()
+    }
+
+    /// The skins of all sponges, by number.
+    pub(crate) fn skins(&self) -> &[Option<Skin>] {
+        self.skins.get_or_init(|| {
+            let all = self.scene.sponges.iter().enumerate();
+            all.map(|(index, sponge)| self.skin_of(index, sponge)).collect()
+        })
+    }
+
+    fn skin_of(&self, index: usize, sponge: &Sponge) -> Option<Skin> {
+        let BlockShape::Mesh { mesh } = &sponge.shape else { return None };
+        let (block, tets) = ((sponge.position, sponge.size()), self.tets_of(index));
+        Some(Skin::new(mesh.solid().ok()?, block, (&self.lattice.position, &tets), sponge.edge))
     }
 
     /// The handle of the sponge with a number.
@@ -197,6 +219,7 @@ impl World {
         host.controls = columns.controls;
         host.bodies.node_wrenches = sorb_kernels::reduce::Wrenches::default();
         self.lattice = lattice;
+        self.skins = Arc::default();
         self.clock.node_speed = fastest(&host.nodes.velocity[..host.rows.nodes]);
         if host.rows.nodes == 0 {
             // No step computes it any more.
