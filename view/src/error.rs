@@ -2,7 +2,9 @@
 
 use std::{io, path::PathBuf};
 
-use sorb::{CommandError, ReplayError, StateError, StepError, WorldError, render::RenderError, scene::SceneError};
+use sorb::{
+    CommandError, ReplayError, StateError, StepError, WorldError, render::RenderError, scene::SceneError,
+};
 
 /// Why a window could not be shown, or what ended it.
 #[derive(Debug, thiserror::Error)]

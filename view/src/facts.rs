@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, fmt};
 
 use sorb::{StepError, glam::Vec3};
 
-use crate::{parameters::Parameter, session::Advance};
+use crate::{orbit::Orbit, parameters::Parameter, session::Advance};
 
 /// What the stage tells the window.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +13,8 @@ pub struct Facts {
     pub name: String,
     /// Its title.
     pub title: String,
+    /// The camera of the scene.
+    pub camera: Option<Orbit>,
     /// Simulated time \[s\].
     pub time: f64,
     /// Frames so far, and steps.

@@ -146,7 +146,8 @@ impl Hand {
             None => {
                 let (grip, home) = (world.next_body(), world.scene().bounds().1 + Vec3::Y);
                 let shape = ShapeKind::Sphere { radius: 1e-3 };
-                let hand = Body { look: Some(Look::Wire), ..Body::kinematic("view-hand", shape, home, Vec::new()) };
+                let hand =
+                    Body { look: Some(Look::Wire), ..Body::kinematic("view-hand", shape, home, Vec::new()) };
                 session.push(Command::AddBody { body: grip, description: Box::new(hand) })?;
                 // It is there from the next step on.
                 self.grip = Some(grip);

@@ -13,6 +13,8 @@ pub mod parameters;
 pub mod session;
 pub mod stage;
 mod told;
+#[cfg(feature = "window")]
+mod window;
 
 use std::path::PathBuf;
 
@@ -20,6 +22,8 @@ use sorb::{Options, Recording, Save, render::View, scene::Scene};
 
 pub use error::ViewError;
 pub use facts::Report;
+#[cfg(feature = "window")]
+pub use window::run;
 
 /// What a window shows.
 #[derive(Debug)]

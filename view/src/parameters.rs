@@ -11,8 +11,7 @@ use sorb::{
 /// Tables without sliders: what only pictures read, and lists of times.
 const LEFT_OUT: [&str; 5] = ["camera.", "motions[]", "gravity_path", ".rotation", ".mesh."];
 
-static SCHEMA: LazyLock<Json> =
-    LazyLock::new(|| serde_json::from_str(&scene::schema()).unwrap_or_default());
+static SCHEMA: LazyLock<Json> = LazyLock::new(|| serde_json::from_str(&scene::schema()).unwrap_or_default());
 
 /// A number, or three.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,14 +125,16 @@ fn places<'a>(scene: &'a Json, key: &str) -> Vec<(String, String, &'a Json)> {
         for (key, group, table) in found {
             let Some(value) = table.get(name) else { continue };
             let key = if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
-            let group = if group == "scene" && !key.contains('.') && value.is_object() { key.clone() } else { group };
+            let group =
+                if group == "scene" && !key.contains('.') && value.is_object() { key.clone() } else { group };
             if !part.ends_with("[]") {
                 next.push((key, group, value));
                 continue;
             }
             for (index, element) in value.as_array().into_iter().flatten().enumerate() {
                 let key = format!("{key}[{index}]");
-                let own = element.get("name").and_then(Json::as_str).map_or_else(|| key.clone(), str::to_owned);
+                let own =
+                    element.get("name").and_then(Json::as_str).map_or_else(|| key.clone(), str::to_owned);
                 next.push((key, own, element));
             }
         }

@@ -81,7 +81,9 @@ impl<'a> Session<'a> {
     #[must_use]
     pub fn played(&self) -> Option<(u64, u64)> {
         match (&self.acts, self.source) {
-            (Acts::Played(player), Source::Recording(_, recording)) => Some((player.frame(), recording.ticks())),
+            (Acts::Played(player), Source::Recording(_, recording)) => {
+                Some((player.frame(), recording.ticks()))
+            }
             _ => None,
         }
     }

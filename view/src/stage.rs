@@ -126,6 +126,10 @@ pub fn run(
         tray,
     };
     stage.tell_scene();
+    if begin.frames == Some(0) {
+        stage.runs = false;
+        lock(facts).is_done = true;
+    }
     stage.give(true);
     told();
     loop {
@@ -184,7 +188,9 @@ impl Stage<'_> {
                 }
             }
         }
-        if self.frames.is_some_and(|frames| self.session.world().clock().frames >= frames) || self.failure.is_some() {
+        if self.frames.is_some_and(|frames| self.session.world().clock().frames >= frames)
+            || self.failure.is_some()
+        {
             self.runs = self.runs && self.frames.is_none();
             lock(self.facts).is_done = self.frames.is_some();
         }
@@ -287,12 +293,17 @@ impl Stage<'_> {
                 Some(known) => self.changes.insert(key.clone(), known),
                 None => self.changes.remove(&key),
             };
-            lock(self.facts).parameters.iter_mut().filter(|own| own.key == key).for_each(|own| own.value = before);
+            lock(self.facts)
+                .parameters
+                .iter_mut()
+                .filter(|own| own.key == key)
+                .for_each(|own| own.value = before);
             return Err(error.into());
         }
         match (sponge, value) {
             (Some(sponge), _) => {
-                let present = self.materials.get(&sponge).copied().or_else(|| self.session.world().material(sponge));
+                let present =
+                    self.materials.get(&sponge).copied().or_else(|| self.session.world().material(sponge));
                 let changed = present.and_then(|present| changed(&present, field, value));
                 self.materials.extend(changed.map(|material| (sponge, material)));
             }

@@ -10,7 +10,7 @@ use sorb::{
     internal::{Place, Verdict},
 };
 
-use crate::facts::Facts;
+use crate::{facts::Facts, orbit::Orbit};
 
 /// Real time over which rates are taken.
 const WINDOW: Duration = Duration::from_secs(1);
@@ -36,6 +36,7 @@ impl Teller {
         let scene = world.scene();
         facts.name.clone_from(&scene.name);
         facts.title.clone_from(&scene.title);
+        facts.camera = Some(Orbit::new(scene));
         facts.frame_rate = scene.time.frame_rate;
         facts.sponges = scene.sponges.iter().map(|sponge| sponge.name.clone()).collect();
         let plan = world.plan();
@@ -102,7 +103,8 @@ impl Teller {
         facts.frame_ms = std::mem::take(&mut self.busy).as_secs_f64() * 1e3 / frames;
         let totals: Vec<(&'static str, f64)> =
             world.phase_times().iter().map(|phase| (phase.name, phase.total_s)).collect();
-        let before = |name: &str| self.phases.iter().find(|(own, _)| *own == name).map_or(0.0, |(_, total)| *total);
+        let before =
+            |name: &str| self.phases.iter().find(|(own, _)| *own == name).map_or(0.0, |(_, total)| *total);
         facts.phases = totals
             .iter()
             .map(|(name, total)| (*name, (total - before(name)).max(0.0) * 1e3 / frames))
