@@ -8,8 +8,8 @@ use sorb::{
     scene::{self, Limit, limits},
 };
 
-/// Tables without sliders: what only pictures read, and lists of times.
-const LEFT_OUT: [&str; 5] = ["camera.", "motions[]", "gravity_path", ".rotation", ".mesh."];
+/// Keys without sliders: what only pictures read, lists of times, and counts of cells, which go with the place of a sponge.
+const LEFT_OUT: [&str; 6] = ["camera.", "motions[]", "gravity_path", ".rotation", ".mesh.", ".cells"];
 
 static SCHEMA: LazyLock<Json> = LazyLock::new(|| serde_json::from_str(&scene::schema()).unwrap_or_default());
 

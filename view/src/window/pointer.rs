@@ -90,6 +90,10 @@ impl Pointer {
         {
             self.mode = found.as_ref().map_or(Mode::Turning, |(place, _)| Mode::Holding(*place));
             self.held = found.as_ref().map(|(_, name)| name.clone()).unwrap_or_default();
+            // What the mouse did while the stage was asked counts as well.
+            if let (Some((place, _)), Some(at)) = (found, at) {
+                send(requests, Request::Reach(orbit::in_plane(&sight.camera, &sight.ray(at), *place)));
+            }
         }
         self.end(ui, requests);
         if self.mode == Mode::Idle

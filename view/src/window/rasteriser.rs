@@ -215,6 +215,7 @@ mod tests {
         let image = ImageDelta::full(white, TextureOptions::NEAREST);
         delta.set.entry(TextureId::default()).or_default().push(image);
         rasteriser.update(&delta);
+        delta.clear();
         let mut mesh = Mesh::default();
         let half = Color32::from_rgba_premultiplied(64, 64, 64, 128);
         let rect = Rect::from_min_size(Pos2::new(1.0, 2.0), vec2(5.0, 3.0));

@@ -111,8 +111,7 @@ pub(super) fn digits(value: f64) -> String {
     if !(1e-3..1e5).contains(&size) {
         return format!("{value:.2e}");
     }
-    let whole = (libm::log10(size).floor() as i32 + 1).max(0);
-    let rest = usize::try_from(3 - whole).unwrap_or(0).min(5);
+    let rest = usize::try_from(2 - libm::log10(size).floor() as i32).unwrap_or(0);
     let text = format!("{value:.rest$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
