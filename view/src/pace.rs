@@ -14,7 +14,7 @@ const EASY: f32 = 0.22;
 const PATIENCE: u32 = 8;
 
 /// Sides of the picture over those of the window, from the best quality to the quickest one.
-const SCALES: [f32; 5] = [1.0, 1.0, 0.7, 0.5, 0.35];
+const SCALES: [f32; 4] = [1.0, 1.0, 0.7, 0.5];
 
 /// How a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +77,7 @@ mod tests {
         for _ in 0..9 {
             pace.took(Duration::from_millis(200));
         }
-        assert_eq!(pace.quality(View::Realistic, false), Quality { view: View::Fast, scale: 0.35 });
+        assert_eq!(pace.quality(View::Realistic, false), Quality { view: View::Fast, scale: 0.5 });
         // What is still, and other views, are shown as they are asked for.
         assert_eq!(pace.quality(View::Realistic, true), Quality { view: View::Realistic, scale: 1.0 });
         assert_eq!(pace.quality(View::Speed, false).view, View::Speed);
@@ -86,7 +86,7 @@ mod tests {
         }
         // One picture that was quick by chance changes nothing.
         pace.took(Duration::from_millis(30));
-        assert_eq!(pace.quality(View::Realistic, false).scale, 0.35);
+        assert_eq!(pace.quality(View::Realistic, false).scale, 0.5);
         for _ in 0..100 {
             pace.took(Duration::from_millis(1));
         }
