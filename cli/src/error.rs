@@ -75,6 +75,10 @@ pub(crate) enum CliError {
     /// The simulation of a film diverged.
     #[error("the simulation diverged: {0}")]
     Step(StepError),
+    /// The window cannot be shown, or what it shows failed.
+    #[cfg(feature = "view")]
+    #[error(transparent)]
+    View(#[from] sorb_view::ViewError),
     /// The GPU failed; everything before that has been written.
     #[error("{error}\nwhat was done until then is in {}", folder.display())]
     Gpu {

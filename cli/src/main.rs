@@ -20,6 +20,11 @@ mod validate;
 #[cfg(not(feature = "validation"))]
 #[path = "no_validation.rs"]
 mod validate;
+#[cfg(feature = "view")]
+mod view;
+#[cfg(not(feature = "view"))]
+#[path = "no_view.rs"]
+mod view;
 
 use std::process::ExitCode;
 
@@ -51,6 +56,8 @@ enum Command {
     Run(Box<run::Arguments>),
     /// Draws films and stills of a scene, a recording or a save
     Render(Box<render::Arguments>),
+    /// Shows a scene or a recording in a window, and lets the mouse act on it
+    View(Box<view::Arguments>),
     /// Records a scene: a digest of every frame, and key frames
     Record(Box<record::Arguments>),
     /// Plays a recording, and compares every frame
@@ -72,6 +79,7 @@ fn main() -> ExitCode {
         Some(Command::Plan(arguments)) => plan::run(&arguments),
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Render(arguments)) => render::run(&arguments),
+        Some(Command::View(arguments)) => view::run(&arguments),
         Some(Command::Record(arguments)) => record::run(&arguments),
         Some(Command::Replay(arguments)) => replay::run(&arguments),
         Some(Command::Diff(arguments)) => diff::run(&arguments),

@@ -202,16 +202,18 @@ impl World {
         Ok(())
     }
 
-    /// Gives the engine a body. One that knows no dynamic bodies makes place for one that does.
+    /// Gives the engine a body. One that knows no dynamic bodies makes place for one that does, and one without any bodies, for which no
+    /// time has passed, for one of the present time.
     fn put_in_engine(&mut self, index: usize, setup: &BodySetup) -> Result<(), RigidError> {
         let is_dynamic = setup.kind == BodyKind::Dynamic;
         let has_dynamics = self.origin.as_ref().is_some_and(|origin| origin.has_dynamics);
-        if self.has_own_engine || has_dynamics || !is_dynamic {
+        let is_first = self.stores.host.rows.bodies == 0;
+        if self.has_own_engine || has_dynamics || !(is_dynamic || is_first) {
             return self.engine.set_body(index, setup);
         }
         let fail = |error: WorldError| RigidError::Engine { message: error.to_string() };
         let setups = crate::setup::body_setups(&self.scene).map_err(fail)?;
-        let mut new = engine(&self.scene, &setups, true).map_err(fail)?;
+        let mut new = engine(&self.scene, &setups, is_dynamic).map_err(fail)?;
         new.wait(self.clock.time);
         new.set_gravity(self.params.gravity)?;
         let targets = self.commands.targets.iter().enumerate();
@@ -222,7 +224,7 @@ impl World {
         }
         self.engine = new;
         if let Some(origin) = &mut self.origin {
-            origin.has_dynamics = true;
+            origin.has_dynamics = is_dynamic;
         }
         Ok(())
     }

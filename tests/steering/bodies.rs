@@ -152,3 +152,25 @@ fn bad_bodies_and_stale_handles_are_refused() {
     push(&mut world, command);
     run(&mut world, 3);
 }
+
+#[test]
+fn the_first_body_of_a_scene_follows_poses_when_it_comes_late() {
+    let scene = Scene::new("late").in_box(Vec3::splat(-0.1), Vec3::splat(0.1));
+    let mut world = World::new(&scene).unwrap();
+    for _ in 0..10 {
+        world.advance_frame().unwrap();
+    }
+    let hand = Body::kinematic("hand", ShapeKind::Sphere { radius: 0.001 }, Vec3::ZERO, Vec::new());
+    let body = world.next_body();
+    world.push(Command::AddBody { body, description: Box::new(hand) }).unwrap();
+    let position = Vec3::new(0.0, 0.05, 0.0);
+    world.push(Command::Pose { body, position, rotation: Quat::IDENTITY, duration: 0.1 }).unwrap();
+    for _ in 0..7 {
+        world.advance_frame().unwrap();
+    }
+    assert!(
+        world.bodies()[0].state.position.distance(position) < 1e-6,
+        "{}",
+        world.bodies()[0].state.position
+    );
+}

@@ -16,7 +16,7 @@ const TURN: f32 = 6.0;
 
 /// What states come from.
 #[derive(Debug)]
-pub(super) enum Source {
+pub(crate) enum Source {
     Scene(Box<Scene>),
     Recording(PathBuf, Box<Recording>),
     Save(PathBuf, Box<Save>),
@@ -42,7 +42,7 @@ impl Source {
     ///
     /// # Errors
     /// It is neither a scene nor a readable recording or save.
-    pub(super) fn open(name: &str, changes: &Changes, pictures: f32) -> Result<Self, CliError> {
+    pub(crate) fn open(name: &str, changes: &Changes, pictures: f32) -> Result<Self, CliError> {
         let path = Path::new(name);
         let is_text = path.extension().is_some_and(|ending| ending == "toml" || ending == "json");
         if is_text || !path.is_file() {

@@ -1,7 +1,7 @@
 //! `sorb render`: films and stills of a scene, a recording or a save.
 
 pub(crate) mod camera;
-mod frames;
+pub(crate) mod frames;
 pub(crate) mod sink;
 
 use std::{

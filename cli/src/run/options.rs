@@ -189,7 +189,7 @@ fn ranged(text: &str, minimum: f64, maximum: f64) -> Option<f64> {
     (minimum..=maximum).contains(&number).then_some(number)
 }
 
-fn size(text: &str) -> Result<Size, String> {
+pub(crate) fn size(text: &str) -> Result<Size, String> {
     let side = |text: &str| text.parse().ok().filter(|side| (16..=8192).contains(side));
     text.split_once('x')
         .and_then(|(width, height)| Some(Size(side(width)?, side(height)?)))

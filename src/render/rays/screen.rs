@@ -175,7 +175,7 @@ impl Screen {
                 // As far to one side as to the other, or a slope would shrink.
                 for tap in 1..=most.ceil() as usize {
                     let (range, step) = if sideways {
-                        (first.max(tap)..end.min(width - tap), tap)
+                        (first.max(tap)..end.min(width.saturating_sub(tap)), tap)
                     } else if tap <= y && y + tap < height {
                         (first..end, tap * width)
                     } else {

@@ -1,0 +1,94 @@
+//! The window: it shows pictures and panels, and turns mouse and keys into requests.
+
+mod app;
+mod panels;
+mod pointer;
+mod rasteriser;
+mod sliders;
+mod surface;
+
+use std::{
+    sync::{
+        Arc, Mutex,
+        mpsc::{self, Sender},
+    },
+    thread,
+};
+
+use winit::event_loop::EventLoop;
+
+use crate::{
+    Report, Setup, ViewError,
+    easel::{Cpu, Easel},
+    facts::Facts,
+    stage::{self, Begin, Request},
+};
+use app::App;
+
+/// What wakes the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wake {
+    /// There is a picture.
+    Picture,
+    /// There are facts.
+    Facts,
+    /// The stage has ended.
+    End,
+}
+
+/// Shows a window until it is closed.
+///
+/// # Errors
+/// There is no display, the system refuses the window, the world cannot be built, or a file cannot be written.
+pub fn run(setup: &Setup) -> Result<Report, ViewError> {
+    let event_loop = EventLoop::<Wake>::with_user_event()
+        .build()
+        .map_err(|error| ViewError::NoDisplay(reason(&error.to_string())))?;
+    let facts = Arc::new(Mutex::new(Facts::default()));
+    let (requests, taken) = mpsc::channel();
+    let proxies = [event_loop.create_proxy(), event_loop.create_proxy(), event_loop.create_proxy()];
+    let [pictures, told, ended] = proxies;
+    // The window may be gone before the others know.
+    let easel = Easel::new(Box::new(Cpu), move || {
+        let _ = pictures.send_event(Wake::Picture);
+    });
+    let tray = easel.tray();
+    thread::scope(|scope| {
+        let own = Arc::clone(&facts);
+        let begin = Begin {
+            source: &setup.source,
+            options: &setup.options,
+            record: setup.record.as_deref(),
+            frames: setup.frames,
+            runs: !setup.paused,
+        };
+        let stage = scope.spawn(move || {
+            let tell = || {
+                let _ = told.send_event(Wake::Facts);
+            };
+            let report = stage::run(begin, &taken, &own, &tray, &tell);
+            let _ = ended.send_event(Wake::End);
+            report
+        });
+        let mut app = App::new(setup, facts, requests, easel);
+        let shown = event_loop.run_app(&mut app);
+        app.close();
+        let report = match stage.join() {
+            Ok(report) => report?,
+            Err(panic) => std::panic::resume_unwind(panic),
+        };
+        shown.map_err(|error| ViewError::Window(error.to_string()))?;
+        app.end(report)
+    })
+}
+
+/// Sends a request. The stage ends last, so that nothing is lost.
+fn send(requests: &Sender<Request>, request: Request) {
+    let _ = requests.send(request);
+}
+
+/// An error of the system without the place in the source that begins it.
+fn reason(text: &str) -> String {
+    let end = text.split_once(".rs:").and_then(|(_, end)| end.split_once(": "));
+    end.map_or(text, |(_, reason)| reason).to_owned()
+}
