@@ -108,6 +108,33 @@ handles! {
     SpongeHandle;
 }
 
+/// An emitter or a drain: its number, which no other has before or after it. Once it has ended the handle is stale, and commands that hold
+/// it are refused. In JSON it is the number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct FlowHandle(u32);
+
+impl FlowHandle {
+    /// Its number.
+    #[must_use]
+    pub const fn number(self) -> u32 {
+        self.0
+    }
+}
+
+/// That of the scene, by its number there: emitters from 0, then drains.
+impl From<u32> for FlowHandle {
+    fn from(number: u32) -> Self {
+        Self(number)
+    }
+}
+
+impl std::fmt::Display for FlowHandle {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.fmt(out)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

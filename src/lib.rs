@@ -38,7 +38,7 @@ mod world;
 pub use clock::{Bound, Clock};
 pub use command::{Command, CommandError, Nodes, Region};
 pub use coupler::{Coupler, SubStep};
-pub use handle::{BodyHandle, SpongeHandle};
+pub use handle::{BodyHandle, FlowHandle, SpongeHandle};
 pub use measure::Measures;
 pub use query::{Hit, Probe, QueryError, Ray, SpongeProbe, Surface, Targets};
 #[cfg(feature = "serde")]

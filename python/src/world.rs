@@ -137,7 +137,7 @@ impl World {
     }
 
     fn next_flow(&self) -> u32 {
-        self.world.next_flow()
+        self.world.next_flow().number()
     }
 
     fn bodies(&self) -> Vec<Body<'_>> {

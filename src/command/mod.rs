@@ -10,7 +10,7 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    handle::{BodyHandle, SpongeHandle},
+    handle::{BodyHandle, FlowHandle, SpongeHandle},
     rigid::{BodyKind, Target},
     scene::{Body, Drain, Emitter, GravityKey, KindKey, Material, Motion, Problem, Sponge},
 };
@@ -103,21 +103,21 @@ pub enum Command {
     /// Begins a stream of water.
     Emit {
         /// Its number, which is that of [`World::next_flow`](crate::World::next_flow).
-        number: u32,
+        number: FlowHandle,
         /// The stream. It begins at once if `start` is past.
         emitter: Emitter,
     },
     /// Opens a drain.
     Drain {
         /// Its number, which is that of [`World::next_flow`](crate::World::next_flow).
-        number: u32,
+        number: FlowHandle,
         /// The drain. It opens at once if `start` is past.
         drain: Drain,
     },
     /// Ends an emitter or a drain.
     EndFlow {
         /// Its number. One that has ended, by itself as well, is an error.
-        number: u32,
+        number: FlowHandle,
     },
     /// A sponge in its shape at rest at another place, at once, with the water in its pores. Nodes that bodies hold are let go. A place
     /// outside of the container, in a body or in a sponge is an error, and one in water if the sponge brings water along.

@@ -9,7 +9,7 @@ use sorb_kernels::{
 use super::{StepError, World, fastest_body, sleep::Kind};
 use crate::{
     command::{Command, CommandError, Nodes},
-    handle::{BodyHandle, SpongeHandle},
+    handle::{BodyHandle, FlowHandle, SpongeHandle},
     rigid::{RigidError, Target},
     water::FlowKind,
 };
@@ -50,8 +50,8 @@ impl World {
     }
 
     /// Whether an emitter or a drain of a number has not ended, nor will before the next step.
-    pub(crate) fn has_flow(&self, number: u32) -> bool {
-        let mut is_there = self.water.flows.iter().any(|flow| flow.number == number);
+    pub(crate) fn has_flow(&self, number: FlowHandle) -> bool {
+        let mut is_there = self.water.flows.iter().any(|flow| flow.number == number.number());
         for command in &self.commands.pending {
             match command {
                 Command::Emit { number: own, .. } | Command::Drain { number: own, .. } => {
@@ -140,7 +140,7 @@ impl World {
             Command::Remove { region } => self.remove_water(region)?,
             Command::Emit { number, emitter } => self.begin_flow(*number, FlowKind::Emitter(*emitter)),
             Command::Drain { number, drain } => self.begin_flow(*number, FlowKind::Drain(*drain)),
-            Command::EndFlow { number } => self.water.flows.retain(|flow| flow.number != *number),
+            Command::EndFlow { number } => self.water.flows.retain(|flow| flow.number != number.number()),
         }
         Ok(())
     }

@@ -5,35 +5,37 @@ use glam::Vec3;
 use super::{StepError, World};
 use crate::{
     command::Region,
+    handle::FlowHandle,
     scene::{Drain, Emitter, MAXIMUM_PARTICLES},
     water::{Flow, FlowKind, layer},
 };
 
 impl World {
-    /// Numbers and emitters of those that have not ended, in the order in which they began.
-    pub fn emitters(&self) -> impl Iterator<Item = (u32, &Emitter)> {
+    /// Handles and emitters of those that have not ended, in the order in which they began.
+    pub fn emitters(&self) -> impl Iterator<Item = (FlowHandle, &Emitter)> {
         self.water.flows.iter().filter_map(|flow| match &flow.kind {
-            FlowKind::Emitter(emitter) => Some((flow.number, emitter)),
+            FlowKind::Emitter(emitter) => Some((flow.number.into(), emitter)),
             FlowKind::Drain(_) => None,
         })
     }
 
     /// The same of drains. Emitters and drains are numbered together, those of the scene first.
-    pub fn drains(&self) -> impl Iterator<Item = (u32, &Drain)> {
+    pub fn drains(&self) -> impl Iterator<Item = (FlowHandle, &Drain)> {
         self.water.flows.iter().filter_map(|flow| match &flow.kind {
-            FlowKind::Drain(drain) => Some((flow.number, drain)),
+            FlowKind::Drain(drain) => Some((flow.number.into(), drain)),
             FlowKind::Emitter(_) => None,
         })
     }
 
-    /// The number of the next emitter or drain that a command begins. No number is used twice.
+    /// The handle of the next emitter or drain that a command begins. No number is used twice.
     #[must_use]
-    pub fn next_flow(&self) -> u32 {
-        self.water.next_flow.saturating_add(self.pending_flows())
+    pub fn next_flow(&self) -> FlowHandle {
+        self.water.next_flow.saturating_add(self.pending_flows()).into()
     }
 
     /// Begins an emitter or a drain.
-    pub(super) fn begin_flow(&mut self, number: u32, kind: FlowKind) {
+    pub(super) fn begin_flow(&mut self, flow: FlowHandle, kind: FlowKind) {
+        let number = flow.number();
         // Only a state that was made up has another one.
         if number == self.water.next_flow {
             self.water.next_flow = number.saturating_add(1);

@@ -51,8 +51,10 @@ fn audit(world: &World) {
     ids.sort_unstable();
     ids.dedup();
     assert_eq!((ledger.lost, ids.len() as u64), (0, ledger.present), "{ledger:?}");
+    // What a body holds goes where that takes it.
+    let is_free = |row: &&[f32; 4]| row[3] > 0.0;
     for (row, slack) in (world.particle_positions().iter().map(|row| (row, 0.0)))
-        .chain(world.node_positions().iter().map(|row| (row, 2e-3)))
+        .chain(world.node_positions().iter().filter(is_free).map(|row| (row, 2e-3)))
     {
         let point = Vec3::new(row[0], row[1], row[2]);
         let is_in = point.cmpge(LOW - slack).all() && point.cmple(HIGH + slack).all();

@@ -83,10 +83,10 @@ fn a_tap_over_a_drain_runs_on() {
 #[test]
 fn flows_by_command_have_numbers_that_are_used_once() {
     let mut world = common::world(&cup(0.02, FluidSolver::Dfsph).with_drain(floor()));
-    assert_eq!(world.next_flow(), 1);
-    push(&mut world, Command::Emit { number: 1, emitter: tap() });
-    push(&mut world, Command::Drain { number: 2, drain: floor() });
-    assert_eq!(world.next_flow(), 3);
+    assert_eq!(world.next_flow().number(), 1);
+    push(&mut world, Command::Emit { number: 1.into(), emitter: tap() });
+    push(&mut world, Command::Drain { number: 2.into(), drain: floor() });
+    assert_eq!(world.next_flow().number(), 3);
     let refused = |world: &mut World, command: Command, expected: &str| {
         let before = world.digest();
         let error = world.push(command).expect_err(expected).to_string();
@@ -95,24 +95,28 @@ fn flows_by_command_have_numbers_that_are_used_once() {
     };
     refused(
         &mut world,
-        Command::Emit { number: 2, emitter: tap() },
+        Command::Emit { number: 2.into(), emitter: tap() },
         "`emit.number` = 2: no number is used twice; the next one is 3",
     );
     common::frame(&mut world);
     audit(&world);
-    assert_eq!(world.emitters().map(|(number, _)| number).collect::<Vec<_>>(), [1]);
-    assert_eq!(world.drains().map(|(number, _)| number).collect::<Vec<_>>(), [0, 2]);
-    push(&mut world, Command::EndFlow { number: 1 });
-    refused(&mut world, Command::EndFlow { number: 1 }, "`end_flow.number` = 1: no such emitter or drain");
+    assert_eq!(world.emitters().map(|(flow, _)| flow.number()).collect::<Vec<_>>(), [1]);
+    assert_eq!(world.drains().map(|(flow, _)| flow.number()).collect::<Vec<_>>(), [0, 2]);
+    push(&mut world, Command::EndFlow { number: 1.into() });
+    refused(
+        &mut world,
+        Command::EndFlow { number: 1.into() },
+        "`end_flow.number` = 1: no such emitter or drain",
+    );
     common::frame(&mut world);
-    assert_eq!((world.emitters().count(), world.next_flow()), (0, 3));
-    refused(&mut world, Command::EndFlow { number: 1 }, "it has ended, or never began");
-    refused(&mut world, Command::EndFlow { number: 77 }, "no such emitter or drain");
-    refused(&mut world, Command::Emit { number: 1, emitter: tap() }, "the next one is 3");
+    assert_eq!((world.emitters().count(), world.next_flow().number()), (0, 3));
+    refused(&mut world, Command::EndFlow { number: 1.into() }, "it has ended, or never began");
+    refused(&mut world, Command::EndFlow { number: 77.into() }, "no such emitter or drain");
+    refused(&mut world, Command::Emit { number: 1.into(), emitter: tap() }, "the next one is 3");
     let emitter = |change: fn(&mut Emitter)| {
         let mut emitter = tap();
         change(&mut emitter);
-        Command::Emit { number: 3, emitter }
+        Command::Emit { number: 3.into(), emitter }
     };
     refused(
         &mut world,
@@ -125,11 +129,11 @@ fn flows_by_command_have_numbers_that_are_used_once() {
     let drain = Drain { rate: -1.0, ..floor() };
     refused(
         &mut world,
-        Command::Drain { number: 3, drain },
+        Command::Drain { number: 3.into(), drain },
         "`drain.drain.rate` = -1 is out of range 1e-6 to 1e6 kg/s",
     );
     let dry = &mut common::world(&Scene::new("space"));
-    refused(dry, Command::Emit { number: 0, emitter: tap() }, "the scene has no `fluid`");
+    refused(dry, Command::Emit { number: 0.into(), emitter: tap() }, "the scene has no `fluid`");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Random commands give one digest: on any threads, at any SIMD level, twice, and after saves, roll backs and recordings.
 
 use sorb::{
-    Command, Nodes, Options, Player, Recorder, Region, SimdLevel, Snapshot, World,
+    Command, FlowHandle, Nodes, Options, Player, Recorder, Region, SimdLevel, Snapshot, World,
     glam::Vec3,
     scene::{Drain, Emitter, FluidSolver, Scene},
 };
@@ -17,7 +17,7 @@ impl Random {
 }
 
 /// A command, good or bad.
-fn command(random: &mut Random, next: u32) -> Command {
+fn command(random: &mut Random, next: FlowHandle) -> Command {
     let (point, other, radius) = (random.point(), random.point(), 0.005 + 0.02 * random.unit());
     let region = match random.next() % 3 {
         0 => Region::Sphere { centre: point, radius },
@@ -25,7 +25,7 @@ fn command(random: &mut Random, next: u32) -> Command {
         _ => Region::Box { minimum: point.min(other), maximum: point.max(other) },
     };
     let velocity = (random.point() - Vec3::Y * 0.1) * 10.0;
-    let (number, seconds) = (next + (random.next() % 4 / 3) as u32, 0.3 * random.unit());
+    let (number, seconds) = (next.number() + (random.next() % 4 / 3) as u32, 0.3 * random.unit());
     match random.next() % 13 {
         0..=3 => Command::Pour { region, velocity },
         4 | 5 => Command::Remove { region },
@@ -39,16 +39,16 @@ fn command(random: &mut Random, next: u32) -> Command {
                 end: seconds,
                 ..Emitter::default()
             };
-            Command::Emit { number, emitter }
+            Command::Emit { number: number.into(), emitter }
         }
         9 => {
             let (minimum, maximum) = (point.min(other), point.max(other));
             Command::Drain {
-                number,
+                number: number.into(),
                 drain: Drain { minimum, maximum, rate: 0.2, end: seconds, ..Drain::default() },
             }
         }
-        10 => Command::EndFlow { number: number.saturating_sub(1) },
+        10 => Command::EndFlow { number: number.saturating_sub(1).into() },
         11 => Command::Grip { body: 0.into(), nodes: Nodes::Sphere { centre: point, radius } },
         _ => Command::Release { nodes: Nodes::Sphere { centre: point, radius: 1.0 } },
     }

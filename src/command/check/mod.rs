@@ -8,6 +8,7 @@ use glam::{Quat, Vec3};
 
 use super::{Command, CommandError, Nodes, Region};
 use crate::{
+    handle::FlowHandle,
     rigid::BodyKind,
     scene::{BlockShape, Defect, MAXIMUM_PARTICLES, Problem, limit},
     world::World,
@@ -242,7 +243,7 @@ impl Check<'_> {
     }
 
     /// A flow with the next number in a scene with fluid, which has not ended before it begins.
-    fn begins(&mut self, key: &str, number: u32, (kind, end): (&str, f32)) {
+    fn begins(&mut self, key: &str, number: FlowHandle, (kind, end): (&str, f32)) {
         let world = self.world;
         if world.scene().fluid.is_none() {
             self.rule(key, number.to_string(), "the scene has no `fluid`".to_owned());
@@ -262,7 +263,7 @@ impl Check<'_> {
     }
 
     /// A flow that has not ended.
-    fn ends(&mut self, number: u32) {
+    fn ends(&mut self, number: FlowHandle) {
         if self.knows_flows && !self.world.has_flow(number) {
             let rule = "no such emitter or drain; it has ended, or never began".to_owned();
             self.rule("end_flow.number", number.to_string(), rule);
