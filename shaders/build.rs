@@ -4,13 +4,15 @@ use std::{env, error::Error, fmt::Write, fs, path::Path};
 
 /// The first line of a file that includes others: names of files in `common/`, in order.
 const INCLUDE: &str = "// #include ";
+/// The family of the passes of the renderer: they include files of their own folder, and are in a table of their own.
+const RENDER: &str = "render";
 /// A common file of this name in place of the one without it, for adapters with subgroup operations.
 const SUBGROUP: &str = "_subgroup";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let root = env::var("CARGO_MANIFEST_DIR")?;
     let root = Path::new(&root);
-    let (mut plain, mut subgroup) = (String::new(), String::new());
+    let (mut plain, mut subgroup, mut render) = (String::new(), String::new(), String::new());
     for family in names(root, None)? {
         let is_source = ["common", "src"].contains(&family.as_str());
         println!("cargo::rerun-if-changed={family}");
@@ -19,7 +21,17 @@ fn main() -> Result<(), Box<dyn Error>> {
             let text = fs::read_to_string(root.join(&path))?;
             let first = text.lines().next().and_then(|line| line.strip_prefix(INCLUDE)).unwrap_or_default();
             let common: Vec<&str> = first.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
-            let entry = |common: &[String]| entry(&format!("{family}::{file}"), common, &path);
+            if family == RENDER {
+                let parts: Vec<String> =
+                    common.iter().map(|name| format!("{RENDER}/parts/{name}.wgsl")).collect();
+                render.write_str(&entry(&format!("{family}::{file}"), &parts, &path))?;
+                continue;
+            }
+            let entry = |common: &[String]| {
+                let rows = ["rows".to_owned()];
+                let common = rows.iter().chain(common).map(|name| format!("common/{name}.wgsl"));
+                entry(&format!("{family}::{file}"), &common.collect::<Vec<_>>(), &path)
+            };
             let own: Vec<String> = common.iter().map(|&name| name.to_owned()).collect();
             plain.write_str(&entry(&own))?;
             let has_subgroup = |name: &str| root.join(format!("common/{name}{SUBGROUP}.wgsl")).exists();
@@ -35,7 +47,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         "/// All passes, by family, with the common files that each is built from.\n\
          pub static SHADERS: &[Shader] = &[{plain}];\n\n\
          /// The same passes with subgroup operations, for adapters that have them.\n\
-         pub static SUBGROUP_SHADERS: &[Shader] = &[{subgroup}];\n"
+         pub static SUBGROUP_SHADERS: &[Shader] = &[{subgroup}];\n\n\
+         /// The passes of the renderer.\n\
+         pub static RENDER_SHADERS: &[Shader] = &[{render}];\n"
     );
     fs::write(Path::new(&env::var("OUT_DIR")?).join("shaders.rs"), tables)?;
     Ok(())
@@ -59,10 +73,7 @@ fn names(folder: &Path, extension: Option<&str>) -> Result<Vec<String>, Box<dyn 
 /// A row of the table.
 fn entry(name: &str, common: &[String], path: &str) -> String {
     let text = |path: &str| format!("include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/{path}\"))");
-    let common = ["rows".to_owned()]
-        .iter()
-        .chain(common)
-        .map(|name| text(&format!("common/{name}.wgsl")))
-        .collect::<Vec<_>>();
-    format!("Shader {{ name: {name:?}, source: concat!({}, {}) }},\n", common.join(", "), text(path))
+    let common: Vec<String> = common.iter().map(|path| text(path)).collect();
+    let all = [common, vec![text(path)]].concat().join(", ");
+    format!("Shader {{ name: {name:?}, source: concat!({all}) }},\n")
 }

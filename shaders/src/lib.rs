@@ -3,7 +3,8 @@
 //! A twin has the path of its kernel: the twin of `sph::density` is `sph/density.wgsl`. A kernel that needs several
 //! passes has further files beside it, and what several twins need is in `common/`: a file names what it needs of that in its
 //! first line, `// #include grid, smoothing`. Which passes make up a kernel, and which buffers they are bound to, is in the
-//! declaration of the kernel in `sorb-kernels`.
+//! declaration of the kernel in `sorb-kernels`. The passes of the renderer are in `render/`, and what several of those need is in
+//! `render/parts/`.
 
 /// The WGSL source of one pass, complete: what it shares with others comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +28,12 @@ pub static PROBE: Shader = Shader {
 #[must_use]
 pub fn subgroup_shader(name: &str) -> Option<&'static Shader> {
     SUBGROUP_SHADERS.iter().find(|shader| shader.name == name)
+}
+
+/// The pass of the renderer of that name.
+#[must_use]
+pub fn render_shader(name: &str) -> Option<&'static Shader> {
+    RENDER_SHADERS.iter().find(|shader| shader.name == name)
 }
 
 /// The pass of that name.

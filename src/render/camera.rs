@@ -64,7 +64,7 @@ pub(super) struct Raster {
     pub(super) forward: Vec3,
     /// Samples per unit of slope, and its inverse.
     pub(super) focal: f32,
-    inverse_focal: f32,
+    pub(super) inverse_focal: f32,
     pub(super) near: f32,
     pub(super) width: usize,
     pub(super) height: usize,

@@ -67,6 +67,9 @@ const MAP: [[f32; 3]; 9] = [
     [0.993, 0.906, 0.144],
 ];
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(COLOUR: BRIGHTEST, MAP);
+
 /// Colour of a map at a place from 0 to 1, as displayed; places outside are at its ends.
 pub(super) fn map_as_displayed(place: f32) -> Vec3 {
     let at = if place.is_finite() { place.clamp(0.0, 1.0) } else { 0.0 } * (MAP.len() - 1) as f32;

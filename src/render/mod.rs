@@ -3,6 +3,10 @@
 //! [`draw`] turns a [`Picture`] (borrowed positions, triangles and bodies) and a [`Camera`] into an [`Image`].
 //! An [`Animation`] appends images to one animated PNG file. The pixels are the same for every number of threads.
 
+#[macro_use]
+#[cfg(feature = "gpu")]
+mod shared;
+
 mod animation;
 mod bands;
 mod camera;
@@ -10,6 +14,8 @@ mod colour;
 mod error;
 #[cfg(feature = "film")]
 mod film;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod image;
 mod legend;
 mod number;
@@ -27,6 +33,8 @@ pub use camera::Camera;
 pub use error::RenderError;
 #[cfg(feature = "film")]
 pub use film::Film;
+#[cfg(feature = "gpu")]
+pub use gpu::{Frame, Renderer};
 pub use image::Image;
 pub use steady::Steady;
 pub use world::draw_world;

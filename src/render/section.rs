@@ -3,11 +3,9 @@
 use crate::World;
 use glam::Vec3;
 
-/// The plane through the middle of the sponges, across the axis that the eye is nearest to: a point (m) and the normal towards the
-/// eye. Without sponges, it goes through the middle of the water.
-pub(super) fn plane(world: &World, eye: Vec3) -> (Vec3, Vec3) {
-    let nodes = world.node_positions();
-    let places = if nodes.is_empty() { world.particle_positions() } else { nodes };
+/// The plane through the middle of some places, across the axis that the eye is nearest to: a point (m) and the normal towards the
+/// eye.
+pub(super) fn plane(places: &[[f32; 4]], eye: Vec3) -> (Vec3, Vec3) {
     let places = places.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).filter(|place| place.is_finite());
     let (sum, count) = places.fold((Vec3::ZERO, 0.0_f32), |(sum, count), place| (sum + place, count + 1.0));
     let middle = sum / count.max(1.0);
@@ -21,8 +19,7 @@ pub(super) fn plane(world: &World, eye: Vec3) -> (Vec3, Vec3) {
 }
 
 /// Outer triangles of the tetrahedra behind a plane, wound counter-clockwise seen from outside.
-pub(super) fn behind(world: &World, (point, normal): (Vec3, Vec3)) -> Vec<[u32; 3]> {
-    let nodes = world.node_positions();
+pub(super) fn behind(world: &World, nodes: &[[f32; 4]], (point, normal): (Vec3, Vec3)) -> Vec<[u32; 3]> {
     let place = |node: u32| nodes.get(node as usize).map_or(Vec3::ZERO, |&[x, y, z, _]| Vec3::new(x, y, z));
     let mut faces: Vec<([u32; 3], [u32; 3])> = Vec::new();
     for tet in &world.lattice().tets {

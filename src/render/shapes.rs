@@ -7,7 +7,7 @@ use glam::{Mat3, Vec3};
 /// A body prepared for intersection.
 #[derive(Debug)]
 pub(super) struct Solid<'a> {
-    shape: &'a Shape,
+    pub(super) shape: &'a Shape,
     /// Index in the picture's list, which also selects the colour.
     pub(super) index: usize,
     pub(super) position: Vec3,

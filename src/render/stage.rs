@@ -49,10 +49,7 @@ impl<'a> Stage<'a> {
         };
         let solid = |(index, body): (usize, &DrawnBody<'a>)| Solid::new(index, body);
         let solids: Vec<Solid<'a>> = picture.bodies.iter().enumerate().filter_map(solid).collect();
-        let container = picture.container.map(|(a, b)| (a.min(b), a.max(b))).filter(|(a, b)| {
-            let side = *b - *a;
-            side.is_finite() && side.min_element() > 1e-6
-        });
+        let container = container(picture);
         let around = container.unwrap_or_else(|| extent(&particles, radius, &solids, &sponge));
         let height_scale = container.map_or(40.0 * radius, |(a, b)| b.y - a.y).max(1e-6);
         let raster = Raster::new(camera, width, height);
@@ -91,6 +88,14 @@ impl<'a> Stage<'a> {
         let speed = self.velocity(particle) / self.fast;
         if speed.is_finite() { speed.min(1.0) } else { 0.0 }
     }
+}
+
+/// Lowest and highest corner of a container that can be drawn (m).
+pub(super) fn container(picture: &Picture<'_>) -> Option<(Vec3, Vec3)> {
+    picture.container.map(|(a, b)| (a.min(b), a.max(b))).filter(|(a, b)| {
+        let side = *b - *a;
+        side.is_finite() && side.min_element() > 1e-6
+    })
 }
 
 /// Box around everything that can be drawn in an open scene, except planes; not empty. Its corners are at multiples of a power

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::world::draw_positions;
+use super::world::{Seen, draw_positions};
 use super::{Camera, Image, View, colour::smooth};
 use crate::World;
 use glam::Vec3;
@@ -48,7 +48,8 @@ impl Steady {
         for (row, shown) in nodes.iter_mut().zip(&mut self.nodes) {
             follow(shown, row, spacing);
         }
-        draw_positions(world, (&particles, &nodes), camera, view, (width, height))
+        let seen = Seen { particles: &particles, nodes: &nodes, ..Seen::of(world) };
+        draw_positions(world, &seen, camera, view, (width, height))
     }
 }
 

@@ -12,18 +12,52 @@ use crate::{World, glam::Vec3};
 /// Looks and colours are those of the scene. Take `world.scene().viewpoint().into()` for its camera.
 #[must_use]
 pub fn draw_world(world: &World, camera: &Camera, view: View, width: u32, height: u32) -> Image {
-    let positions = (world.particle_positions(), world.node_positions());
-    draw_positions(world, positions, camera, view, (width, height))
+    draw_positions(world, &Seen::of(world), camera, view, (width, height))
 }
 
-/// Draws a world with its particles and nodes at other positions.
+/// What a picture shows of the state of a world.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen<'a> {
+    pub(super) particles: &'a [[f32; 4]],
+    pub(super) velocities: &'a [[f32; 4]],
+    pub(super) interior: &'a [f32],
+    pub(super) nodes: &'a [[f32; 4]],
+    pub(super) saturations: &'a [f32],
+}
+
+impl<'a> Seen<'a> {
+    /// The present state.
+    pub(super) fn of(world: &'a World) -> Self {
+        Self {
+            particles: world.particle_positions(),
+            velocities: world.particle_velocities(),
+            interior: &world.columns().fluid.interior,
+            nodes: world.node_positions(),
+            saturations: world.node_saturations(),
+        }
+    }
+}
+
+/// Draws a world in another state than its own.
 pub(super) fn draw_positions(
     world: &World,
-    (particles, nodes): (&[[f32; 4]], &[[f32; 4]]),
+    seen: &Seen<'_>,
     camera: &Camera,
     view: View,
     (width, height): (u32, u32),
 ) -> Image {
+    let pressures = if view == View::Pressure { world.particle_pressures() } else { Vec::new() };
+    with_picture(world, (seen, &pressures), camera, view, |picture| draw(picture, camera, width, height))
+}
+
+/// Gives the picture of a world in some state, with the pressures of its particles, to somebody who draws it.
+pub(super) fn with_picture<R>(
+    world: &World,
+    (seen, pressures): (&Seen<'_>, &[f32]),
+    camera: &Camera,
+    view: View,
+    draw: impl FnOnce(&Picture<'_>) -> R,
+) -> R {
     let bodies: Vec<DrawnBody<'_>> = world
         .bodies()
         .iter()
@@ -40,16 +74,16 @@ pub(super) fn draw_positions(
             colour: keys.colour,
         })
         .collect();
-    let surfaces = Surfaces::new(world, nodes, view);
-    let pressures = if view == View::Pressure { world.particle_pressures() } else { Vec::new() };
-    let section = (view == View::Cutaway).then(|| section::plane(world, camera.eye));
-    let halves = section.map(|plane| section::behind(world, plane));
+    let surfaces = Surfaces::new(world, (seen.nodes, seen.saturations), view);
+    let places = if seen.nodes.is_empty() { seen.particles } else { seen.nodes };
+    let section = (view == View::Cutaway).then(|| section::plane(places, camera.eye));
+    let halves = section.map(|plane| section::behind(world, seen.nodes, plane));
     let (fluid, water) = (world.scene().fluid.as_ref(), Picture::default());
-    let picture = Picture {
-        particles,
-        velocities: world.particle_velocities(),
+    draw(&Picture {
+        particles: seen.particles,
+        velocities: seen.velocities,
         particle_radius: 0.5 * world.params.fluid.spacing,
-        interior: &world.columns().fluid.interior,
+        interior: seen.interior,
         nodes: &surfaces.nodes,
         wetness: &surfaces.wetness,
         rest: &surfaces.rest,
@@ -62,12 +96,11 @@ pub(super) fn draw_positions(
         },
         absorption: fluid.and_then(|fluid| fluid.absorption).unwrap_or(water.absorption),
         scatter: fluid.and_then(|fluid| fluid.colour).unwrap_or(water.scatter),
-        pressures: &pressures,
+        pressures,
         range: range(world, view),
         section,
         view,
-    };
-    draw(&picture, camera, width, height)
+    })
 }
 
 /// The sponges with the corners of their skins after the nodes.
@@ -81,11 +114,11 @@ struct Surfaces<'a> {
 }
 
 impl<'a> Surfaces<'a> {
-    fn new(world: &'a World, nodes: &'a [[f32; 4]], view: View) -> Self {
+    fn new(world: &'a World, (nodes, saturations): (&'a [[f32; 4]], &[f32]), view: View) -> Self {
         let lattice = world.lattice();
         let mut all = Self {
             nodes: nodes.into(),
-            wetness: wetness(world),
+            wetness: wetness(world, saturations),
             rest: lattice.position.as_slice().into(),
             triangles: lattice.triangles.as_slice().into(),
             skin: Vec::new(),
@@ -112,7 +145,7 @@ impl<'a> Surfaces<'a> {
 }
 
 /// Range of a colour map: the same for all pictures of a scene.
-fn range(world: &World, view: View) -> (f32, f32) {
+pub(super) fn range(world: &World, view: View) -> (f32, f32) {
     let scene = world.scene();
     let (low, high) = scene.bounds();
     let gravity = scene.gravity.length();
@@ -143,9 +176,8 @@ fn round(value: f32) -> f32 {
 ///
 /// The outermost nodes have no suction, and the water stays one layer below them. The surface looks as wet as the layer
 /// below it.
-fn wetness(world: &World) -> Vec<f32> {
+fn wetness(world: &World, saturations: &[f32]) -> Vec<f32> {
     let lattice = world.lattice();
-    let saturations = world.node_saturations();
     if saturations.is_empty() {
         let sponges = &world.scene().sponges;
         return lattice.node_sponge.iter().map(|&sponge| sponges[sponge as usize].saturation).collect();
@@ -201,11 +233,12 @@ mod tests {
         for _ in 0..6 {
             soaked.advance_frame().unwrap_or_else(|error| panic!("{error}"));
         }
-        let (skin, drawn) = (lowest(soaked.node_saturations()), lowest(&wetness(&soaked)));
+        let (skin, drawn) =
+            (lowest(soaked.node_saturations()), lowest(&wetness(&soaked, soaked.node_saturations())));
         // Negative control: the drawn wetness is not that of the outermost nodes.
         assert!(skin < 0.4, "{skin}");
         assert!(drawn > 0.6, "{drawn}");
         let dry = world(&["sponges.sponge.saturation=0"]);
-        assert!(wetness(&dry).iter().all(|wet| *wet < 0.05));
+        assert!(wetness(&dry, dry.node_saturations()).iter().all(|wet| *wet < 0.05));
     }
 }

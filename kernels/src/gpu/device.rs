@@ -208,8 +208,11 @@ impl Gpu {
         self.device.features().contains(TIMESTAMPS)
     }
 
-    /// Runs `work`, and turns what the device reports meanwhile into an error.
-    pub(super) fn guarded<R>(
+    /// Runs `work`, and turns what the device reports meanwhile into an error; `buffer` is what it makes, and its size.
+    ///
+    /// # Errors
+    /// The device reports one, or it is lost.
+    pub fn guarded<R>(
         &self,
         buffer: Option<(&'static str, u64)>,
         work: impl FnOnce() -> R,

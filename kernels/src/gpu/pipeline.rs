@@ -31,9 +31,11 @@ pub(super) struct Threads {
 
 /// One binding of a pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Binding {
-    pub(super) index: u32,
-    pub(super) name: &'static str,
+pub struct Binding {
+    /// Its number in the group.
+    pub index: u32,
+    /// Name of the variable.
+    pub name: &'static str,
     kind: BufferBindingType,
 }
 
@@ -46,10 +48,13 @@ impl Binding {
 
 /// A compiled pass.
 #[derive(Debug)]
-pub(super) struct Pipeline {
-    pub(super) bindings: Vec<Binding>,
-    pub(super) layout: BindGroupLayout,
-    pub(super) pipeline: ComputePipeline,
+pub struct Pipeline {
+    /// What it is bound to.
+    pub bindings: Vec<Binding>,
+    /// Layout of these bindings.
+    pub layout: BindGroupLayout,
+    /// The pipeline itself.
+    pub pipeline: ComputePipeline,
 }
 
 /// The bindings that a text declares: one line each, all in group 0.
@@ -92,6 +97,26 @@ impl Gpu {
     }
 
     pub(super) fn compile(&self, shader: &'static Shader, entry: &'static str, threads: Threads) -> Pipeline {
+        let mut constants = Vec::new();
+        if has_any_group(shader.source) {
+            constants.push((GROUP, f64::from(threads.group)));
+        }
+        if has_shares(shader.source) {
+            constants.push((SHARES, f64::from(threads.shares)));
+        }
+        self.compile_with(shader, &wgsl::complete(shader.source), entry, &constants)
+    }
+
+    /// Compiles an entry point of a shader, whose text is completed with declarations, with values of its overridable constants. To be
+    /// called by [`Self::guarded`].
+    #[must_use]
+    pub fn compile_with(
+        &self,
+        shader: &'static Shader,
+        text: &str,
+        entry: &'static str,
+        constants: &[(&str, f64)],
+    ) -> Pipeline {
         let bindings = bindings(shader.source);
         let entries: Vec<_> = bindings
             .iter()
@@ -118,15 +143,8 @@ impl Gpu {
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(shader.name),
-            source: wgpu::ShaderSource::Wgsl(wgsl::complete(shader.source).into()),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
         });
-        let mut constants = Vec::new();
-        if has_any_group(shader.source) {
-            constants.push((GROUP, f64::from(threads.group)));
-        }
-        if has_shares(shader.source) {
-            constants.push((SHARES, f64::from(threads.shares)));
-        }
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(shader.name),
             layout: Some(&pipeline_layout),
@@ -135,7 +153,7 @@ impl Gpu {
             compilation_options: wgpu::PipelineCompilationOptions {
                 // Every workgroup variable is written before it is read.
                 zero_initialize_workgroup_memory: false,
-                constants: &constants,
+                constants,
             },
             cache: None,
         });

@@ -61,26 +61,32 @@ impl Profile {
         ((MARKS as usize - 2) / passes.max(1)).max(1) as u32
     }
 
-    pub(super) fn start(&mut self, pass: &mut ComputePass<'_>) {
+    /// Begins a submission.
+    pub fn start(&mut self, pass: &mut ComputePass<'_>) {
         self.kernels.clear();
         pass.write_timestamp(&self.set, 0);
     }
 
     /// Notes the time after the last pass of a kernel.
-    pub(super) fn mark(&mut self, pass: &mut ComputePass<'_>, kernel: &'static str) {
+    pub fn mark(&mut self, pass: &mut ComputePass<'_>, kernel: &'static str) {
         if self.kernels.len() + 1 < MARKS as usize {
             self.kernels.push(kernel);
             pass.write_timestamp(&self.set, self.kernels.len() as u32);
         }
     }
 
-    pub(super) fn resolve(&self, encoder: &mut CommandEncoder) {
+    /// Ends a submission: its times are on their way.
+    pub fn resolve(&self, encoder: &mut CommandEncoder) {
         let marks = self.kernels.len() as u32 + 1;
         encoder.resolve_query_set(&self.set, 0..marks, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.staging, 0, u64::from(marks) * 8);
     }
 
-    pub(super) fn collect(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+    /// Takes the times of the submission, once it is done.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn collect(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
         let bytes = gpu.map(&self.staging)?;
         self.staging.unmap();
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);

@@ -143,7 +143,10 @@ fn refused(error: impl fmt::Display) -> GpuError {
 
 impl Gpu {
     /// The content of a buffer, once all that was submitted is done.
-    pub(super) fn map(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn map(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
         let (sender, receiver) = mpsc::channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
             // Nobody listens if waiting has failed already.

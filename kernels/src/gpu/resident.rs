@@ -22,7 +22,7 @@ use crate::{
     asleep::Asleep,
     body::Body,
     clock::StepLimits,
-    columns::{Columns, RowCounts},
+    columns::{Column, Columns, RowCounts},
     params::{Params, SpongeParams},
     pbd::meeting::pair_radius,
     sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
@@ -121,6 +121,15 @@ impl Resident {
             self.buffer(name("fluid_position", "fluid_position_next")),
             self.buffer(name("fluid_velocity", "fluid_velocity_next")),
         )
+    }
+
+    /// Buffer of the share of every particle that a sponge holds, in the order of their positions; none in a scene without sponges or
+    /// fluid. For a renderer on the same device; it must not write it.
+    #[must_use]
+    pub fn interior_buffer(&self) -> Option<&Buffer> {
+        self.plain_buffer(Column::FluidInterior)
+            .filter(|(_, _, bytes)| *bytes > 0)
+            .map(|(_, name, _)| self.buffer(name))
     }
 
     /// Bytes of all buffers.

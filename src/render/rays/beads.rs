@@ -16,6 +16,9 @@ const NODE: f32 = 0.2;
 /// Thickness of the layer of particles on a section, in radii of particles, in front of it and behind it.
 const SECTION: (f32, f32) = (0.6, 2.0);
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(BEADS: WATER, FAST_WATER, FOAM, SECTION);
+
 /// Balls with their colours: linear red, green and blue.
 #[derive(Debug)]
 pub(super) struct Beads {
@@ -68,7 +71,7 @@ fn particles(
 }
 
 /// Nodes in the colour of their wetness.
-fn nodes(stage: &Stage<'_>) -> (Vec<Ball>, Vec<Vec3>) {
+pub(in crate::render) fn nodes(stage: &Stage<'_>) -> (Vec<Ball>, Vec<Vec3>) {
     let picture = stage.picture;
     let place = |row: usize| picture.nodes.get(row).map(|&[x, y, z, _]| Vec3::new(x, y, z));
     let length = |pair: [u32; 2]| {

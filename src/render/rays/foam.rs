@@ -8,19 +8,22 @@ use std::sync::LazyLock;
 const SIDE: usize = 64;
 /// Side of the field (m).
 const PERIOD: f32 = 0.026;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(FOAM: SIDE, PERIOD);
 /// Number of pores in it.
 const PORES: u32 = 620;
 
 /// Distances from the walls of pores (mm), negative in a pore.
 #[derive(Debug)]
-pub(super) struct Foam {
+pub(in crate::render) struct Foam {
     distances: Vec<f32>,
 }
 
 static FOAM: LazyLock<Foam> = LazyLock::new(Foam::new);
 
 /// The foam of all sponges.
-pub(super) fn foam() -> &'static Foam {
+pub(in crate::render) fn foam() -> &'static Foam {
     &FOAM
 }
 
@@ -52,6 +55,12 @@ impl Foam {
             }
         }
         Self { distances }
+    }
+
+    /// All distances (mm), row by row.
+    #[cfg(feature = "gpu")]
+    pub(in crate::render) fn distances(&self) -> &[f32] {
+        &self.distances
     }
 
     /// Distance from the wall of a pore (mm) at a place in the sponge at rest (m).

@@ -7,17 +7,17 @@ use glam::{Vec3, Vec4};
 
 /// The floor with its maps.
 #[derive(Debug)]
-pub(super) struct Ground {
+pub(in crate::render) struct Ground {
     /// Height of the floor (m).
     pub(super) height: f32,
     /// Whether there is a floor to see.
     pub(super) is_seen: bool,
     /// Corner of the maps (m).
-    pub(super) corner: Vec3,
+    pub(in crate::render) corner: Vec3,
     /// Texels along a side of the maps.
     pub(super) side: usize,
     /// Side of a texel (m).
-    pub(super) texel: f32,
+    pub(in crate::render) texel: f32,
     /// Way along the light from the floor to the first solid (m); negative infinity for none.
     pub(super) solid: Vec<f32>,
     /// The same to the first water.
@@ -28,7 +28,11 @@ pub(super) struct Ground {
 
 impl Ground {
     /// Maps without anything on them, around a box of things (m).
-    pub(super) fn new((height, is_seen): (f32, bool), side: usize, (low, high): (Vec3, Vec3)) -> Self {
+    pub(in crate::render) fn new(
+        (height, is_seen): (f32, bool),
+        side: usize,
+        (low, high): (Vec3, Vec3),
+    ) -> Self {
         let size = high - low;
         let half = 0.5 * size.x.max(size.z) + 0.33 * size.y;
         // Shadows fall away from the light.

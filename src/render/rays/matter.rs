@@ -13,7 +13,7 @@ use crate::render::{
 };
 use glam::Vec3;
 
-const FLOOR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
+const FLOOR_COLOUR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
 
 /// Light that a wet floor loses. Rays are widened as they leave water, by the square of its index; what the surface of the water
 /// reflects back to the floor makes up for a part of it.
@@ -24,6 +24,9 @@ const FILM_RELIEF: f32 = 0.35;
 const FILM_MIRROR: f32 = 0.12;
 /// Brightness of the window in a film.
 const FILM_GLEAM: f32 = 0.6;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(MATTER: FLOOR_COLOUR, WET_FLOOR, FILM_RELIEF, FILM_MIRROR, FILM_GLEAM);
 
 /// How a ray arrives at a solid.
 #[derive(Clone, Copy, Debug)]
@@ -109,7 +112,7 @@ impl Setting<'_> {
     fn painted(&self, index: usize, normal: Vec3, arrival: &Arrival) -> Vec3 {
         let body = self.body(index);
         if body.is_plane() {
-            let ground = self.matt(body.own_colour().unwrap_or(FLOOR), normal, arrival);
+            let ground = self.matt(body.own_colour().unwrap_or(FLOOR_COLOUR), normal, arrival);
             return ground.lerp(FAR, self.fade(arrival.point));
         }
         let diffuse = self.matt(body.colour(), normal, arrival);
@@ -128,7 +131,7 @@ impl Setting<'_> {
         let (point, direction) = (arrival.point, arrival.direction);
         let fade = self.fade(point);
         let width = arrival.way * self.pixel / (-direction.y).max(0.05);
-        let albedo = FLOOR * (1.0 + (self.tiles(point, width, signature) - 1.0) * (1.0 - fade));
+        let albedo = FLOOR_COLOUR * (1.0 + (self.tiles(point, width, signature) - 1.0) * (1.0 - fade));
         let arriving = self.ground.arriving(point);
         let wetness = arriving.w.max(f32::from(u8::from(arrival.wet))).min(1.0);
         let mut light = albedo * (1.0 - WET_FLOOR * wetness) * arriving.truncate();

@@ -18,7 +18,18 @@ mod shells;
 mod skin;
 #[cfg(test)]
 mod tests;
-mod tree;
+pub(super) mod tree;
+
+#[cfg(feature = "gpu")]
+pub(super) use {
+    beads::nodes as node_balls,
+    foam::foam,
+    ground::Ground,
+    path::tint,
+    room::key_direction,
+    screen::{COARSE, PASSES},
+    tree::Triangle,
+};
 
 use super::camera::Raster;
 use super::colour::displayed;
@@ -26,6 +37,7 @@ use super::stage::Stage;
 use super::water::{self, Field, Water};
 use super::{Camera, Image, Picture, View};
 use glam::Vec3;
+#[cfg(not(feature = "gpu"))]
 use ground::Ground;
 use optics::Medium;
 use pixels::{Effort, STRIDE};
@@ -37,6 +49,39 @@ use tree::{Ball, Tree};
 const TEXELS: usize = 240;
 const FEW_TEXELS: usize = 144;
 
+/// Constants that shaders know.
+#[cfg(feature = "gpu")]
+pub(super) const CONSTANTS: &[&[super::shared::Constant]] = &[
+    beads::CONSTANTS,
+    foam::CONSTANTS,
+    matter::CONSTANTS,
+    optics::CONSTANTS,
+    path::CONSTANTS,
+    photons::CONSTANTS,
+    pixels::CONSTANTS,
+    room::CONSTANTS,
+    screen::CONSTANTS,
+    setting::CONSTANTS,
+    shells::CONSTANTS,
+    skin::CONSTANTS,
+];
+
+/// Texels along a side of the maps of a view.
+pub(super) fn texels(view: View) -> usize {
+    if view == View::Fast { FEW_TEXELS } else { TEXELS }
+}
+
+/// How many rays a picture of a view takes.
+fn effort(view: View) -> Effort {
+    if view == View::Fast { Effort::LITTLE } else { Effort::FULL }
+}
+
+/// Places of the rays that a pixel at an edge gets, in pixels.
+#[cfg(feature = "gpu")]
+pub(super) fn added(view: View) -> &'static [(f32, f32)] {
+    effort(view).added
+}
+
 /// Draws the picture.
 pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> Image {
     let (columns, rows) = (width as usize, height as usize);
@@ -44,7 +89,7 @@ pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u
     let (setting, watched) = prepare(&stage);
     let raster = &stage.raster;
     let screen = (picture.view == View::Fast).then(|| Screen::new(&stage));
-    let effort = if screen.is_some() { Effort::LITTLE } else { Effort::FULL };
+    let effort = effort(picture.view);
     let pixels = pixels::pixels((columns, rows), &watched, effort, |x, y| {
         let (right, up) = raster.slopes(x - 0.5, y - 0.5);
         let direction = (raster.forward + raster.right * right + raster.up * up).normalize();
@@ -72,7 +117,7 @@ fn prepare<'a>(stage: &'a Stage<'a>) -> (Setting<'a>, Vec<bool>) {
     let (low, high) = stage.around;
     let ground = stage.ground();
     let height = ground.map_or(low.y, |(height, _)| height);
-    let side = if view == View::Fast { FEW_TEXELS } else { TEXELS };
+    let side = texels(view);
     let which = |clear: bool| {
         let floor = ground.and_then(|(_, body)| body);
         let indices = 0..stage.solids.len();

@@ -5,6 +5,9 @@ use glam::Vec3;
 /// Index of refraction of water.
 pub(super) const INDEX: f32 = 1.333;
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(OPTICS: INDEX);
+
 /// What the water does to light that passes it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Medium {

@@ -4,7 +4,11 @@ use super::matter::Arrival;
 use super::optics::{INDEX, reflect, refract};
 use super::room;
 use super::setting::{Event, Face, NEAR, Setting};
-use crate::render::{colour::smooth, shapes::Span};
+use crate::render::{
+    Look,
+    colour::smooth,
+    shapes::{Solid, Span},
+};
 use glam::Vec3;
 
 /// Most events of a path.
@@ -13,6 +17,9 @@ const EVENTS: usize = 9;
 const SCATTERED: f32 = 0.55;
 /// Distance that a ray starts behind a body that it has passed (m).
 const BEHIND: f32 = 1e-5;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(PATH: EVENTS, SCATTERED, BEHIND);
 
 /// What a path met: the colours of two neighbours with equal signatures may be mixed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -173,7 +180,7 @@ impl Setting<'_> {
         let body = self.body(index);
         path.signature.meet(40 + index as u32);
         let wire = self.is_wire(index);
-        let tint = self.tint(index);
+        let tint = tint(body);
         let pixel = self.pixel * (path.way + span.enter);
         for (shell, (distance, normal)) in
             [(span.enter, span.normal), (span.exit, -span.exit_normal)].into_iter().enumerate()
@@ -209,17 +216,6 @@ impl Setting<'_> {
         path.origin = path.at(exit + BEHIND);
         path.wet = self.is_wet(path.origin + path.direction * (20.0 * BEHIND));
         false
-    }
-
-    /// Light that each shell of a clear body lets through.
-    pub(super) fn tint(&self, index: usize) -> Vec3 {
-        if self.is_wire(index) {
-            return Vec3::ONE;
-        }
-        const TINTS: [Vec3; 3] =
-            [Vec3::new(0.80, 0.90, 0.88), Vec3::new(0.84, 0.88, 0.93), Vec3::new(0.9, 0.88, 0.82)];
-        let body = self.body(index);
-        body.own_colour().map_or(TINTS[body.index % TINTS.len()], |colour| Vec3::splat(0.7) + colour * 0.3)
     }
 
     /// A pane of the container between air and air: a weak mirror, with the edges of the container.
@@ -260,6 +256,16 @@ impl Setting<'_> {
             path.through *= 1.0 - cover;
         }
     }
+}
+
+/// Light that each shell of a clear body lets through.
+pub(in crate::render) fn tint(body: &Solid<'_>) -> Vec3 {
+    if body.look == Look::Wire {
+        return Vec3::ONE;
+    }
+    const TINTS: [Vec3; 3] =
+        [Vec3::new(0.80, 0.90, 0.88), Vec3::new(0.84, 0.88, 0.93), Vec3::new(0.9, 0.88, 0.82)];
+    body.own_colour().map_or(TINTS[body.index % TINTS.len()], |colour| Vec3::splat(0.7) + colour * 0.3)
 }
 
 /// A number for each of the six directions of walls.

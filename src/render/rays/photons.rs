@@ -4,6 +4,7 @@
 
 use super::ground::Ground;
 use super::optics::{INDEX, reflect, refract};
+use super::path::tint;
 use super::room::{AMBIENT, KEY, LAMP, key_direction};
 use super::setting::{Event, Face, Matter, Setting, boxed};
 use crate::render::bands;
@@ -13,6 +14,9 @@ use glam::Vec3;
 const EVENTS: usize = 6;
 /// Brightest place, over open floor.
 const BRIGHTEST: f32 = 4.0;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(PHOTONS: EVENTS, BRIGHTEST);
 
 /// Where a photon ends.
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +142,7 @@ impl Setting<'_> {
                     if !span.exit.is_finite() {
                         return landing;
                     }
-                    share *= self.tint(index) * if self.is_wire(index) { 1.0 } else { 0.86 };
+                    share *= tint(self.body(index)) * if self.is_wire(index) { 1.0 } else { 0.86 };
                     origin += direction * (span.exit + 1e-5);
                     wet = self.is_wet(origin + direction * 2e-4);
                 }

@@ -23,7 +23,7 @@ pub(super) struct Effort {
     /// At every second pixel, and between them.
     likeness: [Likeness; 2],
     /// Rays that a pixel at an edge gets: their places in pixels.
-    added: &'static [(f32, f32)],
+    pub(super) added: &'static [(f32, f32)],
 }
 
 impl Effort {
@@ -47,6 +47,9 @@ const PATHS: (f32, f32) = (0.07, 0.12);
 const LEAST: u64 = (PATHS.0 * MOST as f32) as u64;
 /// Largest value of a channel.
 const MOST: u32 = 1023;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(PIXELS: CONTRAST, PATHS, MOST);
 /// Pixels from one ray of the first pass to the next.
 pub(super) const STRIDE: usize = 4;
 

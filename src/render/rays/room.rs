@@ -14,8 +14,11 @@ pub(super) const FAR: Vec3 = Vec3::new(0.74, 0.755, 0.78);
 /// Half sides of the room and its height; only directions matter.
 const HALF: Vec3 = Vec3::new(2.2, 1.9, 2.2);
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(ROOM: KEY, LAMP, AMBIENT, FAR, HALF);
+
 /// Towards the brightest window.
-pub(super) fn key_direction() -> Vec3 {
+pub(in crate::render) fn key_direction() -> Vec3 {
     Vec3::new(-0.42, 1.0, 0.36).normalize()
 }
 

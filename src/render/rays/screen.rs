@@ -25,10 +25,13 @@ const RANGE: f32 = 2.5;
 /// What is farther behind counts as this far behind, in spacings.
 const BEHIND: f32 = 0.5;
 /// Passes of the filter, each along rows and along columns.
-const PASSES: usize = 2;
+pub(in crate::render) const PASSES: usize = 2;
 
 /// Pixels of the picture along a side of a sample of the screen.
-const COARSE: usize = 2;
+pub(in crate::render) const COARSE: usize = 2;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(SCREEN: BALL, FILLING, TOUCH, REACH, MOST_SAMPLES, RANGE, BEHIND, COARSE);
 
 /// Water on the picture, at a part of its resolution.
 #[derive(Debug)]

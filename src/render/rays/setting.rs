@@ -27,6 +27,9 @@ const NOTCH: f32 = 0.006;
 /// Nearer things belong to the place where a ray starts (m).
 pub(super) const NEAR: f32 = 1e-6;
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(SETTING: FILM_ON_SPONGE, FILM_ON_FLOOR, GAP, GRAZING, NOTCH, NEAR);
+
 /// What rays see.
 pub(super) struct Setting<'a> {
     pub(super) stage: &'a Stage<'a>,

@@ -11,10 +11,14 @@ use glam::Vec3;
 /// Most shells of a ray.
 const SHELLS: usize = 12;
 const WATER: Vec3 = Vec3::new(0.05, 0.28, 0.62);
-const SPONGE: (Vec3, Vec3) = (Vec3::new(0.90, 0.62, 0.20), Vec3::new(0.46, 0.22, 0.05));
+const SPONGE_DRY: Vec3 = Vec3::new(0.90, 0.62, 0.20);
+const SPONGE_SOAKED: Vec3 = Vec3::new(0.46, 0.22, 0.05);
 /// Share of the light that a shell holds back where it is seen at a right angle.
 const WATER_COVER: f32 = 0.28;
 const SPONGE_COVER: f32 = 0.5;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(SHELLS: SHELLS, WATER, SPONGE_DRY, SPONGE_SOAKED, WATER_COVER, SPONGE_COVER);
 
 /// A shell that a ray meets.
 struct Shell {
@@ -77,7 +81,7 @@ impl Setting<'_> {
         {
             start += hit.distance;
             let (wetness, normal) = facet(&self.stage.sponge, &hit);
-            let colour = SPONGE.0.lerp(SPONGE.1, smooth(0.03, 0.75, wetness));
+            let colour = SPONGE_DRY.lerp(SPONGE_SOAKED, smooth(0.03, 0.75, wetness));
             shells.push(Shell { distance: start, normal, colour, cover: SPONGE_COVER, code: 6 });
             start += self.nudge;
         }

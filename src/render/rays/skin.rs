@@ -12,6 +12,9 @@ const STENCIL: f32 = 0.25e-3;
 const DRY: Vec3 = Vec3::new(0.90, 0.66, 0.25);
 const SOAKED: Vec3 = Vec3::new(0.46, 0.25, 0.055);
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(SKIN: DEPTH, STENCIL, DRY, SOAKED);
+
 /// The place of a sponge that a ray sees.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Skin {

@@ -11,7 +11,7 @@ const LEAF: usize = 4;
 const DEPTH: usize = 64;
 
 /// Something that rays meet.
-pub(super) trait Shape {
+pub(in crate::render) trait Shape {
     /// More about the place where a ray meets it.
     type Place: Copy;
 
@@ -23,23 +23,27 @@ pub(super) trait Shape {
 }
 
 /// Corners of a triangle; rays meet its outer side only, at the weights of its second and third corner.
-pub(super) type Triangle = [Vec3; 3];
+pub(in crate::render) type Triangle = [Vec3; 3];
 
 /// A ball: middle and radius (m). Rays meet it with its normal.
-pub(super) type Ball = (Vec3, f32);
+pub(in crate::render) type Ball = (Vec3, f32);
 
 /// Where a ray meets something.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hit<P> {
+pub(in crate::render) struct Hit<P> {
     /// Distance along the ray.
-    pub(super) distance: f32,
+    pub(in crate::render) distance: f32,
     /// Index of what it meets.
-    pub(super) index: u32,
-    pub(super) place: P,
+    pub(in crate::render) index: u32,
+    pub(in crate::render) place: P,
 }
 
+/// Sides of the boxes of the parts of a node, axis by axis.
+#[cfg(feature = "gpu")]
+pub(in crate::render) type Sides = [[f32; WIDTH]; 3];
+
 /// Children of a node: their boxes are compared with a ray at once.
-const WIDTH: usize = 4;
+pub(in crate::render) const WIDTH: usize = 4;
 
 /// A part of the tree.
 #[derive(Clone, Copy, Debug)]
@@ -62,14 +66,14 @@ struct Node {
 
 /// The tree.
 #[derive(Debug)]
-pub(super) struct Tree<S> {
+pub(in crate::render) struct Tree<S> {
     nodes: Vec<Node>,
     shapes: Vec<(u32, S)>,
 }
 
 impl<S: Shape> Tree<S> {
     /// A tree of shapes.
-    pub(super) fn new(shapes: impl Iterator<Item = S>) -> Self {
+    pub(in crate::render) fn new(shapes: impl Iterator<Item = S>) -> Self {
         let shapes: Vec<_> = shapes.enumerate().map(|(index, shape)| (index as u32, shape)).collect();
         let mut tree = Self { nodes: Vec::new(), shapes };
         let count = tree.shapes.len();
@@ -135,8 +139,34 @@ impl<S: Shape> Tree<S> {
         own as u32
     }
 
+    /// The nodes with the boxes of their parts, axis by axis, and first shape (or node) and number of shapes of every part.
+    #[cfg(feature = "gpu")]
+    pub(in crate::render) fn parts(
+        &self,
+    ) -> impl Iterator<Item = (Sides, Sides, [Option<(u32, u32)>; WIDTH])> {
+        self.nodes.iter().map(|node| {
+            let part =
+                |lane: usize| (lane < node.width).then(|| (node.parts[lane].first, node.parts[lane].count));
+            (node.low, node.high, [0, 1, 2, 3].map(part))
+        })
+    }
+
+    /// The shapes in the order of the leaves, with their index.
+    #[cfg(feature = "gpu")]
+    pub(in crate::render) fn shapes(&self) -> impl Iterator<Item = (u32, S)>
+    where
+        S: Copy,
+    {
+        self.shapes.iter().copied()
+    }
+
     /// The nearest shape on a ray that is nearer than a distance.
-    pub(super) fn hit(&self, origin: Vec3, direction: Vec3, mut nearest: f32) -> Option<Hit<S::Place>> {
+    pub(in crate::render) fn hit(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        mut nearest: f32,
+    ) -> Option<Hit<S::Place>> {
         if self.nodes.is_empty() {
             return None;
         }

@@ -8,9 +8,12 @@ pub(super) const BRICK: usize = 4;
 /// Longest skip, in bricks.
 const LONGEST: u8 = 8;
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(BRICKS: BRICK, LONGEST);
+
 /// What the nodes of a brick are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Content {
+pub(in crate::render) enum Content {
     Air,
     Water,
     Surface,
@@ -28,7 +31,7 @@ pub(super) struct Bricks {
 impl Bricks {
     /// The bricks of values on a grid.
     pub(super) fn new(grid: &Grid, values: &[f32]) -> Self {
-        let sides = grid.sides.map(|nodes| (nodes - 1).div_ceil(BRICK));
+        let sides = grid.bricks();
         let content = bands::map(sides[2], |z| {
             let mut layer = Vec::with_capacity(sides[0] * sides[1]);
             for y in 0..sides[1] {

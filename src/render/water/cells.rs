@@ -9,8 +9,20 @@ const MOST: f32 = 8e6;
 /// Points that are looked at together.
 pub(super) const LANES: usize = 4;
 
+/// What cells are and where their points begin.
+#[cfg(feature = "gpu")]
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Table<'a> {
+    pub(in crate::render) low: Vec3,
+    /// One over the side of a cell (1/m).
+    pub(in crate::render) inverse: f32,
+    pub(in crate::render) sides: [usize; 3],
+    /// First place of every cell, and the end of the last one.
+    pub(in crate::render) start: &'a [u32],
+}
+
 /// Points, cell by cell.
-pub(super) struct Cells {
+pub(in crate::render) struct Cells {
     low: Vec3,
     inverse: f32,
     sides: [usize; 3],
@@ -24,7 +36,7 @@ pub(super) struct Cells {
 
 impl Cells {
     /// Sorts finite points into cells of at least a side \[m\].
-    pub(super) fn new(points: &[Vec3], side: f32) -> Self {
+    pub(in crate::render) fn new(points: &[Vec3], side: f32) -> Self {
         let low = points.iter().fold(Vec3::INFINITY, |low, point| low.min(*point));
         let high = points.iter().fold(Vec3::NEG_INFINITY, |high, point| high.max(*point));
         let (low, high) = if points.is_empty() { (Vec3::ZERO, Vec3::ZERO) } else { (low, high) };
@@ -64,8 +76,14 @@ impl Cells {
         [0, 1, 2].map(|axis| &self.columns[axis][places.start..places.end + LANES])
     }
 
+    /// The cells themselves.
+    #[cfg(feature = "gpu")]
+    pub(in crate::render) fn table(&self) -> Table<'_> {
+        Table { low: self.low, inverse: self.inverse, sides: self.sides, start: &self.start }
+    }
+
     /// The rows of the points at some places.
-    pub(super) fn rows(&self, places: Range<usize>) -> &[u32] {
+    pub(in crate::render) fn rows(&self, places: Range<usize>) -> &[u32] {
         &self.rows[places]
     }
 

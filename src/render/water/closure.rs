@@ -14,17 +14,26 @@ const PIECE: f32 = 2.0;
 /// Distance from the outer surface of a sponge up to which water counts as that of its pores, in spacings: no kernels are there.
 const PORES: f32 = 0.2;
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(CLOSURE: PORES);
+
 /// A piece of the surface of a sponge.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surfel {
+pub(in crate::render) struct Surfel {
     centre: Vec3,
     normal: Vec3,
 }
 
 impl Surfel {
     /// Its middle (m).
-    pub(super) fn place(&self) -> Vec3 {
+    pub(in crate::render) fn place(&self) -> Vec3 {
         self.centre
+    }
+
+    /// Its outward unit normal.
+    #[cfg(feature = "gpu")]
+    pub(in crate::render) fn normal(&self) -> Vec3 {
+        self.normal
     }
 
     /// Weight of the surfel at a point nearer than `reach`, and the distance of the point from its plane (m).
@@ -45,7 +54,7 @@ pub(super) fn share(distance: f32) -> f32 {
 }
 
 /// Pieces of the surface of a sponge, at most about two spacings apart.
-pub(super) fn surfels(sponge: &Surface, spacing: f32) -> Vec<Surfel> {
+pub(in crate::render) fn surfels(sponge: &Surface, spacing: f32) -> Vec<Surfel> {
     let mut surfels = Vec::new();
     for (_, corners) in &sponge.triangles {
         let [a, b, c] = corners.map(|node| sponge.positions[node]);

@@ -14,6 +14,9 @@ pub(super) const THIN: f32 = 0.02;
 /// Smallest free share that a density is divided by.
 const LEAST_FREE: f32 = 0.12;
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(DENSITY: LEVEL, LARGEST, THIN, LEAST_FREE);
+
 /// Density less [`LEVEL`] on all nodes: positive in the water, -0.5 in air. With the distances of the nodes from sponges (m), infinite
 /// where there is no water or no sponge near; empty without a sponge.
 ///

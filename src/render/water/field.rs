@@ -10,6 +10,9 @@ const SAFE: f32 = 1.3;
 /// Steps of regula falsi after a change of sign.
 const ROUNDS: usize = 3;
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(FIELD: SAFE, ROUNDS);
+
 /// The density of the water less the level of the surface: positive inside.
 #[derive(Debug)]
 pub(in crate::render) struct Field {

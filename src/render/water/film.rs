@@ -13,6 +13,9 @@ pub(super) const REACH: f32 = 3.0;
 const HEIGHT: f32 = 0.4;
 const DENSITIES: (f32, f32) = (-0.4, 0.0);
 
+#[cfg(feature = "gpu")]
+shared_with_shaders!(FILM: THICKEST, REACH, HEIGHT, DENSITIES);
+
 /// Densities on the nodes of a grid after the surface has sunk towards sponges: a film sinks into them, water that is thicker
 /// than [`REACH`] keeps its surface, and water between them meets the sponge without a step.
 ///

@@ -1,5 +1,6 @@
 //! The grid that holds the density of the water, around the water only.
 
+use super::bricks::BRICK;
 use super::kernels::Kernel;
 use super::walls::Walls;
 use glam::Vec3;
@@ -16,17 +17,17 @@ pub(super) const SLAB: usize = 4;
 
 /// Places of the nodes of a grid.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
+pub(in crate::render) struct Grid {
     /// The node 0, 0, 0 (m).
-    pub(super) origin: Vec3,
+    pub(in crate::render) origin: Vec3,
     /// Sides of a cell (m).
-    pub(super) cell: Vec3,
+    pub(in crate::render) cell: Vec3,
     /// One over `cell`.
-    pub(super) inverse: Vec3,
+    pub(in crate::render) inverse: Vec3,
     /// Nodes along each axis; a multiple of eight along x.
-    pub(super) sides: [usize; 3],
+    pub(in crate::render) sides: [usize; 3],
     /// The row of nodes along y that is on the floor of a container, if it is on the grid.
-    floor: Option<usize>,
+    pub(in crate::render) floor: Option<usize>,
 }
 
 impl Grid {
@@ -37,6 +38,11 @@ impl Grid {
             low = low.min(kernel.centre - kernel.extent);
             high = high.max(kernel.centre + kernel.extent);
         }
+        Self::of_box((low, high), spacing, walls)
+    }
+
+    /// A grid around the box of the kernels.
+    pub(in crate::render) fn of_box((low, high): (Vec3, Vec3), spacing: f32, walls: &Walls) -> Self {
         let (corner, size) = walls.container.map_or((low, high - low), |(a, b)| (a, b - a));
         let wanted = {
             let extent = if walls.container.is_some() { (high - low).min(size) } else { high - low };
@@ -57,6 +63,11 @@ impl Grid {
         let is_floor = walls.container.is_some() && first.y <= 0.0;
         let floor = is_floor.then_some(-first.y as usize);
         Self { origin: corner + cell * first, cell, inverse: cell.recip(), sides, floor }
+    }
+
+    /// Bricks along each axis.
+    pub(in crate::render) fn bricks(&self) -> [usize; 3] {
+        self.sides.map(|nodes| (nodes - 1).div_ceil(BRICK))
     }
 
     /// Nodes of a layer.

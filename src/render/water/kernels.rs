@@ -8,7 +8,7 @@ use crate::render::{bands, colour::smooth};
 use glam::{Mat3, Vec3};
 
 /// Radius of the neighbourhood that shapes a kernel, in spacings.
-pub(super) const REACH: f32 = 3.0;
+pub(in crate::render) const REACH: f32 = 3.0;
 /// Radius of a kernel in the bulk, in spacings: the radius of the ball of the same volume.
 const RADIUS: f32 = 3.0;
 /// Radius of the kernel of a particle that is alone, in spacings. Its drop then has a radius of 0.56 spacings.
@@ -29,6 +29,9 @@ const ROUNDING: f32 = 0.25;
 const SHIFT: f32 = 0.9;
 /// One over the integral of `(1 - q^2)^3` over the unit ball, times the volume of a particle.
 const NORM: f32 = 1.566_68;
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(KERNELS: REACH, RADIUS, ALONE, FULL, BLOCK, DEEP, PACKED, BULK, EVEN, ROUNDING, SHIFT, NORM);
 /// Particles of one task.
 const CHUNK: usize = 512;
 

@@ -17,15 +17,40 @@ mod walls;
 
 pub(super) use field::Field;
 pub(super) use pores::free;
+#[cfg(feature = "gpu")]
+pub(super) use {
+    bricks::Content,
+    cells::Cells,
+    closure::{Surfel, surfels},
+    grid::Grid,
+    kernels::REACH,
+    walls::Walls,
+};
 
 use super::{shapes::Solid, sponge::Surface};
+#[cfg(not(feature = "gpu"))]
+use closure::surfels;
 use glam::Vec3;
+#[cfg(not(feature = "gpu"))]
 use grid::Grid;
 use kernels::Kernel;
+#[cfg(not(feature = "gpu"))]
 use walls::Walls;
 
+/// Constants that shaders know.
+#[cfg(feature = "gpu")]
+pub(super) const CONSTANTS: &[&[super::shared::Constant]] = &[
+    bricks::CONSTANTS,
+    closure::CONSTANTS,
+    density::CONSTANTS,
+    field::CONSTANTS,
+    film::CONSTANTS,
+    kernels::CONSTANTS,
+    pores::CONSTANTS,
+];
+
 /// Farthest particles from the others in an open scene, in spacings.
-const LOST: f32 = 600.0;
+pub(super) const LOST: f32 = 600.0;
 
 /// What the passes read.
 pub(super) struct Input<'a> {
@@ -68,7 +93,7 @@ pub(super) fn water(input: &Input<'_>) -> Option<Water> {
         return None;
     }
     let grid = Grid::around(&kernels, input.spacing, &walls);
-    let surfels = closure::surfels(input.sponge, input.spacing);
+    let surfels = surfels(input.sponge, input.spacing);
     let (values, away) = density::density(&grid, &kernels, &surfels, input.bodies, input.spacing);
     let films = film::films(&grid, &values, input.sponge, input.spacing);
     let values = film::sink(&grid, values, &away, input.spacing);

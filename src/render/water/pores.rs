@@ -13,6 +13,9 @@ const APART: f32 = 0.05;
 /// Distances from the outer surface of a sponge at which a particle is in its pores and is free water, in spacings. At edges of a
 /// sponge the share that it holds is that of free water at its faces.
 const OUTSIDE: (f32, f32) = (0.2, 0.7);
+
+#[cfg(feature = "gpu")]
+shared_with_shaders!(PORES: HELD, APART, OUTSIDE);
 /// Particles of one task.
 const CHUNK: usize = 512;
 

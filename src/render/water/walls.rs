@@ -5,9 +5,9 @@ use glam::Vec3;
 
 /// The walls of a box, or none.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Walls {
+pub(in crate::render) struct Walls {
     /// Lowest and highest corner (m).
-    pub(super) container: Option<(Vec3, Vec3)>,
+    pub(in crate::render) container: Option<(Vec3, Vec3)>,
 }
 
 /// A mirror image of a particle.

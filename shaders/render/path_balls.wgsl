@@ -1,0 +1,6 @@
+// #include numbers, colour, optics, room, scene, tree, shapes, lines, foam, skin, ground, balls, setting, events, no_water, matter, sheet, no_sheet, path, pixels
+// Views of particles, nodes and sponges without the surface of the water.
+
+fn seen_at(x: f32, y: f32) -> Shine {
+    return radiance(x, y);
+}
