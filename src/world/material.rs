@@ -88,7 +88,8 @@ impl World {
         let asleep = std::mem::take(&mut self.params.asleep);
         self.params = Params { step, gravity, asleep, ..params(&self.scene) };
         self.weigh_nodes(sponge);
-        self.fit_nodes();
+        self.fit_wetness();
+        self.fit_neighbourhood();
         self.light = LightBodies::new(&self.scene);
         self.light.set_gravity(gravity);
         self.steps_anew().map_err(|error| StepError::Scene(error.to_string()))?;
@@ -110,8 +111,8 @@ impl World {
         }
     }
 
-    /// Columns of the nodes that a material decides about: wetness, and the neighbourhood at rest, which reaches as far as material swells.
-    fn fit_nodes(&mut self) {
+    /// The wetness of nodes, if any material depends on it.
+    pub(super) fn fit_wetness(&mut self) {
         let rows = padded(self.stores.host.rows.nodes);
         let has_wetting = self.params.solid.is_some() && self.params.has_wetting();
         let wetting = &mut self.stores.host.nodes.wetting;
@@ -120,9 +121,14 @@ impl World {
         } else if !has_wetting {
             wetting.clear();
         }
+    }
+
+    /// The neighbourhood of nodes at rest, which reaches as far as material swells.
+    fn fit_neighbourhood(&mut self) {
         if self.scene.fluid.is_none() {
             return;
         }
+        let rows = padded(self.stores.host.rows.nodes);
         let mut rest = Columns { rows: self.stores.host.rows, ..Columns::default() };
         rest.nodes.position.clone_from(&self.lattice.position);
         rest.nodes.position.resize(rows, FAR_ROW);

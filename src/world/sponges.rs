@@ -194,6 +194,7 @@ impl World {
             node_columns(&self.scene, &self.params, &self.cpu, &origin).map_err(fail)?;
         carry_rows((&self.stores.host, &self.lattice), (&mut columns, &lattice), index as u32);
         self.take_nodes(columns, lattice);
+        self.fit_wetness();
         self.light = LightBodies::new(&self.scene);
         self.light.set_gravity(gravity);
         self.sleep.gripped.retain(|gripped| *gripped != index);

@@ -284,8 +284,11 @@ matrix! {
     one_digest_with_projections: 3008;
 }
 
-/// Seeds that are tried; `SORB_STRESS=1` tries many more.
+/// Seeds that are tried; `SORB_STRESS=1` tries many more, and `SORB_SEED=4000` that one.
 fn seeds() -> std::ops::Range<u64> {
+    if let Some(seed) = std::env::var("SORB_SEED").ok().and_then(|seed| seed.parse().ok()) {
+        return seed..seed + 1;
+    }
     4000..if std::env::var_os("SORB_STRESS").is_some() { 6000 } else { 4024 }
 }
 
@@ -297,5 +300,6 @@ fn any_commands_give_an_error_or_a_sound_world() {
         counts = [counts[0] + taken, counts[1] + refused];
     }
     // Both happen often.
-    assert!(counts[0] > 40 && counts[1] > 40, "{counts:?} commands taken and refused");
+    let is_one = seeds().count() == 1;
+    assert!(is_one || counts[0] > 40 && counts[1] > 40, "{counts:?} commands taken and refused");
 }

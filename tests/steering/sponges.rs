@@ -146,6 +146,18 @@ fn all_sponges_go_and_one_comes_back() {
 }
 
 #[test]
+fn the_last_sponge_that_depends_on_wetness_goes() {
+    let mut world = common::world(&pool());
+    run(&mut world, 6);
+    let soft = Material { softening: 0.5, swelling: 0.1, ..Material::default() };
+    push(&mut world, Command::Material { sponge: 1.into(), material: soft });
+    push(&mut world, Command::RemoveSponge { sponge: 1.into() });
+    run(&mut world, 6);
+    let text = format!("{:?}", world.measures());
+    assert!(!text.contains("NaN"), "{text}");
+}
+
+#[test]
 fn a_rollback_goes_back_over_a_sponge() {
     let (mut world, mut snapshot) = (common::world(&pool()), Snapshot::new());
     run(&mut world, 2);
