@@ -1,6 +1,7 @@
 //! The thread that draws: copies of the world, as a camera sees them.
 
 use std::{
+    panic::{self, AssertUnwindSafe},
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     thread::{self, JoinHandle},
     time::{Duration, Instant},
@@ -96,7 +97,15 @@ impl Easel {
     pub fn new(mut draws: Box<dyn Draws>, drawn: impl Fn() + Send + 'static) -> Self {
         let shared = Arc::<(Mutex<Shared>, Condvar)>::default();
         let own = Arc::clone(&shared);
-        let thread = thread::spawn(move || work(&own, &mut *draws, &drawn));
+        let thread = thread::spawn(move || {
+            let result = panic::catch_unwind(AssertUnwindSafe(|| work(&own, &mut *draws, &drawn)));
+            // Whoever waits for a picture learns that there is none.
+            if let Err(panic) = result {
+                lock(&own.0).closes = true;
+                drawn();
+                panic::resume_unwind(panic);
+            }
+        });
         Self { shared, thread: Some(thread) }
     }
 
@@ -112,6 +121,15 @@ impl Easel {
         if shared.shot != Some(shot) {
             shared.shot = Some(shot);
             self.shared.1.notify_all();
+        }
+    }
+
+    /// Panics as the thread that draws did, if it did.
+    pub fn check(&mut self) {
+        if lock(&self.shared.0).closes
+            && let Some(Err(panic)) = self.thread.take().map(JoinHandle::join)
+        {
+            panic::resume_unwind(panic);
         }
     }
 

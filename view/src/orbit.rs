@@ -10,8 +10,8 @@ use sorb::{
 /// Length of the rays of a mouse \[m\].
 const REACH: f32 = 1900.0;
 
-/// Shape of a picture in which the camera of the scene sees what it should; narrower ones see as much from farther away.
-const NARROW: f32 = 1.25;
+/// Width over height of the pictures that the cameras of scenes are made for; narrower ones see as much from farther away.
+const NARROW: f32 = 16.0 / 9.0;
 
 /// A camera that turns around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,12 +113,12 @@ mod tests {
     fn the_middle_of_the_picture_is_the_target_and_a_turn_keeps_the_distance() {
         let scene = scene::preset("standing").unwrap_or_else(|error| panic!("{error}"));
         let mut orbit = Orbit::new(&scene);
-        let first = orbit.camera(1.6);
+        let first = orbit.camera(1.8);
         assert!((first.eye - scene.viewpoint().eye).length() < 1e-5);
-        let middle = ray(&first, 1.6, [0.0, 0.0]);
+        let middle = ray(&first, 1.8, [0.0, 0.0]);
         assert!((in_plane(&first, &middle, first.target) - first.target).length() < 1e-5);
         orbit.turn(1.0, 0.2);
-        let turned = orbit.camera(1.6);
+        let turned = orbit.camera(1.8);
         let distance = |camera: &Camera| (camera.eye - camera.target).length();
         assert!((distance(&turned) - distance(&first)).abs() < 1e-5);
         assert!((turned.eye - first.eye).length() > 0.1);

@@ -49,8 +49,13 @@ impl<'a> Session<'a> {
     /// Builds the first state. `record` is the file of a recording of all that happens.
     ///
     /// # Errors
-    /// The scene cannot be built, the recording or the save is not usable, or the state cannot be recorded.
+    /// The scene cannot be built, the recording or the save is not usable, or the state cannot be recorded in that file.
     pub fn new(source: &'a Source, options: &Options, record: Option<&'a Path>) -> Result<Self, ViewError> {
+        if let Some(path) = record {
+            // A file that cannot be written is told before anything happens that it should hold.
+            let opened = File::options().create(true).append(true).open(path);
+            opened.map_err(|source| ViewError::Write { path: path.to_owned(), source })?;
+        }
         let acts = begin(source, options, record, &[])?;
         Ok(Self { source, options: options.clone(), record, acts, commands: BTreeMap::new() })
     }

@@ -40,6 +40,8 @@ pub enum Request {
     Restore,
     /// Goes to a frame of a recording.
     Seek(u64),
+    /// Goes so many frames on in a recording, or back.
+    Skip(i64),
     /// Takes what a ray meets; the answer has this number.
     Take(u64, Ray),
     /// Moves the hand to a place \[m\].
@@ -129,6 +131,7 @@ pub fn run(
     if begin.frames == Some(0) {
         stage.runs = false;
         lock(facts).is_done = true;
+        stage.tell();
     }
     stage.give(true);
     told();
@@ -209,6 +212,10 @@ impl Stage<'_> {
     }
 
     fn answer(&mut self, request: Request) {
+        // What was refused before is told until something else is asked for.
+        if !matches!(request, Request::Reach(_) | Request::LetGo | Request::Pour(None)) {
+            lock(self.facts).note = None;
+        }
         let result = match request {
             Request::Run(runs) => {
                 self.runs = runs && self.failure.is_none();
@@ -228,12 +235,10 @@ impl Stage<'_> {
                 self.changes.clear();
                 self.reset()
             }
-            Request::Seek(frame) => {
-                let sought = self.session.seek(frame);
-                self.state += 1;
-                self.teller.pause();
-                lock(self.facts).saturations.clear();
-                sought
+            Request::Seek(frame) => self.seek(frame),
+            Request::Skip(frames) => {
+                let now = self.session.played().map_or(0, |(frame, _)| frame);
+                self.seek(now.saturating_add_signed(frames))
             }
             Request::Take(number, ray) => self.take(number, ray),
             Request::Reach(point) => {
@@ -248,6 +253,14 @@ impl Stage<'_> {
         self.note(result);
         self.tell();
         self.give(!self.runs);
+    }
+
+    fn seek(&mut self, frame: u64) -> Result<(), ViewError> {
+        self.runs = false;
+        self.state += 1;
+        self.teller.pause();
+        lock(self.facts).saturations.clear();
+        self.session.seek(frame)
     }
 
     fn take(&mut self, number: u64, ray: Ray) -> Result<(), ViewError> {

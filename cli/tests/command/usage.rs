@@ -95,6 +95,14 @@ fn a_reader_that_stops_reading_is_no_error() {
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
 
+#[cfg(not(feature = "view"))]
+#[test]
+fn a_program_without_its_window_says_how_to_build_one() {
+    let answer = sorb(&["view", "standing", "--paused"]);
+    assert_eq!(answer.code, Some(2));
+    assert!(answer.err.contains("--features view -- view standing --paused"), "{answer:?}");
+}
+
 #[cfg(not(feature = "validation"))]
 #[test]
 fn a_program_without_references_says_how_to_build_the_one_that_has_them() {

@@ -187,9 +187,11 @@ impl Screen {
                     if range.is_empty() {
                         break;
                     }
-                    let at = |k: usize| k + range.start..k + range.end;
-                    let pair = [&depth[at(own - step)], &depth[at(own + step)]];
-                    let water = [&thickness[at(own - step)], &thickness[at(own + step)]];
+                    let at = |from: usize| from..from + range.len();
+                    // In this order: no place is before the first sample.
+                    let (before, after) = (own + range.start - step, own + range.start + step);
+                    let pair = [&depth[at(before)], &depth[at(after)]];
+                    let water = [&thickness[at(before)], &thickness[at(after)]];
                     sums.add(range.start - first, pair, water, tap as f32);
                 }
                 sums.finish(&mut out.0[first..end], &mut out.1[first..end]);

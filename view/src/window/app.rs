@@ -156,6 +156,7 @@ impl<'a> App<'a> {
 
     /// Draws the window.
     fn frame(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewError> {
+        self.easel.check();
         self.take_picture();
         self.looked = Instant::now();
         let facts = stage::lock(&self.facts).clone();

@@ -77,18 +77,16 @@ fn keys(ui: &Ui, desk: &mut Desk, facts: &Facts) {
     if pressed(Key::R) {
         ask(Request::Reset);
     }
-    if let Some((frame, last)) = facts.played {
-        let second = facts.frame_rate.round() as u64;
-        let way = if shift { second } else { 1 };
-        for (key, to) in [
-            (Key::ArrowLeft, frame.saturating_sub(way)),
-            (Key::ArrowRight, frame + way),
-            (Key::Home, 0),
-            (Key::End, last),
+    if let Some((_, last)) = facts.played {
+        let way = if shift { facts.frame_rate.round() as i64 } else { 1 };
+        for (key, request) in [
+            (Key::ArrowLeft, Request::Skip(-way)),
+            (Key::ArrowRight, Request::Skip(way)),
+            (Key::Home, Request::Seek(0)),
+            (Key::End, Request::Seek(last)),
         ] {
             if pressed(key) {
-                ask(Request::Run(false));
-                ask(Request::Seek(to));
+                ask(request);
             }
         }
     }
@@ -301,7 +299,6 @@ fn bottom(ui: &mut Ui, desk: &Desk, facts: &Facts) {
             ui.spacing_mut().slider_width = (ui.available_width() - 180.0).max(80.0);
             let mut at = frame;
             if ui.add(Slider::new(&mut at, 0..=last).text(format!("of {last} frames"))).changed() {
-                send(&desk.requests, Request::Run(false));
                 send(&desk.requests, Request::Seek(at));
             }
         });

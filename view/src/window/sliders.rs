@@ -9,8 +9,12 @@ use crate::{
     stage::Request,
 };
 
-/// Range over its smallest number beyond which a slider is logarithmic.
+/// Largest number over the smallest one beyond which a slider is logarithmic.
 const WIDE: f32 = 500.0;
+
+/// Largest numbers from which, and up to which, it is so as well.
+const LARGE: f32 = 100.0;
+const SMALL: f32 = 0.01;
 
 /// Sliders: those that act at once, then those that act at the next reset.
 pub(super) fn show(ui: &mut Ui, desk: &Desk, facts: &Facts) {
@@ -67,12 +71,15 @@ fn row(ui: &mut Ui, desk: &Desk, parameter: &Parameter) {
     let range = limit.minimum..=limit.maximum;
     let mut value = parameter.value;
     let label = ui.label(field.replace('_', " "));
-    let is_wide = limit.minimum >= 0.0 && limit.maximum > WIDE * limit.minimum.max(2e-3);
+    let is_wide = limit.minimum >= 0.0
+        && (limit.maximum >= LARGE
+            || limit.maximum <= SMALL
+            || limit.maximum > WIDE * limit.minimum.max(SMALL));
     let response: Response = match &mut value {
         Value::Real(own) => ui.add(
             Slider::new(own, range)
                 .logarithmic(is_wide)
-                .smallest_positive(1e-12)
+                .smallest_positive(1e-10 * f64::from(limit.maximum))
                 .custom_formatter(|value, _| digits(value))
                 .suffix(unit),
         ),
