@@ -8,6 +8,7 @@ mod dam_break;
 mod dam_spheric;
 mod drop;
 mod duct;
+mod everyday;
 mod floating;
 mod honey;
 mod hydrostatic;
@@ -65,5 +66,8 @@ pub const CASES: &[&Case] = &[
     &wetting::SOFTENING,
     &wetting::DRAINAGE,
     &wetting::RECEDING,
+    &everyday::WATER,
+    &everyday::BODIES,
+    &everyday::SPONGES,
     &rest::CASE,
 ];
