@@ -149,3 +149,29 @@ fn scenes_without_water_or_sponge_and_odd_sizes_are_drawn() {
         }
     }
 }
+
+/// Water that fills the whole picture, in pictures that are narrower than the reach of its filter.
+#[test]
+fn water_is_drawn_up_to_the_edges_of_narrow_pictures() {
+    let scene = scene::preset("life").and_then(|scene| scene.scaled(0.5)).expect("a scene");
+    let world = World::new(&scene).expect("a world");
+    let camera = Camera {
+        eye: Vec3::new(0.05, 0.12, 0.01),
+        target: Vec3::new(0.05, 0.05, 0.0),
+        up: Vec3::Y,
+        field_of_view: 0.7,
+    };
+    for (width, height) in [(9, 40), (64, 64)] {
+        let image = draw_world(&world, &camera, View::Fast, width, height);
+        // Bluer than red in the corners as well: there is water, and no sky.
+        let corners = [0, width - 1, width * (height - 1), width * height - 1];
+        for corner in corners {
+            let at = 3 * corner as usize;
+            assert!(
+                image.pixels[at + 2] > image.pixels[at],
+                "{width} x {height}: {:?}",
+                &image.pixels[at..at + 3]
+            );
+        }
+    }
+}

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde_json::Value as Json;
 use sorb::{
     SpongeHandle, World,
-    scene::{self, Limit, limits},
+    scene::{self, Limit, Material, limits},
 };
 
 /// Keys without sliders: what only pictures read, lists of times, and counts of cells, which go with the place of a sponge.
@@ -55,6 +55,16 @@ impl Value {
             Self::Whole(value) => Json::from(*value),
             Self::Vector(value) => value.iter().map(|own| Json::from(f64::from(*own))).collect(),
         }
+    }
+}
+
+impl Value {
+    /// A material with this value of a field; none for a field that it does not have.
+    #[must_use]
+    pub fn in_material(&self, material: &Material, field: &str) -> Option<Material> {
+        let mut table = serde_json::to_value(material).ok()?;
+        *table.get_mut(field)? = self.json();
+        serde_json::from_value(table).ok()
     }
 }
 

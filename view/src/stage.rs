@@ -317,7 +317,7 @@ impl Stage<'_> {
             (Some(sponge), _) => {
                 let present =
                     self.materials.get(&sponge).copied().or_else(|| self.session.world().material(sponge));
-                let changed = present.and_then(|present| changed(&present, field, value));
+                let changed = present.and_then(|present| value.in_material(&present, field));
                 self.materials.extend(changed.map(|material| (sponge, material)));
             }
             (None, Value::Vector(gravity)) if at_once => self.gravity = Some(gravity.into()),
@@ -396,11 +396,4 @@ impl Stage<'_> {
         self.session.finish()?;
         Ok(report)
     }
-}
-
-/// A material with another value of a field.
-fn changed(material: &Material, field: &str, value: Value) -> Option<Material> {
-    let mut table = serde_json::to_value(material).ok()?;
-    *table.get_mut(field)? = value.json();
-    serde_json::from_value(table).ok()
 }
