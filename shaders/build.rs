@@ -2,7 +2,7 @@
 
 use std::{env, error::Error, fmt::Write, fs, path::Path};
 
-/// The first line of a file that includes others: names of files in `common/`, in order.
+/// The first lines of a file that includes others: names of files in `common/`, in order.
 const INCLUDE: &str = "// #include ";
 /// The family of the passes of the renderer: they include files of their own folder, and are in a table of their own.
 const RENDER: &str = "render";
@@ -19,8 +19,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         for file in if is_source { Vec::new() } else { names(&root.join(&family), Some("wgsl"))? } {
             let path = format!("{family}/{file}.wgsl");
             let text = fs::read_to_string(root.join(&path))?;
-            let first = text.lines().next().and_then(|line| line.strip_prefix(INCLUDE)).unwrap_or_default();
-            let common: Vec<&str> = first.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+            let lists =
+                text.lines().map_while(|line| line.strip_prefix(INCLUDE)).flat_map(|list| list.split(','));
+            let common: Vec<&str> = lists.map(str::trim).filter(|name| !name.is_empty()).collect();
             if family == RENDER {
                 let parts: Vec<String> =
                     common.iter().map(|name| format!("{RENDER}/parts/{name}.wgsl")).collect();

@@ -1,4 +1,5 @@
-// #include numbers, colour, optics, room, scene, tree, shapes, lines, foam, skin, ground, balls, setting, events, no_water, matter, sheet, no_sheet, path, pixels
+// #include numbers, colour, optics, room, scene, tree, shapes, lines, foam, skin, ground, balls, setting
+// #include events, no_water, matter, sheet, no_sheet, path, pixels
 // Views of particles, nodes and sponges without the surface of the water.
 
 fn seen_at(x: f32, y: f32) -> Shine {

@@ -1,4 +1,5 @@
-// #include numbers, colour, optics, room, scene, tree, shapes, lines, foam, skin, ground, no_balls, setting, events, no_water, matter, sheet, path, pixels
+// #include numbers, colour, optics, room, scene, tree, shapes, lines, foam, skin, ground, no_balls, setting
+// #include events, no_water, matter, sheet, path, pixels
 // The fast view: a ray that meets the water of the screen is bent once and ends at the solids behind it.
 
 @group(0) @binding(1) var<storage, read> water: array<vec4<f32>>;

@@ -1,4 +1,5 @@
-// #include numbers, colour, optics, room, scene, field, tree, shapes, foam, skin, ground, no_balls, setting, events, matter, pixels
+// #include numbers, colour, optics, room, scene, field, tree, shapes, foam, skin, ground, no_balls, setting
+// #include events, matter, pixels
 // The view of superimposed surfaces: sponges and water as shells that let light through, one over the other.
 
 // A shell that a ray meets; `FAR_AWAY` after the last one.
@@ -108,7 +109,7 @@ fn seen_at(x: f32, y: f32) -> Shine {
         if (is_water) {
             shell = water;
         }
-        if (!is_near(shell.distance) || shell.distance >= end.distance) {
+        if (!is_near(shell.distance) || shell.distance >= end.distance - SHELLS_TOUCHING) {
             break;
         }
         if (is_water) {

@@ -19,6 +19,8 @@ mod read;
 mod scene;
 mod screen;
 mod source;
+#[cfg(all(test, feature = "serde"))]
+mod tests;
 mod water;
 
 use std::{fmt, sync::Arc};
@@ -51,6 +53,9 @@ pub struct Renderer {
     /// Width and height of the newest picture, and words of its rows.
     size: (u32, u32),
     row: u32,
+    /// A fault that a test plants.
+    #[cfg(test)]
+    fault: Option<fn(&mut Scene)>,
 }
 
 /// A picture on the device.
@@ -119,6 +124,8 @@ impl Renderer {
             has_foam: false,
             size: (0, 0),
             row: 0,
+            #[cfg(test)]
+            fault: None,
         }
     }
 
@@ -135,6 +142,11 @@ impl Renderer {
     pub fn take_times(&mut self) -> Result<(), GpuError> {
         self.profile = Profile::new(&self.gpu)?;
         Ok(())
+    }
+
+    /// Takes no times any more.
+    pub fn forget_times(&mut self) {
+        self.profile = None;
     }
 
     /// Milliseconds of every pass since the last query, in order; empty unless times are taken.
@@ -308,6 +320,10 @@ impl Renderer {
             Water::Surface => {}
         }
         self.prepare_light(&mut scene, &stage, around)?;
+        #[cfg(test)]
+        if let Some(fault) = self.fault {
+            fault(&mut scene);
+        }
         self.finish(&scene, water, view, shows_balls)
     }
 }

@@ -84,9 +84,33 @@ pub(super) fn added(view: View) -> &'static [(f32, f32)] {
 
 /// Draws the picture.
 pub(super) fn draw(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> Image {
+    draw_with(picture, camera, (width, height), |_| ())
+}
+
+/// The same with a ray for every pixel, as other renderers draw.
+#[cfg(all(test, feature = "gpu", feature = "serde"))]
+pub(super) fn draw_every_pixel(picture: &Picture<'_>, camera: &Camera, width: u32, height: u32) -> Image {
+    draw_with(picture, camera, (width, height), |watched| watched.fill(true))
+}
+
+/// Densities of the water on their grid, and the maps of light, shadows of solids and ways to water on the floor.
+#[cfg(all(test, feature = "gpu", feature = "serde"))]
+pub(super) fn maps(stage: &Stage<'_>) -> (Vec<f32>, Vec<glam::Vec4>, Vec<f32>, Vec<f32>) {
+    let (setting, _) = prepare(stage);
+    let values = setting.field.map(Field::into_values).unwrap_or_default();
+    (values, setting.ground.arriving, setting.ground.solid, setting.ground.water)
+}
+
+fn draw_with(
+    picture: &Picture<'_>,
+    camera: &Camera,
+    (width, height): (u32, u32),
+    watch: impl FnOnce(&mut [bool]),
+) -> Image {
     let (columns, rows) = (width as usize, height as usize);
     let stage = Stage::new(picture, camera, columns, rows);
-    let (setting, watched) = prepare(&stage);
+    let (setting, mut watched) = prepare(&stage);
+    watch(&mut watched);
     let raster = &stage.raster;
     let screen = (picture.view == View::Fast).then(|| Screen::new(&stage));
     let effort = effort(picture.view);

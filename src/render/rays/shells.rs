@@ -16,9 +16,11 @@ const SPONGE_SOAKED: Vec3 = Vec3::new(0.46, 0.22, 0.05);
 /// Share of the light that a shell holds back where it is seen at a right angle.
 const WATER_COVER: f32 = 0.28;
 const SPONGE_COVER: f32 = 0.5;
+/// A shell nearer in front of a solid than this is that solid (m): the wall under the water and the floor.
+const TOUCHING: f32 = 1e-5;
 
 #[cfg(feature = "gpu")]
-shared_with_shaders!(SHELLS: SHELLS, WATER, SPONGE_DRY, SPONGE_SOAKED, WATER_COVER, SPONGE_COVER);
+shared_with_shaders!(SHELLS: SHELLS, WATER, SPONGE_DRY, SPONGE_SOAKED, WATER_COVER, SPONGE_COVER, TOUCHING);
 
 /// A shell that a ray meets.
 struct Shell {
@@ -39,7 +41,7 @@ impl Setting<'_> {
         let end = self.behind_shells(origin, direction);
         let limit = end.as_ref().map_or(f32::INFINITY, |(distance, _)| *distance);
         let (mut light, mut through) = (Vec3::ZERO, 1.0);
-        for shell in shells.iter().filter(|shell| shell.distance < limit) {
+        for shell in shells.iter().filter(|shell| shell.distance < limit - TOUCHING) {
             signature.meet(shell.code);
             let normal = if shell.normal.dot(direction) > 0.0 { -shell.normal } else { shell.normal };
             let slant = 1.0 + direction.dot(normal);

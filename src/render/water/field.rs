@@ -32,6 +32,12 @@ impl Field {
         Self { grid, values, bricks, spacing, last: grid.sides.map(|nodes| nodes as f32 - 2.01) }
     }
 
+    /// The values on all nodes.
+    #[cfg(all(test, feature = "gpu", feature = "serde"))]
+    pub(in crate::render) fn into_values(self) -> Vec<f32> {
+        self.values
+    }
+
     /// Side of the shortest cell (m).
     pub(in crate::render) fn cell(&self) -> f32 {
         self.grid.cell.min_element()
