@@ -29,6 +29,13 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     ),
     miss("hydrostatic", "dfsph", "pressure of layers", "quick runs are still settling"),
     miss("hydrostatic", "dfsph", "fastest", "particles of the surface settle one by one for five seconds"),
+    miss(
+        "everyday_water",
+        "",
+        "fall of the middle of a column",
+        "the Laplacian of the default form of viscosity gives a column half of its resistance, and the pressure is solved \
+         after the viscosity (docs/viscosity.md)",
+    ),
     miss("dam_break", "", "height at the wall", "5 % at quick resolution; see the full run"),
     miss(
         "dam_spheric",
