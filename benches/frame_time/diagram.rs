@@ -35,6 +35,9 @@ pub(super) fn diagram(sweep: Sweep, rows: &[Row]) -> Result<String> {
     let mesh = &mut chart.configure_mesh();
     mesh.x_desc(sweep.name())
         .y_desc("simulation and drawing of a frame [ms]")
+        .x_label_formatter(&|value| format!("{value:.0}"))
+        .y_label_formatter(&|value| format!("{value:.0}"))
+        .light_line_style(TRANSPARENT)
         .label_style((FONT, 13))
         .draw()?;
     let mut views: Vec<_> = rows.iter().map(|row| row.view).collect();
@@ -60,7 +63,10 @@ pub(super) fn diagram(sweep: Sweep, rows: &[Row]) -> Result<String> {
         .legend(|(x, y)| TriangleMarker::new((x + 9, y), 6, BLACK.filled()));
     let labels = &mut chart.configure_series_labels();
     labels
-        .position(SeriesLabelPosition::UpperLeft)
+        .position(match sweep {
+            Sweep::Particles => SeriesLabelPosition::UpperLeft,
+            Sweep::Nodes => SeriesLabelPosition::MiddleRight,
+        })
         .background_style(WHITE.mix(0.8))
         .label_font((FONT, 13))
         .draw()?;

@@ -4,7 +4,8 @@
 //! other spacings and lattices. Simulation and drawing are timed apart: medians of frames of 1/60 s and of pictures.
 //!
 //! `--particles 1000,8000`, `--nodes 250,1000`, `--views realistic,fast`, `--backends cpu,gpu`, `--size 1280x720`, `--frames 3`,
-//! `--pictures 7` choose what is measured; `--passes` prints the times of the passes of the renderer on a GPU.
+//! `--pictures 7` choose what is measured; `--passes` prints the times of the passes of the renderer on a GPU. `--read FILE,FILE` takes
+//! rows of earlier runs first, on other machines as well; with `--backends none` nothing is measured.
 
 #![expect(clippy::print_stdout, reason = "the figures are what it is for")]
 
@@ -52,6 +53,12 @@ fn main() -> Result<()> {
     let backends = value("--backends").map_or("cpu,gpu", String::as_str);
     let (particles, nodes) = (numbers("--particles", &PARTICLES)?, numbers("--nodes", &NODES)?);
     let mut rows = Vec::new();
+    for file in value("--read").into_iter().flat_map(|files| files.split(',')) {
+        let text = fs::read_to_string(file)?;
+        for line in text.lines().filter(|line| *line != Row::HEADER) {
+            rows.push(line.parse::<Row>()?);
+        }
+    }
     println!("{}", Row::HEADER);
     for backend in
         Backend::ALL.into_iter().filter(|backend| backends.split(',').any(|name| name == backend.name()))

@@ -1,6 +1,6 @@
 //! What is measured.
 
-use std::{hint::black_box, sync::Arc, time::Instant};
+use std::{hint::black_box, str::FromStr, sync::Arc, time::Instant};
 
 use sorb::{
     Offload, Options, World,
@@ -76,6 +76,31 @@ impl Row {
         let Self { sweep, backend, adapter, particles, nodes, view, simulation, drawing } = self;
         let (sweep, backend, view) = (sweep.name(), backend.name(), name_of(*view));
         format!("{sweep},{backend},{adapter},{particles},{nodes},{view},{simulation:.3},{drawing:.3}")
+    }
+}
+
+impl FromStr for Row {
+    type Err = String;
+
+    fn from_str(line: &str) -> std::result::Result<Self, String> {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [sweep, backend, adapter, particles, nodes, view, simulation, drawing] = fields[..] else {
+            return Err(format!("{line:?} has {} fields, and not 8", fields.len()));
+        };
+        let number = |text: &str| text.parse::<f64>().map_err(|error| format!("{text:?}: {error}"));
+        let unknown = |name: &str| format!("{line:?}: unknown {name}");
+        let named = |sweep: &Sweep| sweep.name() == fields[0];
+        let known = Backend::ALL.into_iter().find(|own| own.name() == backend);
+        Ok(Self {
+            sweep: [Sweep::Particles, Sweep::Nodes].into_iter().find(named).ok_or_else(|| unknown(sweep))?,
+            backend: known.ok_or_else(|| unknown(backend))?,
+            adapter: adapter.to_owned(),
+            particles: number(particles)? as usize,
+            nodes: number(nodes)? as usize,
+            view: View::ALL.into_iter().find(|own| name_of(*own) == view).ok_or_else(|| unknown(view))?,
+            simulation: number(simulation)?,
+            drawing: number(drawing)?,
+        })
     }
 }
 

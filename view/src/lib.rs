@@ -3,6 +3,8 @@
 //! `docs/view.md` of the source has keys and mouse. Behind the window there are two threads. One steps the world
 //! ([`stage`]), the other one draws copies of it ([`easel`]). The window itself, which only shows pictures, takes the feature `window`.
 
+#[cfg(feature = "gpu")]
+pub mod device;
 pub mod easel;
 mod error;
 pub mod facts;

@@ -87,7 +87,7 @@ fn a_finger_stirs_the_water_and_goes() {
     let source = source("water", 0.5);
     let (mut stirred, mut left) = (session(&source), session(&source));
     let (low, high) = stirred.world().scene().bounds();
-    let block = stirred.world().scene().fluid.as_ref().unwrap().blocks[0];
+    let block = stirred.world().scene().fluid.as_ref().unwrap().blocks[0].clone();
     let top = (0.5 * (block.minimum + block.maximum)).with_y(block.maximum.y);
     let name = drag(&mut stirred, to(top, Vec3::new(0.0, 1.0, 0.1)), 0.1 * (low - high), 10);
     assert_eq!(name.as_deref(), Some("water"));

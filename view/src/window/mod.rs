@@ -19,7 +19,7 @@ use winit::event_loop::EventLoop;
 
 use crate::{
     Report, Setup, ViewError,
-    easel::{Cpu, Easel},
+    easel::{Cpu, Draws, Easel},
     facts::Facts,
     stage::{self, Begin, Request},
 };
@@ -49,7 +49,7 @@ pub fn run(setup: &Setup) -> Result<Report, ViewError> {
     let proxies = [event_loop.create_proxy(), event_loop.create_proxy(), event_loop.create_proxy()];
     let [pictures, told, ended] = proxies;
     // The window may be gone before the others know.
-    let easel = Easel::new(Box::new(Cpu), move || {
+    let easel = Easel::new(renderer(setup), move || {
         let _ = pictures.send_event(Wake::Picture);
     });
     let tray = easel.tray();
@@ -80,6 +80,18 @@ pub fn run(setup: &Setup) -> Result<Report, ViewError> {
         shown.map_err(|error| ViewError::Window(error.to_string()))?;
         app.end(report)
     })
+}
+
+/// What draws: a GPU, or the CPU.
+fn renderer(setup: &Setup) -> Box<dyn Draws> {
+    #[cfg(feature = "gpu")]
+    if !setup.software
+        && let Some(device) = crate::device::Device::best(setup.options.gpu.as_ref())
+    {
+        return Box::new(device);
+    }
+    let _ = setup;
+    Box::new(Cpu)
 }
 
 /// Sends a request. The stage ends last, so that nothing is lost.
