@@ -137,8 +137,10 @@ impl World {
 
     /// The water that a sponge brings along in its pores \[m\].
     fn pores_of(&self, description: &Sponge) -> Vec<Vec3> {
-        let none = || pores(&self.scene, description, &self.params, self.bodies());
-        if self.scene.fluid.is_some() { none().unwrap_or_default() } else { Vec::new() }
+        if self.scene.fluid.is_none() {
+            return Vec::new();
+        }
+        pores(&self.scene, description, &self.params, self.bodies()).unwrap_or_default()
     }
 
     /// Particles in the pores of a sponge that would be in other water.
