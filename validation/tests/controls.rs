@@ -82,6 +82,9 @@ caught! {
     softening
     drainage
     receding
+    everyday_water
+    everyday_bodies
+    everyday_sponges
     rest
 }
 
