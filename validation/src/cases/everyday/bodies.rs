@@ -65,13 +65,13 @@ fn ball_comes_back(setting: &Setting) -> Result<Figure, Failure> {
 /// A ball rolls down a slope of ten degrees: 5/7 of what slides.
 fn ball_rolls(setting: &Setting) -> Result<Figure, Failure> {
     let angle = 10_f64.to_radians();
-    let down = Vec3::new(angle.sin() as f32, -angle.cos() as f32, 0.0);
+    let down = Vec3::new(libm::sin(angle) as f32, -libm::cos(angle) as f32, 0.0);
     let floor = Body::fixed("floor", ShapeKind::Plane, Vec3::ZERO);
     let ball = Body { position: Vec3::Y * 0.03, friction: 1.0, ..Body::default() };
     let mut scene = dry(setting).with_body(ball).with_body(floor);
     scene.gravity = down * scene.gravity.length();
     let world = after(setting, &scene, 0.5)?;
-    let due = 0.5 * 5.0 / 7.0 * GRAVITY * angle.sin() * world.clock().time.powi(2);
+    let due = 0.5 * 5.0 / 7.0 * GRAVITY * libm::sin(angle) * world.clock().time.powi(2);
     let way = f64::from(world.bodies()[0].state.position.x);
     Ok(Figure::relative("way of a ball down a slope of 10 degrees in 0.5 s", "m", due, way, 0.03))
 }

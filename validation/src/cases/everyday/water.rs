@@ -145,7 +145,7 @@ fn tilted_level(setting: &Setting) -> Result<Figure, Failure> {
     Ok(Figure::relative(
         "slope of the water in a tank tilted by 15 degrees",
         "1",
-        angle.tan(),
+        libm::tan(angle),
         slope.abs(),
         0.05,
     ))
