@@ -1,6 +1,6 @@
 //! Worlds from scenes.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::Vec3;
 use sorb_kernels::{
@@ -149,7 +149,7 @@ impl World {
             water: Water::default(),
             frame: Frame::of_scene(scene),
             #[cfg(feature = "serde")]
-            identity: OnceLock::new(),
+            identity: std::sync::OnceLock::new(),
         };
         world.follow_frame();
         world.place()?;
