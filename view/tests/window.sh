@@ -18,8 +18,12 @@ fail() {
 if env -u DISPLAY -u WAYLAND_DISPLAY -u WAYLAND_SOCKET "$sorb" view standing 2>none.printed; then fail 'it runs without a display'; fi
 grep -q 'no display was found.*' none.printed && grep -q 'sorb render SCENE FILE.png' none.printed || fail 'it does not say what is missing'
 
-Xvfb -displayfd 3 -screen 0 1000x700x24 3>number 2>/dev/null &
-for _ in $(seq 50); do [ -s number ] && break; sleep 0.1; done
+# Without `-noreset` it begins anew whenever its last client goes, and refuses those that come meanwhile.
+Xvfb -displayfd 3 -noreset -screen 0 1000x700x24 3>number 2>/dev/null &
+for _ in $(seq 100); do
+  [ -s number ] && DISPLAY=:$(cat number) xdotool getdisplaygeometry >/dev/null 2>&1 && break
+  sleep 0.1
+done
 DISPLAY=:$(cat number)
 export DISPLAY
 
