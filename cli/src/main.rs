@@ -6,6 +6,8 @@ mod diff;
 mod doctor;
 mod error;
 mod export;
+#[cfg(not(all(feature = "validation", feature = "view")))]
+mod left_out;
 mod machine;
 mod output;
 mod plan;
@@ -17,18 +19,16 @@ mod scenes;
 mod schema;
 #[cfg(feature = "validation")]
 mod validate;
-#[cfg(not(feature = "validation"))]
-#[path = "no_validation.rs"]
-mod validate;
 #[cfg(feature = "view")]
-mod view;
-#[cfg(not(feature = "view"))]
-#[path = "no_view.rs"]
 mod view;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+#[cfg(not(feature = "validation"))]
+use left_out::validate;
+#[cfg(not(feature = "view"))]
+use left_out::view;
 
 /// Meaning of the exit codes, at the end of the help.
 const EXIT_CODES: &str =

@@ -138,8 +138,8 @@ pub struct Sponge {
     ///
     /// Both are positive where they hold water. A node goes from one to the other while its saturation changes by a tenth.
     pub receding_pressure: f32,
-    /// Whether it came while the scene ran, as after [`Command::AddSponge`](crate::Command::AddSponge): where bodies and other sponges are at
-    /// time zero does not matter then. Default false.
+    /// Whether it came while the scene ran, by `Command::AddSponge`. No body of time zero cuts it then, and it may overlap other
+    /// sponges of time zero. Default false.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub added: bool,
 }

@@ -43,7 +43,8 @@ impl Skin {
         &self.triangles
     }
 
-    /// Places of the corners \[m\] for positions of all nodes of the world, such as [`World::node_positions`](crate::World::node_positions).
+    /// Places of the corners \[m\] for positions of all nodes of the world, such as
+    /// [`World::node_positions`](crate::World::node_positions).
     pub fn positions<'a>(&'a self, nodes: &'a [[f32; 4]]) -> impl ExactSizeIterator<Item = Vec3> + 'a {
         let place =
             |node: u32| nodes.get(node as usize).map_or(Vec3::ZERO, |row| Vec3::new(row[0], row[1], row[2]));

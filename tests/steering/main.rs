@@ -1,4 +1,5 @@
-//! What a host steers while a world runs: bodies and sponges that come and go or are put elsewhere, materials, and the same bits after interruptions.
+//! What a host steers while a world runs: bodies and sponges that come, go or are put elsewhere, materials; and the same bits after
+//! interruptions.
 
 mod bodies;
 #[path = "../common/mod.rs"]
