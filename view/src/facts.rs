@@ -1,4 +1,4 @@
-//! What the stage tells the window, and what is left of it at the end.
+//! What the simulation thread tells the window, and what is left of it at the end.
 
 use std::{collections::BTreeMap, fmt};
 
@@ -6,7 +6,7 @@ use sorb::{StepError, glam::Vec3};
 
 use crate::{orbit::Orbit, parameters::Parameter, session::Advance};
 
-/// What the stage tells the window.
+/// What the simulation thread tells the window.
 #[derive(Clone, Debug, Default)]
 pub struct Facts {
     /// Name of the scene; empty until it is built.

@@ -1,20 +1,20 @@
 //! The window of sorb: a scene or a recording that runs, and that mouse and sliders act on.
 //!
-//! `docs/view.md` of the source has keys and mouse. Behind the window there are two threads. One steps the world
-//! ([`stage`]), the other one draws copies of it ([`easel`]). The window itself, which only shows pictures, takes the feature `window`.
+//! `docs/view.md` of the source has keys and mouse. Behind the window there are two threads. One steps the world ([`simulation`]), the
+//! other one draws copies of it ([`drawing`]). The window itself, which only shows pictures, takes the feature `window`.
 
-#[cfg(feature = "gpu")]
-pub mod device;
-pub mod easel;
+pub mod drawing;
 mod error;
 pub mod facts;
+mod facts_builder;
+#[cfg(feature = "gpu")]
+pub mod gpu_renderer;
 pub mod hand;
 pub mod orbit;
-pub mod pace;
 pub mod parameters;
+pub mod quality;
 pub mod session;
-pub mod stage;
-mod told;
+pub mod simulation;
 #[cfg(feature = "window")]
 mod window;
 

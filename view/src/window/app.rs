@@ -18,23 +18,24 @@ use winit::{
 
 use super::{
     Wake, panels,
-    pointer::{Pointer, Sight},
+    pointer::{Pointer, Viewport},
     send,
     surface::Surface,
 };
 use crate::{
     Report, Setup, ViewError,
-    easel::{Easel, Picture, Shot},
+    drawing::{DrawingThread, Picture, PictureRequest},
     facts::Facts,
     orbit::Orbit,
-    stage::{self, Request},
+    quality::Quality,
+    simulation::{self, Request},
 };
 
 /// Shortest time between two looks at facts that come without a picture.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What the panels show and change.
-pub(super) struct Desk {
+pub(super) struct UiState {
     pub(super) requests: Sender<Request>,
     pub(super) view: View,
     /// Whether all pictures are drawn in full quality.
@@ -52,13 +53,14 @@ pub(super) struct Desk {
     pub(super) recent: VecDeque<Instant>,
     /// What draws the window.
     pub(super) surface: String,
-    pub(super) sight: Option<Sight>,
+    pub(super) viewport: Option<Viewport>,
 }
 
 /// The picture that is shown.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Shown {
-    pub(super) picture: crate::pace::Quality,
+    pub(super) quality: Quality,
+    pub(super) renderer: String,
     pub(super) size: (u32, u32),
     pub(super) time: Duration,
     frames: u64,
@@ -76,10 +78,10 @@ struct Place {
 pub(super) struct App<'a> {
     setup: &'a Setup,
     facts: Arc<Mutex<Facts>>,
-    easel: Easel,
+    drawing: DrawingThread,
     context: egui::Context,
     place: Option<Place>,
-    desk: Desk,
+    ui_state: UiState,
     /// Number of the sliders of the scene whose camera this is.
     name: String,
     pictures: u64,
@@ -92,9 +94,9 @@ impl<'a> App<'a> {
         setup: &'a Setup,
         facts: Arc<Mutex<Facts>>,
         requests: Sender<Request>,
-        easel: Easel,
+        drawing: DrawingThread,
     ) -> Self {
-        let desk = Desk {
+        let ui_state = UiState {
             requests,
             view: setup.view,
             full: false,
@@ -106,15 +108,15 @@ impl<'a> App<'a> {
             picture: None,
             recent: VecDeque::new(),
             surface: String::new(),
-            sight: None,
+            viewport: None,
         };
         Self {
             setup,
             facts,
-            easel,
+            drawing,
             context: egui::Context::default(),
             place: None,
-            desk,
+            ui_state,
             name: String::new(),
             pictures: 0,
             looked: Instant::now(),
@@ -122,9 +124,9 @@ impl<'a> App<'a> {
         }
     }
 
-    /// Asks the stage to end.
+    /// Asks the simulation thread to end.
     pub(super) fn close(&self) {
-        send(&self.desk.requests, Request::Close);
+        send(&self.ui_state.requests, Request::Close);
     }
 
     /// What the window did.
@@ -144,7 +146,7 @@ impl<'a> App<'a> {
         let window = Arc::new(window);
         let is_kept = self.setup.screenshot.is_some();
         let surface = Surface::new(&self.context, Arc::clone(&window), self.setup.software, is_kept)?;
-        self.desk.surface = surface.name();
+        self.ui_state.surface = surface.name();
         let scale = Some(window.scale_factor() as f32);
         let longest = surface.longest_side();
         let input =
@@ -156,30 +158,37 @@ impl<'a> App<'a> {
 
     /// Draws the window.
     fn frame(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewError> {
-        self.easel.check();
+        self.drawing.check();
         self.take_picture();
         self.looked = Instant::now();
-        let facts = stage::lock(&self.facts).clone();
+        let facts = simulation::lock(&self.facts).clone();
         let Some(place) = &mut self.place else { return Ok(()) };
         if self.name != facts.name {
             self.name.clone_from(&facts.name);
             place.window.set_title(&format!("sorb: {}", facts.name));
         }
         let raw = place.input.take_egui_input(&place.window);
-        let desk = &mut self.desk;
-        let output = self.context.run_ui(raw, |ui| panels::show(ui, desk, &facts));
+        let ui_state = &mut self.ui_state;
+        let output = self.context.run_ui(raw, |ui| panels::show(ui, ui_state, &facts));
         place.input.handle_platform_output(&place.window, output.platform_output);
         let scale = output.pixels_per_point;
         let primitives = self.context.tessellate(output.shapes, scale);
         place.surface.paint(primitives, output.textures_delta, scale)?;
-        if let Some(sight) = &desk.sight {
+        if let Some(viewport) = &ui_state.viewport {
             let side = |points: f32| ((points * scale).round() as u32).clamp(16, 8192);
-            let size = (side(sight.rect.width()), side(sight.rect.height()));
-            let camera = sight.camera;
-            self.easel.show(Shot { camera, view: desk.view, size, full: desk.full, runs: facts.runs });
+            let size = (side(viewport.rect.width()), side(viewport.rect.height()));
+            let camera = viewport.camera;
+            self.drawing.show(PictureRequest {
+                camera,
+                view: ui_state.view,
+                size,
+                full: ui_state.full,
+                runs: facts.runs,
+            });
         }
-        let is_shown = desk.picture.is_some_and(|own| own.is_still && own.frames >= facts.frames);
-        if desk.closes || (facts.is_done && is_shown) {
+        let is_shown =
+            ui_state.picture.as_ref().is_some_and(|own| own.is_still && own.frames >= facts.frames);
+        if ui_state.closes || (facts.is_done && is_shown) {
             self.leave(event_loop)?;
         }
         let delay = output.viewport_output.get(&ViewportId::ROOT).map(|own| own.repaint_delay);
@@ -202,22 +211,26 @@ impl<'a> App<'a> {
         }
     }
 
-    /// Takes the picture that the easel has drawn.
+    /// Takes the last picture of the thread that draws.
     fn take_picture(&mut self) {
-        let Some(Picture { image, quality, time, frames, is_still }) = self.easel.picture() else { return };
+        let Some(Picture { image, quality, renderer, time, frames, is_still }) = self.drawing.picture()
+        else {
+            return;
+        };
         let size = (image.width, image.height);
         let image = ColorImage::from_rgb([image.width as usize, image.height as usize], &image.pixels);
-        match &mut self.desk.texture {
+        match &mut self.ui_state.texture {
             Some(texture) => texture.set(image, TextureOptions::LINEAR),
             None => {
-                self.desk.texture = Some(self.context.load_texture("picture", image, TextureOptions::LINEAR))
+                self.ui_state.texture =
+                    Some(self.context.load_texture("picture", image, TextureOptions::LINEAR))
             }
         }
-        self.desk.picture = Some(Shown { picture: quality, size, time, frames, is_still });
+        self.ui_state.picture = Some(Shown { quality, renderer, size, time, frames, is_still });
         self.pictures += 1;
         let now = Instant::now();
-        self.desk.recent.push_back(now);
-        self.desk.recent.retain(|then| now.duration_since(*then) < Duration::from_secs(1));
+        self.ui_state.recent.push_back(now);
+        self.ui_state.recent.retain(|then| now.duration_since(*then) < Duration::from_secs(1));
     }
 
     /// Closes the window; before that its picture is written, if that is asked for.
@@ -252,11 +265,11 @@ impl ApplicationHandler<Wake> for App<'_> {
             Wake::Picture => self.redraw(),
             Wake::Facts => {
                 let rest = LOOK.saturating_sub(self.looked.elapsed());
-                if self.desk.orbit.is_none() {
-                    let facts = stage::lock(&self.facts);
-                    self.desk.orbit = facts.camera;
+                if self.ui_state.orbit.is_none() {
+                    let facts = simulation::lock(&self.facts);
+                    self.ui_state.orbit = facts.camera;
                 }
-                if self.desk.pointer.is_busy() { self.redraw() } else { self.wait(event_loop, rest) }
+                if self.ui_state.pointer.is_busy() { self.redraw() } else { self.wait(event_loop, rest) }
             }
             Wake::End => event_loop.exit(),
         }

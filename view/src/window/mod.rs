@@ -19,9 +19,9 @@ use winit::event_loop::EventLoop;
 
 use crate::{
     Report, Setup, ViewError,
-    easel::{Cpu, Draws, Easel},
+    drawing::{CpuRenderer, DrawingThread, WorldRenderer},
     facts::Facts,
-    stage::{self, Begin, Request},
+    simulation::{self, Begin, Request},
 };
 use app::App;
 
@@ -32,7 +32,7 @@ enum Wake {
     Picture,
     /// There are facts.
     Facts,
-    /// The stage has ended.
+    /// The simulation thread has ended.
     End,
 }
 
@@ -47,12 +47,12 @@ pub fn run(setup: &Setup) -> Result<Report, ViewError> {
     let facts = Arc::new(Mutex::new(Facts::default()));
     let (requests, taken) = mpsc::channel();
     let proxies = [event_loop.create_proxy(), event_loop.create_proxy(), event_loop.create_proxy()];
-    let [pictures, told, ended] = proxies;
+    let [pictures, facts_ready, ended] = proxies;
     // The window may be gone before the others know.
-    let easel = Easel::new(renderer(setup), move || {
+    let drawing = DrawingThread::new(renderer(setup), move || {
         let _ = pictures.send_event(Wake::Picture);
     });
-    let tray = easel.tray();
+    let worlds = drawing.worlds();
     thread::scope(|scope| {
         let own = Arc::clone(&facts);
         let begin = Begin {
@@ -62,18 +62,18 @@ pub fn run(setup: &Setup) -> Result<Report, ViewError> {
             frames: setup.frames,
             runs: !setup.paused,
         };
-        let stage = scope.spawn(move || {
+        let simulation = scope.spawn(move || {
             let tell = || {
-                let _ = told.send_event(Wake::Facts);
+                let _ = facts_ready.send_event(Wake::Facts);
             };
-            let report = stage::run(begin, &taken, &own, &tray, &tell);
+            let report = simulation::run(begin, &taken, &own, &worlds, &tell);
             let _ = ended.send_event(Wake::End);
             report
         });
-        let mut app = App::new(setup, facts, requests, easel);
+        let mut app = App::new(setup, facts, requests, drawing);
         let shown = event_loop.run_app(&mut app);
         app.close();
-        let report = match stage.join() {
+        let report = match simulation.join() {
             Ok(report) => report?,
             Err(panic) => std::panic::resume_unwind(panic),
         };
@@ -83,18 +83,18 @@ pub fn run(setup: &Setup) -> Result<Report, ViewError> {
 }
 
 /// What draws: a GPU, or the CPU.
-fn renderer(setup: &Setup) -> Box<dyn Draws> {
+fn renderer(setup: &Setup) -> Box<dyn WorldRenderer> {
     #[cfg(feature = "gpu")]
     if !setup.software
-        && let Some(device) = crate::device::Device::best(setup.options.gpu.as_ref())
+        && let Some(device) = crate::gpu_renderer::GpuRenderer::best(setup.options.gpu.as_ref())
     {
         return Box::new(device);
     }
     let _ = setup;
-    Box::new(Cpu)
+    Box::new(CpuRenderer)
 }
 
-/// Sends a request. The stage ends last, so that nothing is lost.
+/// Sends a request. The simulation thread ends last, so that nothing is lost.
 fn send(requests: &Sender<Request>, request: Request) {
     let _ = requests.send(request);
 }

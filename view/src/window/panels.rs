@@ -6,8 +6,8 @@ use egui::{
 };
 use sorb::render::View;
 
-use super::{app::Desk, pointer::Sight, send, sliders};
-use crate::{facts::Facts, stage::Request};
+use super::{app::UiState, pointer::Viewport, send, sliders};
+use crate::{facts::Facts, simulation::Request};
 
 /// Width of the panel in points.
 const WIDTH: f32 = 310.0;
@@ -42,29 +42,29 @@ const KEYS: [(&str, &str); 15] = [
 ];
 
 /// Shows everything.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, facts: &Facts) {
-    if desk.orbit.is_none() {
-        desk.orbit = facts.camera;
+pub(super) fn show(ui: &mut Ui, ui_state: &mut UiState, facts: &Facts) {
+    if ui_state.orbit.is_none() {
+        ui_state.orbit = facts.camera;
     }
     if !ui.ctx().text_edit_focused() {
-        keys(ui, desk, facts);
+        keys(ui, ui_state, facts);
     }
-    if desk.has_panel {
+    if ui_state.has_panel {
         let panel = Panel::right("panel").resizable(false).exact_size(WIDTH);
         panel.show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| side(ui, desk, facts));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| side(ui, ui_state, facts));
         });
     }
     if facts.played.is_some() || facts.note.is_some() || facts.failure.is_some() {
-        Panel::bottom("bottom").show(ui, |ui| bottom(ui, desk, facts));
+        Panel::bottom("bottom").show(ui, |ui| bottom(ui, ui_state, facts));
     }
-    CentralPanel::no_frame().show(ui, |ui| picture(ui, desk, facts));
+    CentralPanel::no_frame().show(ui, |ui| picture(ui, ui_state, facts));
 }
 
-fn keys(ui: &Ui, desk: &mut Desk, facts: &Facts) {
+fn keys(ui: &Ui, ui_state: &mut UiState, facts: &Facts) {
     let pressed = |key| ui.input(|input| input.key_pressed(key));
     let shift = ui.input(|input| input.modifiers.shift);
-    let ask = |request| send(&desk.requests, request);
+    let ask = |request| send(&ui_state.requests, request);
     if pressed(Key::Space) {
         ask(Request::Run(!facts.runs));
     }
@@ -91,23 +91,23 @@ fn keys(ui: &Ui, desk: &mut Desk, facts: &Facts) {
         }
     }
     if pressed(Key::V) {
-        let at = View::ALL.iter().position(|view| *view == desk.view).unwrap_or(0);
+        let at = View::ALL.iter().position(|view| *view == ui_state.view).unwrap_or(0);
         let count = View::ALL.len();
-        desk.view = View::ALL[(at + if shift { count - 1 } else { 1 }) % count];
+        ui_state.view = View::ALL[(at + if shift { count - 1 } else { 1 }) % count];
     }
     if pressed(Key::F) {
-        desk.full = !desk.full;
+        ui_state.full = !ui_state.full;
     }
     if pressed(Key::C) {
-        desk.orbit = facts.camera;
+        ui_state.orbit = facts.camera;
     }
     if pressed(Key::H) {
-        desk.has_panel = !desk.has_panel;
+        ui_state.has_panel = !ui_state.has_panel;
     }
-    desk.closes |= pressed(Key::Q) || pressed(Key::Escape);
+    ui_state.closes |= pressed(Key::Q) || pressed(Key::Escape);
 }
 
-fn side(ui: &mut Ui, desk: &mut Desk, facts: &Facts) {
+fn side(ui: &mut Ui, ui_state: &mut UiState, facts: &Facts) {
     ui.add_space(6.0);
     ui.heading(&facts.name);
     ui.label(&facts.title);
@@ -121,20 +121,20 @@ fn side(ui: &mut Ui, desk: &mut Desk, facts: &Facts) {
             ("Reset", "back to the first state (R)", Request::Reset),
         ] {
             if ui.button(text).on_hover_text(hover).clicked() {
-                send(&desk.requests, request);
+                send(&ui_state.requests, request);
             }
         }
     });
-    ui.label(RichText::new(pace(facts)).size(17.0).color(pace_colour(facts)));
+    ui.label(RichText::new(speed_text(facts)).size(17.0).color(speed_colour(facts)));
     times(ui, facts);
     ui.separator();
-    looks(ui, desk);
+    looks(ui, ui_state);
     ui.separator();
     if !facts.saturations.is_empty() {
         plot(ui, facts);
         ui.separator();
     }
-    sliders::show(ui, desk, facts);
+    sliders::show(ui, ui_state, facts);
     ui.separator();
     phases(ui, facts);
     CollapsingHeader::new("Mouse and keys").show(ui, |ui| {
@@ -149,7 +149,7 @@ fn side(ui: &mut Ui, desk: &mut Desk, facts: &Facts) {
 }
 
 /// Simulated over real time.
-fn pace(facts: &Facts) -> String {
+fn speed_text(facts: &Facts) -> String {
     match (facts.runs, facts.ratio) {
         _ if facts.name.is_empty() => "building the scene".to_owned(),
         (false, _) if facts.failure.is_some() => "stopped".to_owned(),
@@ -159,7 +159,7 @@ fn pace(facts: &Facts) -> String {
     }
 }
 
-fn pace_colour(facts: &Facts) -> Color32 {
+fn speed_colour(facts: &Facts) -> Color32 {
     match facts.ratio {
         Some(ratio) if facts.runs && ratio < IN_TIME => Color32::from_rgb(250, 180, 80),
         Some(_) if facts.runs => Color32::from_rgb(130, 220, 130),
@@ -198,25 +198,25 @@ fn times(ui: &mut Ui, facts: &Facts) {
     });
 }
 
-fn looks(ui: &mut Ui, desk: &mut Desk) {
+fn looks(ui: &mut Ui, ui_state: &mut UiState) {
     ui.horizontal(|ui| {
         let name = |view: View| format!("{view:?}").to_lowercase();
-        ComboBox::from_id_salt("view").selected_text(name(desk.view)).show_ui(ui, |ui| {
+        ComboBox::from_id_salt("view").selected_text(name(ui_state.view)).show_ui(ui, |ui| {
             for view in View::ALL {
-                ui.selectable_value(&mut desk.view, view, name(view));
+                ui.selectable_value(&mut ui_state.view, view, name(view));
             }
         });
-        ui.checkbox(&mut desk.full, "full quality").on_hover_text(
+        ui.checkbox(&mut ui_state.full, "full quality").on_hover_text(
             "Otherwise pictures become coarser while something moves, so that they follow it (F).",
         );
     });
-    if let Some(shown) = &desk.picture {
-        let view = format!("{:?}", shown.picture.view).to_lowercase();
+    if let Some(shown) = &ui_state.picture {
+        let view = format!("{:?}", shown.quality.view).to_lowercase();
         let (width, height) = shown.size;
-        let (time, rate) = (shown.time.as_millis(), desk.recent.len());
+        let (time, rate) = (shown.time.as_millis(), ui_state.recent.len());
         ui.weak(format!("{view}, {width} x {height} in {time} ms, {rate} pictures/s"));
+        ui.weak(format!("drawn by {}, shown by {}", shown.renderer, ui_state.surface));
     }
-    ui.weak(format!("drawn by the CPU, shown by {}", desk.surface));
 }
 
 /// Saturation of the sponges over time.
@@ -292,14 +292,14 @@ fn phases(ui: &mut Ui, facts: &Facts) {
 }
 
 /// The time line of a recording, and what was refused.
-fn bottom(ui: &mut Ui, desk: &Desk, facts: &Facts) {
+fn bottom(ui: &mut Ui, ui_state: &UiState, facts: &Facts) {
     ui.add_space(3.0);
     if let Some((frame, last)) = facts.played {
         ui.horizontal(|ui| {
             ui.spacing_mut().slider_width = (ui.available_width() - 180.0).max(80.0);
             let mut at = frame;
             if ui.add(Slider::new(&mut at, 0..=last).text(format!("of {last} frames"))).changed() {
-                send(&desk.requests, Request::Seek(at));
+                send(&ui_state.requests, Request::Seek(at));
             }
         });
     }
@@ -311,31 +311,31 @@ fn bottom(ui: &mut Ui, desk: &Desk, facts: &Facts) {
     ui.add_space(3.0);
 }
 
-fn picture(ui: &mut Ui, desk: &mut Desk, facts: &Facts) {
+fn picture(ui: &mut Ui, ui_state: &mut UiState, facts: &Facts) {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::drag());
     let painter = ui.painter_at(rect);
-    if let Some(texture) = &desk.texture {
+    if let Some(texture) = &ui_state.texture {
         painter.image(texture.id(), rect, Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0)), Color32::WHITE);
     }
-    if let Some(orbit) = &mut desk.orbit
+    if let Some(orbit) = &mut ui_state.orbit
         && rect.is_positive()
     {
-        let mut sight = Sight { camera: orbit.camera(rect.width() / rect.height()), rect };
-        desk.pointer.follow(ui, &response, &sight, orbit, facts, &desk.requests);
-        sight.camera = orbit.camera(sight.aspect());
-        desk.sight = Some(sight);
+        let mut viewport = Viewport { camera: orbit.camera(rect.width() / rect.height()), rect };
+        ui_state.pointer.follow(ui, &response, &viewport, orbit, facts, &ui_state.requests);
+        viewport.camera = orbit.camera(viewport.aspect());
+        ui_state.viewport = Some(viewport);
     }
     let at = rect.left_top() + Vec2::new(12.0, 10.0);
-    let mut text = pace(facts);
-    if !desk.pointer.held().is_empty() {
-        text = format!("{text}, {} held", desk.pointer.held());
+    let mut text = speed_text(facts);
+    if !ui_state.pointer.held().is_empty() {
+        text = format!("{text}, {} held", ui_state.pointer.held());
     }
-    let galley = painter.layout_no_wrap(text, FontId::proportional(16.0), pace_colour(facts));
+    let galley = painter.layout_no_wrap(text, FontId::proportional(16.0), speed_colour(facts));
     let back = Rect::from_min_size(at, galley.size()).expand2(Vec2::new(6.0, 3.0));
     painter.rect_filled(back, 4.0, Color32::from_black_alpha(130));
     painter.galley(at, galley, Color32::WHITE);
-    if desk.pointer.is_busy() {
+    if ui_state.pointer.is_busy() {
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(16));
     }
 }

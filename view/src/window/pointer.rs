@@ -9,7 +9,7 @@ use super::send;
 use crate::{
     facts::Facts,
     orbit::{self, Orbit},
-    stage::Request,
+    simulation::Request,
 };
 
 /// Angle of a turn over the way of the mouse \[rad per point\].
@@ -23,7 +23,7 @@ const ZOOM: f32 = 0.0022;
 enum Mode {
     #[default]
     Idle,
-    /// The stage was asked what is there.
+    /// The simulation thread was asked what is there.
     Asking,
     /// It holds something that was taken at this place.
     Holding(Vec3),
@@ -46,12 +46,12 @@ pub(super) struct Pointer {
 
 /// How the picture is seen.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sight {
+pub(super) struct Viewport {
     pub(super) camera: Camera,
     pub(super) rect: Rect,
 }
 
-impl Sight {
+impl Viewport {
     pub(super) fn aspect(&self) -> f32 {
         self.rect.width() / self.rect.height().max(1.0)
     }
@@ -79,7 +79,7 @@ impl Pointer {
         &mut self,
         ui: &Ui,
         response: &Response,
-        sight: &Sight,
+        viewport: &Viewport,
         orbit: &mut Orbit,
         facts: &Facts,
         requests: &Sender<Request>,
@@ -90,30 +90,30 @@ impl Pointer {
         {
             self.mode = found.as_ref().map_or(Mode::Turning, |(place, _)| Mode::Holding(*place));
             self.held = found.as_ref().map(|(_, name)| name.clone()).unwrap_or_default();
-            // What the mouse did while the stage was asked counts as well.
+            // What the mouse did while the simulation thread was asked counts as well.
             if let (Some((place, _)), Some(at)) = (found, at) {
-                send(requests, Request::Reach(orbit::in_plane(&sight.camera, &sight.ray(at), *place)));
+                send(requests, Request::Reach(orbit::in_plane(&viewport.camera, &viewport.ray(at), *place)));
             }
         }
         self.end(ui, requests);
         if self.mode == Mode::Idle
             && let Some(at) = at.filter(|_| response.contains_pointer())
         {
-            self.begin(ui, sight, at, facts, requests);
+            self.begin(ui, viewport, at, facts, requests);
         }
         let moved = ui.input(|input| input.pointer.delta());
         match (self.mode, at) {
             (Mode::Turning, _) => orbit.turn(-moved.x * TURN, moved.y * TURN),
             (Mode::Panning, _) => {
-                let height = sight.rect.height().max(1.0);
-                orbit.pan(moved.x / height, -moved.y / height, sight.aspect());
+                let height = viewport.rect.height().max(1.0);
+                orbit.pan(moved.x / height, -moved.y / height, viewport.aspect());
             }
             (Mode::Holding(place), Some(at)) if moved != egui::Vec2::ZERO => {
-                let point = orbit::in_plane(&sight.camera, &sight.ray(at), place);
+                let point = orbit::in_plane(&viewport.camera, &viewport.ray(at), place);
                 send(requests, Request::Reach(point));
             }
             (Mode::Pouring, Some(at)) if moved != egui::Vec2::ZERO => {
-                send(requests, Request::Pour(Some(sight.ray(at))));
+                send(requests, Request::Pour(Some(viewport.ray(at))));
             }
             _ => {}
         }
@@ -123,7 +123,7 @@ impl Pointer {
         }
     }
 
-    fn begin(&mut self, ui: &Ui, sight: &Sight, at: Pos2, facts: &Facts, requests: &Sender<Request>) {
+    fn begin(&mut self, ui: &Ui, viewport: &Viewport, at: Pos2, facts: &Facts, requests: &Sender<Request>) {
         let pressed = |button| ui.input(|input| input.pointer.button_pressed(button));
         let (control, shift) = ui.input(|input| (input.modifiers.command, input.modifiers.shift));
         let pours = ui.input(|input| input.key_pressed(Key::P));
@@ -142,9 +142,9 @@ impl Pointer {
         match self.mode {
             Mode::Asking => {
                 self.question += 1;
-                send(requests, Request::Take(self.question, sight.ray(at)));
+                send(requests, Request::Take(self.question, viewport.ray(at)));
             }
-            Mode::Pouring => send(requests, Request::Pour(Some(sight.ray(at)))),
+            Mode::Pouring => send(requests, Request::Pour(Some(viewport.ray(at)))),
             _ => {}
         }
     }
@@ -159,7 +159,7 @@ impl Pointer {
             return;
         }
         match self.mode {
-            // What is taken before the answer comes is let go as well: the stage keeps the order.
+            // What is taken before the answer comes is let go as well: the simulation thread keeps the order.
             Mode::Asking | Mode::Holding(_) => send(requests, Request::LetGo),
             Mode::Pouring => send(requests, Request::Pour(None)),
             _ => {}

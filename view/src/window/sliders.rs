@@ -2,11 +2,11 @@
 
 use egui::{CollapsingHeader, DragValue, Response, Slider, Ui};
 
-use super::{app::Desk, send};
+use super::{app::UiState, send};
 use crate::{
     facts::Facts,
     parameters::{Parameter, Value},
-    stage::Request,
+    simulation::Request,
 };
 
 /// Largest number over the smallest one beyond which a slider is logarithmic.
@@ -17,7 +17,7 @@ const LARGE: f32 = 100.0;
 const SMALL: f32 = 0.01;
 
 /// Sliders: those that act at once, then those that act at the next reset.
-pub(super) fn show(ui: &mut Ui, desk: &Desk, facts: &Facts) {
+pub(super) fn show(ui: &mut Ui, ui_state: &UiState, facts: &Facts) {
     if facts.parameters.is_empty() {
         ui.weak("A recording plays: its parameters are fixed.");
         return;
@@ -25,25 +25,25 @@ pub(super) fn show(ui: &mut Ui, desk: &Desk, facts: &Facts) {
     let (now, later): (Vec<&Parameter>, Vec<&Parameter>) =
         facts.parameters.iter().partition(|own| own.acts_at_once());
     CollapsingHeader::new("Parameters that act at once").default_open(true).show(ui, |ui| {
-        groups(ui, desk, facts, &now, true);
+        groups(ui, ui_state, facts, &now, true);
     });
     if later.is_empty() {
         return;
     }
     let title = if facts.waits { "Parameters for the next reset *" } else { "Parameters for the next reset" };
-    CollapsingHeader::new(title).id_salt("later").show(ui, |ui| groups(ui, desk, facts, &later, false));
+    CollapsingHeader::new(title).id_salt("later").show(ui, |ui| groups(ui, ui_state, facts, &later, false));
     ui.horizontal(|ui| {
         let text = if facts.waits { "Reset with these changes" } else { "Reset" };
         if ui.button(text).clicked() {
-            send(&desk.requests, Request::Reset);
+            send(&ui_state.requests, Request::Reset);
         }
         if ui.button("Undo all changes").on_hover_text("Resets the scene as it was given.").clicked() {
-            send(&desk.requests, Request::Restore);
+            send(&ui_state.requests, Request::Restore);
         }
     });
 }
 
-fn groups(ui: &mut Ui, desk: &Desk, facts: &Facts, all: &[&Parameter], is_open: bool) {
+fn groups(ui: &mut Ui, ui_state: &UiState, facts: &Facts, all: &[&Parameter], is_open: bool) {
     let mut names: Vec<&str> = Vec::new();
     for parameter in all {
         if !names.contains(&parameter.group.as_str()) {
@@ -55,14 +55,14 @@ fn groups(ui: &mut Ui, desk: &Desk, facts: &Facts, all: &[&Parameter], is_open: 
         let id = (name, is_open, facts.epoch);
         let header = CollapsingHeader::new(name).id_salt(id).default_open(is_open && name != "scene");
         if name == "scene" {
-            own.for_each(|parameter| row(ui, desk, parameter));
+            own.for_each(|parameter| row(ui, ui_state, parameter));
         } else {
-            header.show(ui, |ui| own.for_each(|parameter| row(ui, desk, parameter)));
+            header.show(ui, |ui| own.for_each(|parameter| row(ui, ui_state, parameter)));
         }
     }
 }
 
-fn row(ui: &mut Ui, desk: &Desk, parameter: &Parameter) {
+fn row(ui: &mut Ui, ui_state: &UiState, parameter: &Parameter) {
     let Parameter { limit, field, .. } = parameter;
     let unit = match limit.unit {
         "1" => String::new(),
@@ -105,7 +105,7 @@ fn row(ui: &mut Ui, desk: &Desk, parameter: &Parameter) {
     let text = format!("{}\n\nkey {}, default {default}", parameter.text, parameter.key);
     label.on_hover_text(&text);
     if response.on_hover_text(text).changed() && value != parameter.value {
-        send(&desk.requests, Request::Set(parameter.key.clone(), value));
+        send(&ui_state.requests, Request::Set(parameter.key.clone(), value));
     }
 }
 

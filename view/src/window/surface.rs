@@ -22,7 +22,7 @@ pub(super) struct Surface {
 
 enum Place {
     Gpu(Box<Painter>),
-    Cpu(softbuffer::Surface<Arc<Window>, Arc<Window>>),
+    CpuRenderer(softbuffer::Surface<Arc<Window>, Arc<Window>>),
 }
 
 impl Surface {
@@ -43,7 +43,7 @@ impl Surface {
             None => {
                 let failed = |error: softbuffer::SoftBufferError| ViewError::Window(error.to_string());
                 let display = softbuffer::Context::new(Arc::clone(&window)).map_err(failed)?;
-                Place::Cpu(softbuffer::Surface::new(&display, Arc::clone(&window)).map_err(failed)?)
+                Place::CpuRenderer(softbuffer::Surface::new(&display, Arc::clone(&window)).map_err(failed)?)
             }
         };
         let rasteriser = (is_software || is_kept).then(Rasteriser::default);
@@ -54,7 +54,7 @@ impl Surface {
     pub(super) fn longest_side(&self) -> Option<usize> {
         match &self.place {
             Place::Gpu(painter) => painter.max_texture_side(),
-            Place::Cpu(_) => None,
+            Place::CpuRenderer(_) => None,
         }
     }
 
@@ -103,7 +103,7 @@ impl Surface {
                 );
                 Ok(())
             }
-            Place::Cpu(surface) => {
+            Place::CpuRenderer(surface) => {
                 let size = self.window.inner_size();
                 let rasteriser = self.rasteriser.as_mut();
                 rasteriser.map_or(Ok(()), |own| show(surface, own, size, scale, &primitives))

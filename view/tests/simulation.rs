@@ -1,4 +1,4 @@
-//! What the window asks of the stage, without a window.
+//! What the window asks of the simulation thread, without a window.
 
 use std::{
     path::Path,
@@ -11,11 +11,11 @@ use sorb::{
 };
 use sorb_view::{
     Report, Source, ViewError,
-    easel::{Cpu, Easel},
+    drawing::{CpuRenderer, DrawingThread},
     facts::Facts,
     parameters::Value,
     session::Session,
-    stage::{self, Begin, Request},
+    simulation::{self, Begin, Request},
 };
 
 fn scene() -> Scene {
@@ -31,10 +31,10 @@ fn play(
 ) -> (Facts, Result<Report, ViewError>) {
     let (sender, receiver) = channel();
     requests.into_iter().chain([Request::Close]).for_each(|request| sender.send(request).unwrap());
-    let (facts, easel) = (Mutex::new(Facts::default()), Easel::new(Box::new(Cpu), || ()));
+    let (facts, drawing) = (Mutex::new(Facts::default()), DrawingThread::new(Box::new(CpuRenderer), || ()));
     let options = Options::default();
     let begin = Begin { source, options: &options, record, frames: None, runs: false };
-    let report = stage::run(begin, &receiver, &facts, &easel.tray(), &|| ());
+    let report = simulation::run(begin, &receiver, &facts, &drawing.worlds(), &|| ());
     (facts.into_inner().unwrap(), report)
 }
 

@@ -12,13 +12,13 @@ use sorb::{
     render::{self, Camera, Image, View},
 };
 
-use crate::pace::{Pace, Quality};
+use crate::quality::{Quality, QualityControl};
 
 /// How long nothing has changed when a picture of full quality is drawn.
 const STILL: Duration = Duration::from_millis(180);
 
-/// Draws pictures of a world. This is the place of other renderers: give one to [`Easel::new`].
-pub trait Draws: Send {
+/// Draws pictures of a world. This is the place of other renderers: give one to [`DrawingThread::new`].
+pub trait WorldRenderer: Send {
     /// Draws a world as a camera sees it.
     fn draw(&mut self, world: &World, camera: &Camera, view: View, size: (u32, u32)) -> Image;
 
@@ -28,21 +28,21 @@ pub trait Draws: Send {
 
 /// Draws with the CPU.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Cpu;
+pub struct CpuRenderer;
 
-impl Draws for Cpu {
+impl WorldRenderer for CpuRenderer {
     fn draw(&mut self, world: &World, camera: &Camera, view: View, (width, height): (u32, u32)) -> Image {
         render::draw_world(world, camera, view, width, height)
     }
 
     fn name(&self) -> String {
-        "CPU".to_owned()
+        "the CPU".to_owned()
     }
 }
 
 /// What a picture is asked to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot {
+pub struct PictureRequest {
     /// Point of view.
     pub camera: Camera,
     /// What is shown.
@@ -58,10 +58,12 @@ pub struct Shot {
 /// A picture, and how it was drawn.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The picture: its sides are those of the shot or smaller.
+    /// The picture: its sides are those of the request or smaller.
     pub image: Image,
     /// How it was drawn.
     pub quality: Quality,
+    /// Name of the renderer.
+    pub renderer: String,
     /// What it took.
     pub time: Duration,
     /// Frames of the world that it shows.
@@ -75,30 +77,30 @@ pub struct Picture {
 struct Shared {
     /// A state to draw, and its number.
     world: Option<(u64, Arc<World>)>,
-    shot: Option<Shot>,
+    request: Option<PictureRequest>,
     picture: Option<Picture>,
     closes: bool,
 }
 
 /// The thread that draws.
 #[derive(Debug)]
-pub struct Easel {
+pub struct DrawingThread {
     shared: Arc<(Mutex<Shared>, Condvar)>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// The end of the easel to which worlds are given.
+/// Gives worlds to the thread that draws.
 #[derive(Clone, Debug)]
-pub struct Tray(Arc<(Mutex<Shared>, Condvar)>);
+pub struct WorldSender(Arc<(Mutex<Shared>, Condvar)>);
 
-impl Easel {
+impl DrawingThread {
     /// Begins. `drawn` is called after every picture.
     #[must_use]
-    pub fn new(mut draws: Box<dyn Draws>, drawn: impl Fn() + Send + 'static) -> Self {
+    pub fn new(mut renderer: Box<dyn WorldRenderer>, drawn: impl Fn() + Send + 'static) -> Self {
         let shared = Arc::<(Mutex<Shared>, Condvar)>::default();
         let own = Arc::clone(&shared);
         let thread = thread::spawn(move || {
-            let result = panic::catch_unwind(AssertUnwindSafe(|| work(&own, &mut *draws, &drawn)));
+            let result = panic::catch_unwind(AssertUnwindSafe(|| work(&own, &mut *renderer, &drawn)));
             // Whoever waits for a picture learns that there is none.
             if let Err(panic) = result {
                 lock(&own.0).closes = true;
@@ -109,17 +111,17 @@ impl Easel {
         Self { shared, thread: Some(thread) }
     }
 
-    /// The end to which worlds are given.
+    /// What gives worlds to it.
     #[must_use]
-    pub fn tray(&self) -> Tray {
-        Tray(Arc::clone(&self.shared))
+    pub fn worlds(&self) -> WorldSender {
+        WorldSender(Arc::clone(&self.shared))
     }
 
     /// Asks for pictures of another kind.
-    pub fn show(&self, shot: Shot) {
+    pub fn show(&self, request: PictureRequest) {
         let mut shared = lock(&self.shared.0);
-        if shared.shot != Some(shot) {
-            shared.shot = Some(shot);
+        if shared.request != Some(request) {
+            shared.request = Some(request);
             self.shared.1.notify_all();
         }
     }
@@ -140,7 +142,7 @@ impl Easel {
     }
 }
 
-impl Drop for Easel {
+impl Drop for DrawingThread {
     fn drop(&mut self) {
         lock(&self.shared.0).closes = true;
         self.shared.1.notify_all();
@@ -151,7 +153,7 @@ impl Drop for Easel {
     }
 }
 
-impl Tray {
+impl WorldSender {
     /// Whether the last world has been taken, so that another one is not made in vain.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -176,8 +178,8 @@ enum Due {
     Nothing,
 }
 
-fn work(shared: &(Mutex<Shared>, Condvar), draws: &mut dyn Draws, drawn: &dyn Fn()) {
-    let mut pace = Pace::default();
+fn work(shared: &(Mutex<Shared>, Condvar), renderer: &mut dyn WorldRenderer, drawn: &dyn Fn()) {
+    let mut control = QualityControl::default();
     let mut world: Option<(u64, Arc<World>)> = None;
     let (mut last, mut is_best, mut changed) = (None, true, Instant::now());
     loop {
@@ -189,11 +191,11 @@ fn work(shared: &(Mutex<Shared>, Condvar), draws: &mut dyn Draws, drawn: &dyn Fn
             if let Some(next) = guard.world.take() {
                 world = Some(next);
             }
-            let now = world.as_ref().map(|(number, _)| *number).zip(guard.shot);
+            let now = world.as_ref().map(|(number, _)| *number).zip(guard.request);
             let rest = STILL.saturating_sub(changed.elapsed());
             let due = match now {
                 Some(_) if now != last => Due::Moving,
-                Some((_, shot)) if !is_best && !shot.runs && rest.is_zero() => Due::Still,
+                Some((_, request)) if !is_best && !request.runs && rest.is_zero() => Due::Still,
                 _ => Due::Nothing,
             };
             if !matches!(due, Due::Nothing) {
@@ -203,28 +205,41 @@ fn work(shared: &(Mutex<Shared>, Condvar), draws: &mut dyn Draws, drawn: &dyn Fn
             let woken = shared.1.wait_timeout(guard, wait);
             guard = woken.unwrap_or_else(PoisonError::into_inner).0;
         };
-        let shot = guard.shot;
+        let request = guard.request;
         drop(guard);
-        let (Some((number, world)), Some(shot)) = (&world, shot) else { continue };
+        let (Some((number, world)), Some(request)) = (&world, request) else { continue };
         let is_still = matches!(due, Due::Still);
         if !is_still {
-            (last, changed) = (Some((*number, shot)), Instant::now());
+            (last, changed) = (Some((*number, request)), Instant::now());
         }
-        let picture = draw(draws, world, &shot, pace.quality(shot.view, is_still || shot.full), is_still);
-        if !is_still && !shot.full {
-            pace.took(picture.time);
+        let picture = draw(
+            renderer,
+            world,
+            &request,
+            control.quality(request.view, is_still || request.full),
+            is_still,
+        );
+        if !is_still && !request.full {
+            control.took(picture.time);
         }
-        is_best = picture.quality == (Quality { view: shot.view, scale: 1.0 });
-        let picture = Picture { is_still: is_best && !shot.runs, ..picture };
+        is_best = picture.quality == (Quality { view: request.view, scale: 1.0 });
+        let picture = Picture { is_still: is_best && !request.runs, ..picture };
         lock(&shared.0).picture = Some(picture);
         drawn();
     }
 }
 
-fn draw(draws: &mut dyn Draws, world: &World, shot: &Shot, quality: Quality, is_still: bool) -> Picture {
+fn draw(
+    renderer: &mut dyn WorldRenderer,
+    world: &World,
+    request: &PictureRequest,
+    quality: Quality,
+    is_still: bool,
+) -> Picture {
     let start = Instant::now();
     let side = |side: u32| ((side as f32 * quality.scale).round() as u32).max(1);
-    let size = (side(shot.size.0), side(shot.size.1));
-    let image = draws.draw(world, &shot.camera, quality.view, size);
-    Picture { image, quality, time: start.elapsed(), frames: world.clock().frames, is_still }
+    let size = (side(request.size.0), side(request.size.1));
+    let image = renderer.draw(world, &request.camera, quality.view, size);
+    let (renderer, time) = (renderer.name(), start.elapsed());
+    Picture { image, quality, renderer, time, frames: world.clock().frames, is_still }
 }

@@ -8,20 +8,21 @@ use sorb::{
     render::{Camera, Image, Renderer, View},
 };
 
-use crate::easel::{Cpu, Draws};
+use crate::drawing::{CpuRenderer, WorldRenderer};
 
 /// Draws on a GPU, from the buffers of worlds that run there. After an error of the device it draws with the CPU.
 #[derive(Debug)]
-pub struct Device(Option<Renderer>);
+pub struct GpuRenderer(Option<Renderer>);
 
-impl Device {
+impl GpuRenderer {
     /// On a device.
     #[must_use]
     pub fn new(gpu: &Arc<Gpu>) -> Self {
         Self(Some(Renderer::new(gpu)))
     }
 
-    /// On the device of the worlds, or on the best of the machine; none if that is a program on the CPU, which is slower than [`Cpu`].
+    /// On the device of the worlds, or on the best of the machine; none if that is a program on the CPU, which is slower than
+    /// [`CpuRenderer`].
     #[must_use]
     pub fn best(own: Option<&Arc<Gpu>>) -> Option<Self> {
         let gpu = own.cloned().or_else(|| Gpu::new().ok().map(Arc::new))?;
@@ -29,20 +30,20 @@ impl Device {
     }
 }
 
-impl Draws for Device {
+impl WorldRenderer for GpuRenderer {
     fn draw(&mut self, world: &World, camera: &Camera, view: View, (width, height): (u32, u32)) -> Image {
         let drawn = self.0.as_mut().map(|renderer| renderer.draw_world(world, camera, view, width, height));
         if let Some(Ok(image)) = drawn {
             return image;
         }
         self.0 = None;
-        Cpu.draw(world, camera, view, (width, height))
+        CpuRenderer.draw(world, camera, view, (width, height))
     }
 
     fn name(&self) -> String {
         match &self.0 {
             Some(renderer) => renderer.gpu().report().name.clone(),
-            None => Cpu.name(),
+            None => CpuRenderer.name(),
         }
     }
 }

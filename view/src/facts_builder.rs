@@ -20,7 +20,7 @@ const POINTS: usize = 1200;
 
 /// Makes facts of a world from frame to frame.
 #[derive(Debug, Default)]
-pub(crate) struct Teller {
+pub(crate) struct FactsBuilder {
     /// Real and simulated times of the last second \[s\].
     recent: VecDeque<(Instant, f64)>,
     /// Total times of the phases when the rates were made last, with the frames since then and their time.
@@ -30,7 +30,7 @@ pub(crate) struct Teller {
     made: Option<Instant>,
 }
 
-impl Teller {
+impl FactsBuilder {
     /// What does not change from frame to frame.
     pub(crate) fn scene(&mut self, world: &World, facts: &mut Facts) {
         let scene = world.scene();

@@ -27,38 +27,38 @@ pub struct Quality {
 
 /// Chooses the quality of pictures by what the last ones took. It never changes what is simulated.
 #[derive(Clone, Copy, Debug)]
-pub struct Pace {
-    rung: usize,
+pub struct QualityControl {
+    level: usize,
     easy: u32,
 }
 
-impl Default for Pace {
+impl Default for QualityControl {
     fn default() -> Self {
-        Self { rung: 1, easy: 0 }
+        Self { level: 1, easy: 0 }
     }
 }
 
-impl Pace {
+impl QualityControl {
     /// The quality of the next picture of a view: the best one where nothing moves.
     #[must_use]
     pub fn quality(&self, view: View, is_still: bool) -> Quality {
-        if is_still || self.rung == 0 {
+        if is_still || self.level == 0 {
             return Quality { view, scale: 1.0 };
         }
         let view = if view == View::Realistic { View::Fast } else { view };
-        Quality { view, scale: SCALES[self.rung] }
+        Quality { view, scale: SCALES[self.level] }
     }
 
     /// Takes note of what a picture took while something moved.
     pub fn took(&mut self, time: Duration) {
         if time > BUDGET {
             self.easy = 0;
-            self.rung = (self.rung + 1).min(SCALES.len() - 1);
+            self.level = (self.level + 1).min(SCALES.len() - 1);
         } else if time.as_secs_f32() < EASY * BUDGET.as_secs_f32() {
             self.easy += 1;
             if self.easy >= PATIENCE {
                 self.easy = 0;
-                self.rung = self.rung.saturating_sub(1);
+                self.level = self.level.saturating_sub(1);
             }
         } else {
             self.easy = 0;
@@ -72,24 +72,24 @@ mod tests {
 
     #[test]
     fn slow_pictures_become_coarser_and_quick_ones_finer() {
-        let mut pace = Pace::default();
-        assert_eq!(pace.quality(View::Realistic, false), Quality { view: View::Fast, scale: 1.0 });
+        let mut control = QualityControl::default();
+        assert_eq!(control.quality(View::Realistic, false), Quality { view: View::Fast, scale: 1.0 });
         for _ in 0..9 {
-            pace.took(Duration::from_millis(200));
+            control.took(Duration::from_millis(200));
         }
-        assert_eq!(pace.quality(View::Realistic, false), Quality { view: View::Fast, scale: 0.5 });
+        assert_eq!(control.quality(View::Realistic, false), Quality { view: View::Fast, scale: 0.5 });
         // What is still, and other views, are shown as they are asked for.
-        assert_eq!(pace.quality(View::Realistic, true), Quality { view: View::Realistic, scale: 1.0 });
-        assert_eq!(pace.quality(View::Speed, false).view, View::Speed);
+        assert_eq!(control.quality(View::Realistic, true), Quality { view: View::Realistic, scale: 1.0 });
+        assert_eq!(control.quality(View::Speed, false).view, View::Speed);
         for _ in 0..7 {
-            pace.took(Duration::from_millis(1));
+            control.took(Duration::from_millis(1));
         }
         // One picture that was quick by chance changes nothing.
-        pace.took(Duration::from_millis(30));
-        assert_eq!(pace.quality(View::Realistic, false).scale, 0.5);
+        control.took(Duration::from_millis(30));
+        assert_eq!(control.quality(View::Realistic, false).scale, 0.5);
         for _ in 0..100 {
-            pace.took(Duration::from_millis(1));
+            control.took(Duration::from_millis(1));
         }
-        assert_eq!(pace.quality(View::Realistic, false), Quality { view: View::Realistic, scale: 1.0 });
+        assert_eq!(control.quality(View::Realistic, false), Quality { view: View::Realistic, scale: 1.0 });
     }
 }

@@ -14,12 +14,12 @@ use sorb::{Command, Options, Ray, SpongeHandle, StepError, Targets, glam::Vec3, 
 
 use crate::{
     Report, Source, ViewError,
-    easel::Tray,
+    drawing::WorldSender,
     facts::Facts,
+    facts_builder::FactsBuilder,
     hand::{self, Hand},
     parameters::{Value, parameters},
     session::Session,
-    told::Teller,
 };
 
 /// Real time by which a simulation may lag before it gives up catching up.
@@ -56,8 +56,8 @@ pub enum Request {
     Close,
 }
 
-/// What the stage has.
-struct Stage<'a> {
+/// What the simulation thread has.
+struct Simulation<'a> {
     session: Session<'a>,
     hand: Hand,
     runs: bool,
@@ -69,17 +69,17 @@ struct Stage<'a> {
     gravity: Option<Vec3>,
     materials: BTreeMap<SpongeHandle, Material>,
     failure: Option<StepError>,
-    /// Number of the present state, and of the last one that was given to the easel.
+    /// Number of the present state, and of the last one that was given to the thread that draws.
     state: u64,
     given: u64,
     /// Frames after which it is done.
     frames: Option<u64>,
-    teller: Teller,
+    facts_builder: FactsBuilder,
     facts: &'a Mutex<Facts>,
-    tray: &'a Tray,
+    worlds: &'a WorldSender,
 }
 
-/// How a stage begins.
+/// How a simulation thread begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Begin<'a> {
     /// What runs.
@@ -99,7 +99,7 @@ pub fn lock(facts: &Mutex<Facts>) -> MutexGuard<'_, Facts> {
     facts.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Runs until it is asked to close. `told` is called whenever there are new facts.
+/// Runs until it is asked to close. `notify` is called whenever there are new facts.
 ///
 /// # Errors
 /// The first state cannot be built, or the recording cannot be written.
@@ -107,11 +107,11 @@ pub fn run(
     begin: Begin<'_>,
     requests: &Receiver<Request>,
     facts: &Mutex<Facts>,
-    tray: &Tray,
-    told: &dyn Fn(),
+    worlds: &WorldSender,
+    notify: &dyn Fn(),
 ) -> Result<Report, ViewError> {
     let session = Session::new(begin.source, begin.options, begin.record)?;
-    let mut stage = Stage {
+    let mut simulation = Simulation {
         session,
         hand: Hand::default(),
         runs: begin.runs,
@@ -123,40 +123,41 @@ pub fn run(
         state: 1,
         given: 0,
         frames: begin.frames,
-        teller: Teller::default(),
+        facts_builder: FactsBuilder::default(),
         facts,
-        tray,
+        worlds,
     };
-    stage.tell_scene();
+    simulation.publish_scene();
     if begin.frames == Some(0) {
-        stage.runs = false;
+        simulation.runs = false;
         lock(facts).is_done = true;
-        stage.tell();
+        simulation.publish();
     }
-    stage.give(true);
-    told();
+    simulation.give(true);
+    notify();
     loop {
-        let wait = if stage.runs { stage.due.saturating_duration_since(Instant::now()) } else { LAG };
+        let wait =
+            if simulation.runs { simulation.due.saturating_duration_since(Instant::now()) } else { LAG };
         let mut next = requests.recv_timeout(wait);
         loop {
             match next {
-                Ok(Request::Close) | Err(RecvTimeoutError::Disconnected) => return stage.finish(),
+                Ok(Request::Close) | Err(RecvTimeoutError::Disconnected) => return simulation.finish(),
                 Err(RecvTimeoutError::Timeout) => break,
                 Ok(request) => {
-                    stage.answer(request);
-                    told();
+                    simulation.answer(request);
+                    notify();
                 }
             }
             next = requests.try_recv().map_err(|_| RecvTimeoutError::Timeout);
         }
-        if stage.runs && Instant::now() >= stage.due {
-            stage.run_on();
-            told();
+        if simulation.runs && Instant::now() >= simulation.due {
+            simulation.run_on();
+            notify();
         }
     }
 }
 
-impl Stage<'_> {
+impl Simulation<'_> {
     /// Takes the frame that is due.
     fn run_on(&mut self) {
         self.frame(false);
@@ -180,7 +181,7 @@ impl Stage<'_> {
                 self.state += 1;
                 let mut facts = lock(self.facts);
                 facts.last = Some(advance);
-                self.teller.frame(self.session.world(), start.elapsed(), &mut facts);
+                self.facts_builder.frame(self.session.world(), start.elapsed(), &mut facts);
             }
             Ok(None) => self.runs = false,
             Err(error) => {
@@ -197,7 +198,7 @@ impl Stage<'_> {
             self.runs = self.runs && self.frames.is_none();
             lock(self.facts).is_done = self.frames.is_some();
         }
-        self.tell();
+        self.publish();
     }
 
     fn commands(&mut self) -> Result<(), ViewError> {
@@ -220,7 +221,7 @@ impl Stage<'_> {
             Request::Run(runs) => {
                 self.runs = runs && self.failure.is_none();
                 self.due = Instant::now();
-                self.teller.pause();
+                self.facts_builder.pause();
                 Ok(())
             }
             Request::Frame | Request::Step => {
@@ -251,14 +252,14 @@ impl Stage<'_> {
             Request::Close => Ok(()),
         };
         self.note(result);
-        self.tell();
+        self.publish();
         self.give(!self.runs);
     }
 
     fn seek(&mut self, frame: u64) -> Result<(), ViewError> {
         self.runs = false;
         self.state += 1;
-        self.teller.pause();
+        self.facts_builder.pause();
         lock(self.facts).saturations.clear();
         self.session.seek(frame)
     }
@@ -339,18 +340,18 @@ impl Stage<'_> {
         self.materials.clear();
         self.state += 1;
         self.due = Instant::now();
-        self.teller = Teller::default();
-        self.tell_scene();
+        self.facts_builder = FactsBuilder::default();
+        self.publish_scene();
         Ok(())
     }
 
     /// Tells what does not change from frame to frame.
-    fn tell_scene(&mut self) {
+    fn publish_scene(&mut self) {
         let world = self.session.world();
         let mut facts = lock(self.facts);
         let epoch = facts.epoch + 1;
         *facts = Facts { epoch, held: facts.held.take(), ..Facts::default() };
-        self.teller.scene(world, &mut facts);
+        self.facts_builder.scene(world, &mut facts);
         if self.session.played().is_none() {
             facts.parameters = parameters(world);
             if !self.session.has_scene() {
@@ -358,14 +359,14 @@ impl Stage<'_> {
             }
         }
         drop(facts);
-        self.tell();
+        self.publish();
     }
 
-    fn tell(&mut self) {
+    fn publish(&mut self) {
         let mut facts = lock(self.facts);
         facts.runs = self.runs;
         facts.played = self.session.played();
-        self.teller.clock(self.session.world(), &mut facts);
+        self.facts_builder.clock(self.session.world(), &mut facts);
     }
 
     fn note(&mut self, result: Result<(), ViewError>) {
@@ -374,10 +375,10 @@ impl Stage<'_> {
         }
     }
 
-    /// Gives a copy of the world to the easel: whenever it has taken the last one, or at once.
+    /// Gives a copy of the world to the thread that draws: whenever it has taken the last one, or at once.
     fn give(&mut self, at_once: bool) {
-        if self.given != self.state && (at_once || self.tray.is_empty()) {
-            self.tray.put(self.state, Arc::new(self.session.world().clone()));
+        if self.given != self.state && (at_once || self.worlds.is_empty()) {
+            self.worlds.put(self.state, Arc::new(self.session.world().clone()));
             self.given = self.state;
         }
     }
