@@ -10,7 +10,8 @@ use sorb::{
 
 use crate::drawing::{CpuRenderer, WorldRenderer};
 
-/// Draws on a GPU, from the buffers of worlds that run there. After an error of the device it draws with the CPU.
+/// Draws on a GPU. The window draws copies of worlds, whose state is on the host: it goes up for every picture. After an error of the
+/// device it draws with the CPU.
 #[derive(Debug)]
 pub struct GpuRenderer(Option<Renderer>);
 
