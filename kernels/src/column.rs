@@ -1,7 +1,11 @@
 //! Common properties of columns: lifetime, padding, and words to hash.
 
-/// Coordinate of padding rows \[m\]: beyond every support radius, with a square that is still finite.
-pub const FAR: f32 = 1.0e15;
+use crate::layout::constants;
+
+constants! {
+    /// Coordinate of padding rows \[m\]: beyond every support radius, with a square that is still finite.
+    pub const FAR: f32 = 1.0e15;
+}
 
 /// A row at [`FAR`].
 pub const FAR_ROW: [f32; 4] = [FAR, FAR, FAR, 0.0];

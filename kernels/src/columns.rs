@@ -20,6 +20,7 @@ use crate::{
     pbd::{lattice::Topology, stars::Stars},
     reduce::{Extremes, Wrenches},
     sph::{pressure_solve::PressureSolve, viscosity_solve::ViscositySolve},
+    tets::rows::{CornerRows, Corners},
 };
 
 columns! {
@@ -104,6 +105,16 @@ columns! {
         FluidHeld = held: rows("N s"; MASS 3 "kg"), Scratch, needs Sponge;
         /// Velocity by the pressure of the present round, without the drag.
         FluidUndragged = undragged: rows("m/s"), Scratch, needs Sponge;
+        /// Control rows of the corners of the tet of the particle; the padding row outside of sponges.
+        FluidCorners = corners: Corners("1"), Scratch;
+        /// For every corner, before `tets::flux` the gradient and the value of its weight; after it the change of the rate of compression
+        /// by its velocity \[1/m\], and its weight in means.
+        FluidShares = shares: CornerRows("1/m"), Scratch;
+        /// Acceleration of the particle by the material of its sponge, over its kinematic pressure; w: change of its velocity over that
+        /// without drag, with nodes at rest.
+        FluidPushed = pushed: rows("1/m"; MOBILITY 3 "1"), Scratch, needs Barycentric;
+        /// Impulse of the pressure that the drag hands on to the nodes; w: mass of the particle times its kinematic pressure.
+        FluidCarried = carried: rows("N s"; ENERGY 3 "J"), Scratch, needs Barycentric;
         /// Compression that sponges absorb by their compliance to the pressure change, over the square of the step, see
         /// `couple::solid_yield`. Empty without sponges.
         FluidSolidYield = solid_yield: values("1/s^2"), Scratch, needs Incompressible;
@@ -209,6 +220,8 @@ columns! {
         ControlCells = cells: Cells("1"), Scratch on host;
         /// For every control, the particles within the suction radius.
         ControlFluid = fluid: Neighbors("1"), Scratch, needs Fluid;
+        /// For every control the corners that it is: four times the row of the particle, and the number of the corner.
+        ControlCorners = corners: Neighbors("1"), Scratch, needs Fluid;
         /// For every entry of those lists, node volume times W.
         ControlFluidWeights = fluid_weights: ListValues("1"), Scratch on host;
         /// Expected position of the node at the end of the step; w: volume of its material, without pores \[m^3\].

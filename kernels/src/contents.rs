@@ -84,6 +84,8 @@ impl Need {
             ),
             Self::Divergence => (fluid.divergence().is_some(), "no pressure solve for the divergence"),
             Self::Porous => (params.solid.is_some(), "coupling of the paper"),
+            Self::Barycentric => (params.is_barycentric, "smoothed coupling weights"),
+            Self::Smoothed => (!params.is_barycentric, "barycentric coupling weights"),
             Self::Wetting => (params.has_wetting(), "no sponge depends on how wet it is"),
             Self::Touch => (*touch, "no sponge can touch another or itself"),
         }

@@ -96,7 +96,13 @@ kernels! {
         drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
         solid_expect, solid_moments, solid_diagonal, solid_response, solid_velocity, solid_kick,
     } shared {
-        pub(crate) compliance, pub(crate) impulses, pub(crate) solid_mirrors, #[cfg(feature = "gpu")] pub weights,
+        pub(crate) compliance, pub(crate) drag_model, pub(crate) impulses, pub(crate) solid_mirrors, #[cfg(feature = "gpu")] pub weights,
+    }
+    /// Fluid and sponge as porous media: a particle in a sponge exchanges momentum with the corners of its tet.
+    tets {
+        corners, moments, flux, mobility, response, velocity, drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
+    } shared {
+        impulses, pub rows,
     }
 }
 

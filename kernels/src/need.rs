@@ -37,6 +37,10 @@ pub enum Need {
     Divergence,
     /// Sponges as porous media: their material displaces fluid.
     Porous,
+    /// Particles in sponges exchange momentum with the corners of their tets.
+    Barycentric,
+    /// Particles in sponges exchange momentum with all nodes within the suction radius.
+    Smoothed,
     /// A sponge with properties that depend on wetness.
     Wetting,
     /// A sponge that can touch another or itself.

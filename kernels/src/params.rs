@@ -39,6 +39,8 @@ pub struct Params {
     pub coupling: Wendland,
     /// Smoothing of the volume of the sponges' material, where that displaces fluid: none with the paper's coupling.
     pub solid: Option<Wendland>,
+    /// Whether particles in sponges exchange momentum with the corners of their tets instead of all nodes around them.
+    pub is_barycentric: bool,
 }
 
 impl Params {

@@ -35,12 +35,8 @@ fn main(
     }
     let inverse = weight_inside(fluid_interior[row]);
     let relative = fluid_velocity[row].xyz - sum.xyz * inverse;
-    // The speed that the drag leaves.
-    let speed = length(relative);
-    let slowed = 1.0 + fluid_drag_rate[row].x * clock.step;
-    let root = sqrt(slowed * slowed + 4.0 * clock.step * fluid_drag_rate[row].y * speed);
-    let rate = (fluid_drag_rate[row].x + fluid_drag_rate[row].y * (2.0 * speed / (slowed + root))) * clock.step;
     // The column has impulses and masses over chi.
-    let strength = rate / (1.0 + rate) * params.particle_mass * inverse;
+    let part = drag_strength(fluid_drag_rate[row].xy, length(relative), clock.step);
+    let strength = part * params.particle_mass * inverse;
     fluid_drag[row] = vec4<f32>(relative * strength, strength);
 }

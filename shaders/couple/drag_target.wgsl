@@ -1,4 +1,4 @@
-// #include smoothing, control_group, received
+// #include smoothing, control_group, received, drag_target
 // Targets of the nodes by inertia and the drag of the fluid, for a sweep of vertex block descent; `drag_target.rs` has the
 // formulas.
 
@@ -30,13 +30,5 @@ fn main(
         return;
     }
     let node = control_node[row];
-    let start = node_free[node];
-    var end = start;
-    if (start.w > 0.0 && received.w > MINIMUM_DRAG_MASS) {
-        let velocity = control_velocity[row].xyz + received.xyz / received.w;
-        let mass = start.w + received.w;
-        let by_fluid = own.xyz + velocity * clock.step;
-        end = vec4<f32>(start.xyz + (by_fluid - start.xyz) * (received.w / mass), mass);
-    }
-    node_target[node] = end;
+    node_target[node] = drag_target(node_free[node], own.xyz, control_velocity[row].xyz, received);
 }

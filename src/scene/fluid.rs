@@ -45,6 +45,10 @@ pub struct Fluid {
     /// water, else `paper`.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub coupling: Option<Coupling>,
+    /// Nodes that a particle in a sponge exchanges momentum with; default: `barycentric` with the coupling `porous` and the solver
+    /// `divergence`, which it needs, else `smoothed`.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub coupling_weights: Option<CouplingWeights>,
     /// Pressure as a function of density; default `tait`. For `wcsph`.
     pub equation_of_state: EquationOfState,
     /// Speed of sound of the model. Range 0.1 to 2000 m/s; default derived, see [`Scene::default_sound_speed`].
@@ -104,6 +108,7 @@ impl Default for Fluid {
             rounds: 200,
             projections: 4,
             coupling: None,
+            coupling_weights: None,
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,
             viscosity: 0.001,
@@ -203,6 +208,18 @@ pub enum Coupling {
     /// Porous media: the material of the sponge displaces water. Drag, elasticity and contact are one solve. Needs `vbd` as the
     /// solver of every sponge and any but `wcsph` of the water.
     Porous,
+}
+
+/// Nodes of a sponge that a particle in it exchanges momentum with, by drag and pressure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum CouplingWeights {
+    /// All nodes within the suction radius, by the smoothing function: 28 nodes.
+    Smoothed,
+    /// The four corners of the tet around the particle, by its barycentric coordinates. Steps of soaked sponges take two thirds of the
+    /// time.
+    Barycentric,
 }
 
 /// Pressure as a function of density.
@@ -323,6 +340,20 @@ impl Scene {
         let chosen = self.fluid.as_ref().and_then(|fluid| fluid.coupling);
         let allowed = if self.allows_porous() { Coupling::Porous } else { Coupling::Paper };
         chosen.unwrap_or(allowed)
+    }
+
+    /// Nodes that particles in sponges exchange momentum with: [`Fluid::coupling_weights`], or the default.
+    #[must_use]
+    pub fn coupling_weights(&self) -> CouplingWeights {
+        let chosen = self.fluid.as_ref().and_then(|fluid| fluid.coupling_weights);
+        let allowed =
+            if self.allows_barycentric() { CouplingWeights::Barycentric } else { CouplingWeights::Smoothed };
+        chosen.unwrap_or(allowed)
+    }
+
+    /// Whether the coupling and the solver allow [`CouplingWeights::Barycentric`].
+    pub(super) fn allows_barycentric(&self) -> bool {
+        self.fluid_solver() == Some(FluidSolver::Divergence) && self.coupling() == Coupling::Porous
     }
 
     /// Whether the solvers allow [`Coupling::Porous`].

@@ -72,7 +72,8 @@ pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
 pub use flows::{Drain, Emitter};
 pub use fluid::{
-    Coupling, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm, ViscosityIntegration,
+    Coupling, CouplingWeights, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm,
+    ViscosityIntegration,
 };
 pub(crate) use limits::limit;
 pub use limits::{Limit, limits};

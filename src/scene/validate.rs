@@ -8,8 +8,8 @@ use super::error::{Defect, Problem};
 use super::limits::{self, Row};
 use super::number::{number_text, vector_text};
 use super::{
-    BlockShape, Coupling, Domain, Fluid, FluidSolver, GravityKey, MAXIMUM_NODES, MAXIMUM_PARTICLES, Scene,
-    SceneError, ShapeKind, Solver, Sponge, VERSION,
+    BlockShape, Coupling, CouplingWeights, Domain, Fluid, FluidSolver, GravityKey, MAXIMUM_NODES,
+    MAXIMUM_PARTICLES, Scene, SceneError, ShapeKind, Solver, Sponge, VERSION,
 };
 
 /// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
@@ -215,6 +215,12 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
     if fluid.coupling == Some(Coupling::Porous) && !scene.allows_porous() {
         let rule = "needs `fluid.solver` = \"divergence\", \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
         problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));
+    }
+    let is_porous =
+        scene.coupling() == Coupling::Porous && scene.fluid_solver() == Some(FluidSolver::Divergence);
+    if fluid.coupling_weights == Some(CouplingWeights::Barycentric) && !is_porous {
+        let rule = "needs `fluid.coupling` = \"porous\" and `fluid.solver` = \"divergence\"";
+        problems.push(Problem::rule("fluid.coupling_weights", "\"barycentric\"", rule));
     }
     // Corners are decimals, which f32 rounds: a thousandth of the spacing covers that.
     let slack = 1e-3 * fluid.spacing;

@@ -40,6 +40,7 @@ pub(crate) fn params(scene: &Scene) -> Params {
         asleep: Asleep::default(),
         coupling: Wendland::new(if radius > 0.0 { radius } else { 1.0 }),
         solid: solid(scene),
+        is_barycentric: scene.coupling_weights() == scene::CouplingWeights::Barycentric,
     }
 }
 

@@ -15,19 +15,21 @@
 //! `couple::drag_target` computes the targets of the nodes from it, and `couple::drag_kick` applies it to the particles.
 
 use crate::{
-    column::padded,
     columns::{Columns, Fluid},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
-    vector::{dot, minus, times},
+    vector::{minus, times},
 };
 
-use super::impulses::{weight_inside, weighted};
+use super::{
+    drag_model::{node_velocities, strength},
+    impulses::{weight_inside, weighted},
+};
 
 declare! {
-    needs: [Fluid, Sponge, Incompressible, Porous],
+    needs: [Fluid, Sponge, Incompressible, Porous, Smoothed],
     reads: [
         FluidVelocity, FluidControls, FluidControlWeights, FluidInterior, FluidDragRate, ControlNode, NodePosition,
         NodePredicted,
@@ -50,7 +52,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(&mut drag[..], |first, drag| {
         let (lists, weights) = (lists.chunk(first), control_weights.chunk(first));
         with_lanes!(cpu, simd => {
-            let one = lanes::splat(simd, 1.0);
             for row in (0..drag.len()).step_by(LANES) {
                 let group = lists.group(row);
                 if group.is_empty() {
@@ -62,31 +63,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
                 let relative = minus([vx, vy, vz], times([ux, uy, uz], inverse));
                 let [linear, inertial, _, _] = lanes::load_rows(simd, drag_rate, first + row);
-                let speed = dot(relative, relative).sqrt();
-                let slowed = one + linear * step;
-                let root = (slowed * slowed + inertial * speed * (4.0 * step)).sqrt();
-                let left = (speed + speed) / (slowed + root);
-                let rate = (linear + inertial * left) * step;
                 // The column has impulses and masses over chi.
-                let strength = rate / (one + rate) * mass * inverse;
+                let strength = strength(simd, step, relative, [linear, inertial]) * mass * inverse;
                 let [jx, jy, jz] = times(relative, strength);
                 lanes::store_rows(drag, row, [jx, jy, jz, strength]);
             }
         });
-    });
-}
-
-/// The velocities of the nodes, in the order of the controls.
-fn node_velocities(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let (controls, nodes) = (&mut columns.controls, &columns.nodes);
-    let (node, velocity) = (&controls.node, &mut controls.velocity);
-    velocity.clear();
-    velocity.resize(padded(node.len()), [0.0; 4]);
-    let rate = 1.0 / params.step;
-    cpu.for_chunks(&mut velocity[..node.len()], |first, velocity| {
-        for (velocity, node) in velocity.iter_mut().zip(&node[first..]) {
-            let (x, y) = (nodes.position[*node as usize], nodes.predicted[*node as usize]);
-            (0..3).for_each(|axis| velocity[axis] = (y[axis] - x[axis]) * rate);
-        }
     });
 }

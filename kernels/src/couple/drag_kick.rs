@@ -12,7 +12,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Sponge],
+    needs: [Fluid, Sponge, Smoothed],
     reads: [FluidVelocity, FluidInterior, FluidDrag],
     writes: [FluidVelocity],
     oracle: crate::oracle::couple::drag_kick,

@@ -10,7 +10,7 @@
 use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
 declare! {
-    needs: [Fluid, Sponge, Incompressible, Porous],
+    needs: [Fluid, Sponge, Incompressible, Porous, Smoothed],
     reads: [FluidPosition, FluidDrag, ControlNode, ControlPosition, ControlFluid, ControlFluidWeights],
     writes: [NodeDrag, NodeDragMoment],
     oracle: crate::oracle::porous::drag_reaction,

@@ -11,7 +11,7 @@
 use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 
 declare! {
-    needs: [Fluid, Solver(Vbd), Incompressible, Porous],
+    needs: [Fluid, Solver(Vbd), Incompressible, Porous, Smoothed],
     reads: [FluidPosition, FluidDrag, ControlNode, ControlPosition, ControlFluid, ControlFluidWeights],
     writes: [NodeDrag, NodeDragMoment],
     oracle: crate::oracle::porous::drag_settled,

@@ -17,15 +17,17 @@
 //! inertia it is one mass, that of the node and of the fluid, with the weighted mean of both targets.
 
 use crate::{
-    columns::{Columns, Controls, lane},
+    columns::{Columns, Controls},
     cpu::Cpu,
     kernel::declare,
-    lanes::{self, LANES, Simd, f32x8, select, with_lanes},
+    lanes::{self, LANES, Simd, f32x8, with_lanes},
     params::Params,
 };
 
+use super::drag_model::{displacement, settle};
+
 declare! {
-    needs: [Fluid, Solver(Vbd), Incompressible, Porous],
+    needs: [Fluid, Solver(Vbd), Incompressible, Porous, Smoothed],
     reads: [
         FluidDrag, ControlNode, ControlPosition, ControlVelocity, ControlFluid, ControlFluidWeights, NodeFree,
     ],
@@ -36,43 +38,25 @@ declare! {
     // Weights are computed where they are needed.
     twin_reads: [FluidPosition],
     twin: [pass(NAME, Controls)],
-    constants: {
-        /// Mass below which nothing is pulled \[kg\]: far below that of any particle, and its inverse is a number.
-        const MINIMUM_DRAG_MASS: f32 = 1.0e-20;
-    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let drag = &columns.fluid.drag;
-    let Controls { node, position, velocity, fluid: lists, fluid_weights, .. } = &columns.controls;
-    let (step, nodes) = (params.step, &mut columns.nodes);
+    let controls = &columns.controls;
+    let Controls { velocity, fluid: lists, fluid_weights, .. } = controls;
     // Displacement of each node, and its mass.
     let mut moved = vec![[0.0_f32; 4]; velocity.len()];
     cpu.for_chunks(&mut moved[..], |first, moved| {
         let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
         with_lanes!(cpu, simd => {
-            let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
             for row in (0..moved.len()).step_by(LANES) {
-                let [jx, jy, jz, mass] = received(simd, drag, lists.group(row), &weights[lists.range(row)]);
-                let is_pulled = mass.simd_gt(lanes::splat(simd, MINIMUM_DRAG_MASS));
-                let inverse = select(is_pulled, one / select(is_pulled, mass, one), zero);
-                let [ux, uy, uz, _] = lanes::load_rows(simd, velocity, first + row);
-                let step = lanes::splat(simd, step);
-                let [x, y, z] = [ux + jx * inverse, uy + jy * inverse, uz + jz * inverse];
-                lanes::store_rows(moved, row, [x * step, y * step, z * step, select(is_pulled, mass, zero)]);
+                let received = received(simd, drag, lists.group(row), &weights[lists.range(row)]);
+                let velocity = lanes::load_rows(simd, velocity, first + row);
+                lanes::store_rows(moved, row, displacement(simd, params.step, velocity, received));
             }
         });
     });
-    nodes.target.clone_from(&nodes.free);
-    for ((node, place), moved) in node.iter().zip(position).zip(&moved) {
-        let (free, target) = (nodes.free[*node as usize], &mut nodes.target[*node as usize]);
-        let mass = free[lane::nodes::free::MASS] + moved[lane::fluid::drag::MASS];
-        if free[lane::nodes::free::MASS] > 0.0 {
-            let share = moved[lane::fluid::drag::MASS] / mass;
-            (0..3).for_each(|axis| target[axis] += (place[axis] + moved[axis] - free[axis]) * share);
-            target[lane::nodes::target::MASS] = mass;
-        }
-    }
+    settle(&moved, controls, &mut columns.nodes);
 }
 
 /// Sum over the particles of eight controls of `V_a W_ia` times the rows of the drag.

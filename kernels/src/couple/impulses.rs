@@ -16,7 +16,7 @@ constants! {
 
 /// 1 / chi, or 0 where there is no drag.
 #[inline(always)]
-pub(super) fn weight_inside<S: Simd>(simd: S, chi: f32x8<S>) -> f32x8<S> {
+pub(crate) fn weight_inside<S: Simd>(simd: S, chi: f32x8<S>) -> f32x8<S> {
     let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
     let inside = chi.simd_gt(lanes::splat(simd, MINIMUM_INTERIOR));
     select(inside, one / select(inside, chi, one), zero)

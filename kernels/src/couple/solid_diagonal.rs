@@ -15,7 +15,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Sponge, Divergence, Porous],
+    needs: [Fluid, Sponge, Divergence, Porous, Smoothed],
     reads: [FluidMobility, FluidRenormalisation, FluidRenormalisationBetween, FluidPressureRows],
     writes: [FluidPressureRows],
     oracle: crate::oracle::solid::diagonal,

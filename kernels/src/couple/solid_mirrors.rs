@@ -17,7 +17,7 @@ use crate::{
 
 /// One way in which walls mirror: `x' = s x + t` along every axis.
 #[derive(Clone, Copy)]
-pub(super) struct Mirror {
+pub(crate) struct Mirror {
     signs: Vec3,
     shift: Vec3,
 }
@@ -25,20 +25,20 @@ pub(super) struct Mirror {
 impl Mirror {
     /// The image of points.
     #[inline(always)]
-    pub(super) fn image<S: Simd>(&self, simd: S, [x, y, z]: Vec3x8<S>) -> Vec3x8<S> {
+    pub(crate) fn image<S: Simd>(&self, simd: S, [x, y, z]: Vec3x8<S>) -> Vec3x8<S> {
         let (s, t) = (self.signs, self.shift);
         [x * s.x + splat(simd, t.x), y * s.y + splat(simd, t.y), z * s.z + splat(simd, t.z)]
     }
 
     /// The image of directions.
     #[inline(always)]
-    pub(super) fn turned<S: Simd>(&self, [x, y, z]: Vec3x8<S>) -> Vec3x8<S> {
+    pub(crate) fn turned<S: Simd>(&self, [x, y, z]: Vec3x8<S>) -> Vec3x8<S> {
         [x * self.signs.x, y * self.signs.y, z * self.signs.z]
     }
 }
 
 /// The mirrors that matter to eight points; the first is none.
-pub(super) struct Mirrors {
+pub(crate) struct Mirrors {
     all: [Mirror; MIRRORS],
     count: usize,
 }
@@ -47,7 +47,7 @@ impl Mirrors {
     /// Those of the walls within the radius of the lists from any of the points. The material does not reach as far, so that a node a
     /// little outside of the walls has its image for all.
     #[inline(always)]
-    pub(super) fn near(params: &Params, points: &[[f32; 4]]) -> Self {
+    pub(crate) fn near(params: &Params, points: &[[f32; 4]]) -> Self {
         let reach = params.coupling.support_radius;
         let mut all = [Mirror { signs: Vec3::ONE, shift: Vec3::ZERO }; MIRRORS];
         let inside = points.iter().filter(|point| point[0] < FAR);
@@ -66,7 +66,7 @@ impl Mirrors {
 
     /// One after the other.
     #[inline(always)]
-    pub(super) fn iter(&self) -> std::slice::Iter<'_, Mirror> {
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Mirror> {
         self.all[..self.count].iter()
     }
 }

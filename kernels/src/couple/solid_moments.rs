@@ -25,12 +25,13 @@ use crate::{
 };
 
 use super::{
+    compliance::response,
     impulses::{mean_inside, weight_inside, weighted},
     solid_mirrors::Mirrors,
 };
 
 declare! {
-    needs: [Fluid, Sponge, Divergence, Porous],
+    needs: [Fluid, Sponge, Divergence, Porous, Smoothed],
     reads: [
         FluidPosition, FluidVelocity, FluidControls, FluidControlWeights, FluidDragRate, ControlNode,
         ControlPosition, ControlMaterial, ControlFluid, ControlFluidWeights, NodePosition, NodeSponge, NodeWetting,
@@ -46,10 +47,6 @@ declare! {
         pass("couple::solid_compliance", Nodes),
         pass(NAME, Fluid),
     ],
-    constants: {
-        /// Part of the stiffness of a node against its neighbours at rest that holds it.
-        const HELD_BY_NEIGHBORS: f32 = 0.25;
-    },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
@@ -110,15 +107,8 @@ fn compliances(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         for (row, compliance) in compliance.iter_mut().enumerate() {
             let [.., drawn] = std::mem::take(compliance);
             let Some(node) = node.get(first + row).map(|node| *node as usize) else { continue };
-            let inverse_mass = nodes.position[node][lane::nodes::position::INVERSE_MASS];
             let volume = position[first + row][lane::controls::position::VOLUME];
-            let sponge = &params.sponges[nodes.sponge[node] as usize];
-            let wetness = nodes.wetting.get(node).map_or(0.0, |row| row[lane::nodes::wetting::WETNESS]);
-            let modulus = sponge.wetting.stiffness(wetness) * (sponge.mu + sponge.lambda / 3.0);
-            let stiffness = 8.0 * volume / (sponge.edge * sponge.edge) * modulus;
-            let elastic = HELD_BY_NEIGHBORS * params.step * (params.step + sponge.damping) * stiffness;
-            let response =
-                if inverse_mass > 0.0 { 1.0 / (1.0 / inverse_mass + drawn + elastic) } else { 0.0 };
+            let response = response(params, nodes, (node, volume), drawn);
             let solid = material[first + row][lane::controls::material::VOLUME];
             *compliance = [response, drawn * response, 0.0, solid];
         }

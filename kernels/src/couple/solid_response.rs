@@ -24,7 +24,7 @@ use crate::{
 use super::{impulses::weighted, solid_mirrors::Mirrors};
 
 declare! {
-    needs: [Fluid, Sponge, Divergence, Porous],
+    needs: [Fluid, Sponge, Divergence, Porous, Smoothed],
     reads: [
         FluidPredicted, FluidVelocity, FluidCorrection, FluidRenormalisation, FluidRenormalisationBetween, FluidHeld,
         ControlPosition, ControlFluid, ControlFluidWeights, ControlMaterial, ControlCompliance, ControlExpected,

@@ -22,7 +22,7 @@ use crate::{
 use super::{impulses::weight_inside, solid_mirrors::Mirrors};
 
 declare! {
-    needs: [Fluid, Sponge, Divergence, Porous],
+    needs: [Fluid, Sponge, Divergence, Porous, Smoothed],
     reads: [
         FluidPosition, FluidCorrection, FluidControls, FluidControlWeights, FluidMobility,
         FluidRenormalisation, FluidRenormalisationBetween, ControlPosition, ControlSolved,

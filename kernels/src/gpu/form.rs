@@ -1,8 +1,13 @@
 //! How a device holds a column: its buffer, its bytes, and its words there and back.
 
 use super::{
-    answer::Extreme as Word, bodies::DeviceBody, groups::wrench_bytes, images, layout::Value,
-    pack::Capacities, transfer::take_plain,
+    answer::Extreme as Word,
+    bodies::DeviceBody,
+    groups::wrench_bytes,
+    images,
+    layout::Value,
+    pack::Capacities,
+    transfer::{take_plain, take_rows},
 };
 use crate::{
     body::Wrench,
@@ -28,6 +33,10 @@ pub(super) enum Form {
     Plain,
     /// Lists of rows, by the index of their capacity.
     Lists(usize),
+    /// Rows of this many words.
+    Wide(usize),
+    /// The lists of the corners that controls are.
+    Corners,
     /// Words of a buffer that fluid and nodes share.
     Extremes,
     /// State of the solve for the pressure.
@@ -54,6 +63,9 @@ impl Form {
             Column::FluidControls => Self::Lists(1),
             Column::ControlFluid => Self::Lists(2),
             Column::NodePairs => Self::Lists(3),
+            Column::FluidCorners => Self::Wide(4),
+            Column::FluidShares => Self::Wide(16),
+            Column::ControlCorners => Self::Corners,
             Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
             Column::FluidPressureSolve => Self::PressureSolve,
             Column::FluidViscositySolve => Self::ViscositySolve,
@@ -87,6 +99,8 @@ impl Form {
         match self {
             Self::Plain => count * column.element().bytes(),
             Self::Lists(which) => count * (capacities[which] as usize + 1) * 4,
+            Self::Wide(words) => count * words * 4,
+            Self::Corners => corner_words(rows) * 4,
             Self::Extremes => 4 * Word::ALL.len(),
             Self::PressureSolve => Solve::BYTES as usize,
             Self::ViscositySolve => ViscositySolve::BYTES as usize,
@@ -102,6 +116,8 @@ impl Form {
         match self {
             Self::Plain => take_plain(columns, column, words),
             Self::Lists(which) => take_lists(columns, which, words, capacities),
+            Self::Wide(_) => take_wide(columns, column, words),
+            Self::Corners => take_corners(columns, words),
             Self::Extremes => take_extremes(columns, column, words),
             Self::PressureSolve => columns.fluid.pressure_solve.state = Value::take(words),
             Self::ViscositySolve => columns.fluid.viscosity_solve.state = Value::take(words),
@@ -109,6 +125,51 @@ impl Form {
             Self::Images | Self::Bodies | Self::Nowhere => {}
         }
     }
+}
+
+/// Words of the lists of the corners that controls are: where each begins, the end of the last, and an entry for every corner.
+fn corner_words(rows: RowCounts) -> usize {
+    rows.nodes + 1 + 4 * rows.fluid
+}
+
+/// The words of those lists.
+pub(super) fn corners(columns: &Columns) -> Vec<u32> {
+    let rows = columns.rows;
+    let (mut words, mut entries) = (vec![0], Vec::new());
+    for control in 0..rows.nodes {
+        if control < columns.controls.node.len() {
+            entries.extend(columns.controls.corners.of(control, 4 * rows.fluid));
+        }
+        words.push(entries.len() as u32);
+    }
+    words.extend(entries);
+    words
+}
+
+fn take_corners(columns: &mut Columns, words: &[u32]) {
+    let rows = columns.rows;
+    let Some((starts, entries)) = words.split_at_checked(rows.nodes + 1) else { return };
+    let list = |ends: &[u32]| entries[ends[0] as usize..ends[1] as usize].to_vec();
+    let mut lists: Vec<Vec<u32>> = starts.windows(2).map(list).collect();
+    lists.resize_with(padded(rows.nodes), Vec::new);
+    columns.controls.corners = Neighbors::from_lists(&lists, 4 * rows.fluid as u32);
+}
+
+/// Takes over rows of several words, and pads them with rows outside of sponges.
+fn take_wide(columns: &mut Columns, column: Column, words: &[u32]) {
+    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; 4]);
+    if column == Column::FluidCorners {
+        take_rows(&mut columns.fluid.corners.0, words, outside, rows);
+    } else {
+        take_rows(&mut columns.fluid.shares.0, words, [[0.0; 4]; 4], rows);
+    }
+}
+
+/// The words of rows of several words.
+pub(super) fn wide_words(columns: &Columns, column: Column) -> Vec<u32> {
+    let mut words = Vec::new();
+    columns.data(column).visit_words(columns.rows.fluid, &mut |word| words.push(word));
+    words
 }
 
 /// Rows of the store that pushes bodies.

@@ -151,6 +151,7 @@ impl Resident {
         let (fluid, nodes, body_rows) = (fluid as u64, nodes as u64, bodies as u64);
         // Rows of what only a scene with both has.
         let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
+        let (cornered, corner_lists) = if self.params.is_barycentric { (inside, controls) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
         let viscous_rows = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
@@ -186,6 +187,12 @@ impl Resident {
             ("fluid_page_sums", page_sums(fluid_cells), plain),
             ("fluid_neighbors", list(fluid, self.capacities[0]), plain),
             ("fluid_controls", list(inside, self.capacities[1]), plain),
+            ("fluid_corners", cornered * 16, plain),
+            ("fluid_shares", cornered * 64, plain),
+            ("control_corners", (corner_lists + 1 + 4 * cornered) * 4, plain),
+            ("node_control", corner_lists * 4, plain),
+            ("corner_counts", corner_lists * 4, plain),
+            ("corner_places", cornered * 16, plain),
             ("node_stars", stars as u64 * 4, plain),
             ("node_rest", touching * 16, plain),
             ("node_pairs", list(touching, self.capacities[3]), plain),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{
     answer::Extreme as Word,
     error::GpuError,
-    form::{Form, NEXT, list_layout, lists, plain_bytes},
+    form::{Form, NEXT, corners, list_layout, lists, plain_bytes, wide_words},
     layout::Value,
     lists::capacities,
     resident::Resident,
@@ -26,7 +26,7 @@ fn is_plain(column: Column) -> bool {
 }
 
 /// Takes over the words of rows, and pads them.
-fn take_rows<T: bytemuck::Pod>(data: &mut Vec<T>, words: &[u32], padding: T, to: usize) {
+pub(super) fn take_rows<T: bytemuck::Pod>(data: &mut Vec<T>, words: &[u32], padding: T, to: usize) {
     data.resize(size_of_val(words) / size_of::<T>(), padding);
     bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
     data.resize(to, padding);
@@ -61,6 +61,8 @@ impl Resident {
             match form {
                 Form::Plain => self.upload_plain(columns, *column, name),
                 Form::Lists(which) => self.upload_lists(columns, name, which)?,
+                Form::Wide(_) => self.write_words(name, &wide_words(columns, *column)),
+                Form::Corners => self.write_words(name, &corners(columns)),
                 Form::Extremes => self.upload_extremes(columns, *column),
                 Form::PressureSolve => self.write_words(name, &columns.fluid.pressure_solve.state.words()),
                 Form::ViscositySolve => self.write_words(name, &columns.fluid.viscosity_solve.state.words()),

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     KERNELS,
     clock::{self, Bound},
-    couple, divergence,
+    column, couple, divergence,
     params::{self, EquationOfState, Solver, SpongeParams, WettingParams},
     pbd,
     smoothing::{self, Wendland},
@@ -29,7 +29,9 @@ const CONSTANTS: &[&[Constant]] = &[
     bodies::CONSTANTS,
     cells::CONSTANTS,
     clock::CONSTANTS,
+    column::CONSTANTS,
     couple::compliance::CONSTANTS,
+    couple::drag_model::CONSTANTS,
     couple::impulses::CONSTANTS,
     divergence::collect::CONSTANTS,
     divergence::image_rows::CONSTANTS,

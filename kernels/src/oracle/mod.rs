@@ -24,6 +24,7 @@ mod shift;
 pub(crate) mod solid;
 pub(crate) mod sph;
 pub(crate) mod surface;
+pub(crate) mod tets;
 pub(crate) mod touch;
 pub(crate) mod viscosity;
 pub(crate) mod wetting;

@@ -90,7 +90,7 @@ pub(crate) fn solid_reaction(params: &Params, columns: &mut Columns) {
     }
 }
 
-fn node_velocities(params: &Params, columns: &mut Columns) {
+pub(super) fn node_velocities(params: &Params, columns: &mut Columns) {
     columns.controls.velocity = vec![[0.0; 4]; columns.nodes.position.len()];
     for control in 0..columns.rows.nodes {
         let node = columns.controls.node[control] as usize;
@@ -140,20 +140,25 @@ pub(crate) fn drag_impulse(params: &Params, columns: &mut Columns) {
             })
             .sum();
         let apart = vector(columns.fluid.velocity[particle]) - sponge;
-        let [linear, inertial, ..] = columns.fluid.drag_rate[particle].map(f64::from);
-        let h = f64::from(params.step);
-        // The speed that the drag leaves, as the root of s (1 + h beta + h gamma s) = |v - u|.
-        let (mut low, mut high) = (0.0, apart.length());
-        for _ in 0..80 {
-            let middle: f64 = 0.5 * (low + high);
-            let is_high = middle * (1.0 + h * (linear + inertial * middle)) > apart.length();
-            (low, high) = if is_high { (low, middle) } else { (middle, high) };
-        }
-        let rate = h * (linear + inertial * low);
-        let mass = f64::from(params.fluid.particle_mass) * rate / (1.0 + rate);
+        let mass = drag_mass(params, columns, particle, apart.length());
         // The column has impulses and masses over the interior value.
         columns.fluid.drag[particle] = row(mass * inverse * apart, mass * inverse);
     }
+}
+
+/// Mass that the drag gives to the sponge at this relative speed.
+pub(super) fn drag_mass(params: &Params, columns: &Columns, particle: usize, speed: f64) -> f64 {
+    let [linear, inertial, ..] = columns.fluid.drag_rate[particle].map(f64::from);
+    let h = f64::from(params.step);
+    // The speed that the drag leaves, as the root of s (1 + h beta + h gamma s) = |v - u|.
+    let (mut low, mut high) = (0.0, speed);
+    for _ in 0..80 {
+        let middle: f64 = 0.5 * (low + high);
+        let is_high = middle * (1.0 + h * (linear + inertial * middle)) > speed;
+        (low, high) = if is_high { (low, middle) } else { (middle, high) };
+    }
+    let rate = h * (linear + inertial * low);
+    f64::from(params.fluid.particle_mass) * rate / (1.0 + rate)
 }
 
 pub(crate) fn drag_target(params: &Params, columns: &mut Columns) {
@@ -165,17 +170,27 @@ pub(crate) fn drag_target(params: &Params, columns: &mut Columns) {
             impulse += weight * vector(columns.fluid.drag[particle]);
             mass += weight * f64::from(columns.fluid.drag[particle][lane::fluid::drag::MASS]);
         }
-        let node = columns.controls.node[control] as usize;
-        let free = columns.nodes.free[node];
-        let (mut target, mut drawn) = (vector(free), f64::from(free[lane::nodes::free::MASS]));
-        if drawn > 0.0 && mass > 1.0e-20 {
-            let velocity = vector(columns.controls.velocity[control]) + impulse / mass;
-            let by_fluid = pairs.controls[control] + f64::from(params.step) * velocity;
-            target = (drawn * target + mass * by_fluid) / (drawn + mass);
-            drawn += mass;
-        }
-        columns.nodes.target[node] = row(target, drawn);
+        target_of(params, columns, control, (impulse, mass));
     }
+}
+
+/// Target of a node that this impulse acts on, and that moves with this mass.
+pub(super) fn target_of(
+    params: &Params,
+    columns: &mut Columns,
+    control: usize,
+    (impulse, mass): (DVec3, f64),
+) {
+    let node = columns.controls.node[control] as usize;
+    let free = columns.nodes.free[node];
+    let (mut target, mut drawn) = (vector(free), f64::from(free[lane::nodes::free::MASS]));
+    if drawn > 0.0 && mass > 1.0e-20 {
+        let velocity = vector(columns.controls.velocity[control]) + impulse / mass;
+        let by_fluid = vector(columns.controls.position[control]) + f64::from(params.step) * velocity;
+        target = (drawn * target + mass * by_fluid) / (drawn + mass);
+        drawn += mass;
+    }
+    columns.nodes.target[node] = row(target, drawn);
 }
 
 pub(crate) fn drag_reaction(params: &Params, columns: &mut Columns) {

@@ -44,7 +44,7 @@ fn factor(params: &Params, offset: DVec3) -> f64 {
 }
 
 /// Everything that a particle sees of the material: which control, the offset to it, `c_ia`, signs, and `V_s W`.
-fn around(
+pub(super) fn around(
     params: &Params,
     columns: &Columns,
     pairs: &Pairs,
@@ -123,15 +123,7 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
             pairs.weight(particle, control) * f64::from(columns.fluid.held[particle][lane::fluid::held::MASS])
         };
         let drawn: f64 = (0..particles).map(held).sum();
-        let own = sponge(params, columns, control);
-        let node = columns.controls.node[control] as usize;
-        let softer = 1.0 - f64::from(own.wetting.softening) * wetting::wetness(&columns.nodes, node);
-        let modulus = softer * (f64::from(own.mu) + f64::from(own.lambda) / 3.0);
-        let volume = f64::from(columns.controls.position[control][lane::controls::position::VOLUME]);
-        let stiffness = 8.0 * volume / f64::from(own.edge).powi(2) * modulus;
-        let elastic = 0.25 * h * (h + f64::from(own.damping)) * stiffness;
-        let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
-        let response = if inverse_mass > 0.0 { 1.0 / (1.0 / inverse_mass + drawn + elastic) } else { 0.0 };
+        let response = response_of(params, columns, control, drawn);
         let solid = columns.controls.material[control][lane::controls::material::VOLUME];
         columns.controls.compliance[control] =
             row(DVec3::new(response, drawn * response, 0.0), f64::from(solid));
@@ -141,15 +133,12 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         column.clone_from(&none);
     }
     for particle in 0..particles {
-        let (mut first, mut second, mut share, mut direct) = (DVec3::ZERO, DMat3::ZERO, 0.0, 0.0);
-        for (control, offset, c, _, shape) in around(params, columns, &pairs, particle) {
-            first += c * offset;
-            second += outer(offset, offset) * c;
-            share += shape;
-            let compliance =
-                f64::from(columns.controls.compliance[control][lane::controls::compliance::COMPLIANCE]);
-            direct += (c * offset).length_squared() * compliance;
-        }
+        material_moments(params, columns, &pairs, particle);
+        let push = |(control, offset, c, ..): &(usize, DVec3, f64, DVec3, f64)| {
+            let compliance = columns.controls.compliance[*control][lane::controls::compliance::COMPLIANCE];
+            (*c * *offset).length_squared() * f64::from(compliance)
+        };
+        let direct: f64 = around(params, columns, &pairs, particle).iter().map(push).sum();
         let drawn = |control: usize| {
             pairs.weight(particle, control)
                 * f64::from(columns.controls.compliance[control][lane::controls::compliance::DRAWN])
@@ -159,12 +148,37 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let own = f64::from(fluid.mobility[particle][lane::fluid::mobility::MOBILITY]);
         fluid.mobility[particle] =
             row(DVec3::new(own, own + (1.0 - own) * follows, mass / 3.0 * direct), 0.0);
-        fluid.moment[particle] = row(first, share);
-        let along = DVec3::new(second.x_axis.x, second.y_axis.y, second.z_axis.z);
-        let between = DVec3::new(second.y_axis.z, second.z_axis.x, second.x_axis.y);
-        (fluid.renormalisation[particle], fluid.renormalisation_between[particle]) =
-            (row(along, 0.0), row(between, 0.0));
     }
+}
+
+/// First and second moment of the material around a particle, and its share.
+pub(super) fn material_moments(params: &Params, columns: &mut Columns, pairs: &Pairs, particle: usize) {
+    let (mut first, mut second, mut share) = (DVec3::ZERO, DMat3::ZERO, 0.0);
+    for (_, offset, c, _, shape) in around(params, columns, pairs, particle) {
+        first += c * offset;
+        second += outer(offset, offset) * c;
+        share += shape;
+    }
+    let fluid = &mut columns.fluid;
+    fluid.moment[particle] = row(first, share);
+    let along = DVec3::new(second.x_axis.x, second.y_axis.y, second.z_axis.z);
+    let between = DVec3::new(second.y_axis.z, second.z_axis.x, second.x_axis.y);
+    (fluid.renormalisation[particle], fluid.renormalisation_between[particle]) =
+        (row(along, 0.0), row(between, 0.0));
+}
+
+/// What a node responds to impulses with.
+pub(super) fn response_of(params: &Params, columns: &Columns, control: usize, drawn: f64) -> f64 {
+    let h = f64::from(params.step);
+    let own = sponge(params, columns, control);
+    let node = columns.controls.node[control] as usize;
+    let softer = 1.0 - f64::from(own.wetting.softening) * wetting::wetness(&columns.nodes, node);
+    let modulus = softer * (f64::from(own.mu) + f64::from(own.lambda) / 3.0);
+    let volume = f64::from(columns.controls.position[control][lane::controls::position::VOLUME]);
+    let stiffness = 8.0 * volume / f64::from(own.edge).powi(2) * modulus;
+    let elastic = 0.25 * h * (h + f64::from(own.damping)) * stiffness;
+    let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
+    if inverse_mass > 0.0 { 1.0 / (1.0 / inverse_mass + drawn + elastic) } else { 0.0 }
 }
 
 pub(crate) fn diagonal(params: &Params, columns: &mut Columns) {

@@ -175,6 +175,14 @@ impl Stars {
         &self.groups[self.group_start[color] as usize + first / LANES..]
     }
 
+    /// The group that a node is in, and its place there.
+    pub(crate) fn place(&self, node: usize) -> (&StarGroup, usize) {
+        let starts = &self.color_start;
+        let color = (0..4).rev().find(|color| starts[*color] as usize <= node).unwrap_or(0);
+        let place = node - starts[color] as usize;
+        (&self.groups[self.group_start[color] as usize + place / LANES], place % LANES)
+    }
+
     /// Every node with its neighbours and the weights of its tets, in the order of the rows.
     pub(crate) fn each(&self) -> impl Iterator<Item = (u32, [u32; NEIGHBORS], [f32; TETS])> {
         self.groups.iter().flat_map(|group| {

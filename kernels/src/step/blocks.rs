@@ -1,6 +1,6 @@
 //! The blocks that a step is made of.
 
-use crate::{couple, divergence, grid, pbd, sph};
+use crate::{couple, divergence, grid, pbd, sph, tets};
 
 use super::{
     Block,
@@ -25,8 +25,12 @@ pub(super) static IMAGES: Block = Block {
         Run(&divergence::images::KERNEL),
         Run(&couple::solid_expect::KERNEL),
         Run(&couple::solid_moments::KERNEL),
+        Run(&tets::moments::KERNEL),
         Run(&divergence::moments::KERNEL),
         Run(&couple::solid_diagonal::KERNEL),
+        Run(&tets::corners::KERNEL),
+        Run(&tets::flux::KERNEL),
+        Run(&tets::mobility::KERNEL),
     ],
 };
 
@@ -143,6 +147,8 @@ static DIVERGENCE: &[Phase] = &[
             Run(&divergence::acceleration::KERNEL),
             Run(&couple::solid_response::KERNEL),
             Run(&couple::solid_velocity::KERNEL),
+            Run(&tets::response::KERNEL),
+            Run(&tets::velocity::KERNEL),
             Run(&divergence::residual::KERNEL),
         ],
     },
@@ -206,26 +212,34 @@ pub(super) static ELASTIC_WITH_DRAG: Block = Block {
             times: Times::SolverIterations,
             phases: &[
                 Run(&couple::drag_impulse::KERNEL),
+                Run(&tets::drag_impulse::KERNEL),
                 Run(&couple::drag_target::KERNEL),
+                Run(&tets::drag_target::KERNEL),
                 Run(&pbd::touch::KERNEL),
                 Run(&pbd::vbd::KERNEL),
             ],
         },
         Run(&couple::drag_impulse::KERNEL),
+        Run(&tets::drag_impulse::KERNEL),
         Run(&couple::drag_target::KERNEL),
+        Run(&tets::drag_target::KERNEL),
         Run(&pbd::touch::KERNEL),
         Run(&pbd::reaction::KERNEL),
         Repeat {
             times: Times::Fixed(BALANCES),
             phases: &[
                 Run(&couple::drag_reaction::KERNEL),
+                Run(&tets::drag_reaction::KERNEL),
                 Run(&pbd::momentum::KERNEL),
                 Run(&couple::drag_impulse::KERNEL),
+                Run(&tets::drag_impulse::KERNEL),
             ],
         },
         Run(&couple::drag_settled::KERNEL),
+        Run(&tets::drag_settled::KERNEL),
         Run(&pbd::momentum::KERNEL),
         Run(&couple::drag_kick::KERNEL),
+        Run(&tets::drag_kick::KERNEL),
         Run(&pbd::velocity::KERNEL),
     ],
 };

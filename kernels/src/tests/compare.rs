@@ -159,6 +159,22 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
         Column::ControlFluidWeights => {
             list_values(&controls.fluid_weights, &controls.fluid, &by_node, ids, columns.rows.fluid)
         }
+        Column::FluidCorners => {
+            let node = |row: &u32| controls.node.get(*row as usize).copied().unwrap_or(u32::MAX);
+            Content::Sets(by_id.iter().map(|row| fluid.corners.0[*row].iter().map(node).collect()).collect())
+        }
+        Column::FluidShares => {
+            let rows = by_id.iter().flat_map(|row| fluid.shares.0[*row]);
+            let (vectors, weights) =
+                rows.map(|row| row.map(f64::from)).map(|[x, y, z, w]| ([x, y, z], w)).unzip();
+            let vectors: Vec<[f64; 3]> = vectors;
+            Content::Numbers(vec![vectors.concat(), weights])
+        }
+        Column::ControlCorners => {
+            let count = 4 * columns.rows.fluid;
+            let identity: Vec<u32> = (0..count).map(|place| 4 * ids[place / 4] + place as u32 % 4).collect();
+            sets(&controls.corners, &by_node, &identity, count)
+        }
         Column::ControlNode => Content::Sets(vec![by_node.iter().map(|row| controls.node[*row]).collect()]),
         Column::NodePairs => {
             let identity: Vec<u32> = (0..columns.rows.nodes as u32).collect();

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::scene::{CHANNEL, FULL, Options, Scene, TORUS, best};
-use crate::{columns::lane, divergence::image_rows::Images, testing::Random};
+use crate::{columns::lane, divergence::image_rows::Images, grid::neighbors::Neighbors, testing::Random};
 
 /// Without sponges.
 const WATER: Options = Options { sponges: false, ..FULL };
@@ -139,14 +139,14 @@ fn a_common_motion_of_water_and_bodies_has_no_divergence() {
     assert!(found < 1e-5 * control, "{found:.1e} of {control:.1e}");
 }
 
-/// The kernels of a round.
-const ROUND: [&str; 4] =
-    ["divergence::acceleration", "couple::solid_response", "couple::solid_velocity", "divergence::residual"];
+/// What nodes do in a round, by smoothed and by barycentric weights.
+const OF_NODES: [[&str; 2]; 2] =
+    [["couple::solid_response", "couple::solid_velocity"], ["tets::response", "tets::velocity"]];
 
 /// How much the answer to one field of pressures, weighed by another, differs from the other way round, in water with sponges at rest.
-fn asymmetry(fault: Fault) -> f64 {
-    let kernel = crate::kernel_named("couple::solid_velocity").expect("there is one");
-    let before = Scene::new(FULL.suiting(kernel)).before("couple::solid_velocity", &best());
+fn asymmetry([response, velocity]: [&str; 2], fault: Fault) -> f64 {
+    let kernel = crate::kernel_named(velocity).expect("there is one");
+    let before = Scene::new(FULL.suiting(kernel)).before(velocity, &best());
     let count = before.columns.rows.fluid;
     let mut random = Random(11);
     let is_dense =
@@ -172,7 +172,7 @@ fn asymmetry(fault: Fault) -> f64 {
         columns.bodies.expected.fill([0.0; 4]);
         columns.bodies.expected_spin.fill([0.0; 4]);
         fault(&mut scene);
-        scene.run(&best(), &ROUND);
+        scene.run(&best(), &["divergence::acceleration", response, velocity, "divergence::residual"]);
         let left = |row: &[f32; 4]| f64::from(row[lane::fluid::pressure_rows::COMPRESSION]);
         scene.columns.fluid.pressure_rows.iter().map(left).collect::<Vec<_>>()
     });
@@ -185,20 +185,36 @@ fn asymmetry(fault: Fault) -> f64 {
 
 #[test]
 fn the_system_with_sponges_is_symmetric() {
-    let found = asymmetry(|_| ());
-    assert!(found < 1e-6, "{found:.1e}");
+    for kernels in OF_NODES {
+        let found = asymmetry(kernels, |_| ());
+        assert!(found < 1e-6, "{kernels:?}: {found:.1e}");
+    }
 }
 
 #[test]
 fn faults_of_drag_and_material_are_noticed() {
-    let faults: [(&str, Fault); 3] = [
-        ("drag that nodes do not feel", |scene| {
+    let [smoothed, barycentric] = OF_NODES;
+    let faults: [([&str; 2], &str, Fault); 6] = [
+        (barycentric, "nodes that feel the particles of others", |scene| {
+            let (count, all) = (scene.columns.rows.nodes, 4 * scene.columns.rows.fluid);
+            let corners = &mut scene.columns.controls.corners;
+            let lists: Vec<Vec<u32>> =
+                (0..count).rev().map(|control| corners.of(control, all).collect()).collect();
+            *corners = Neighbors::from_lists(&lists, all as u32);
+        }),
+        (barycentric, "corners that particles take for others", |scene| {
+            scene.columns.fluid.corners.0.iter_mut().for_each(|corners| corners.rotate_left(1));
+        }),
+        (barycentric, "material that moves with particles by another volume", |scene| {
+            scene.columns.fluid.pushed.iter_mut().for_each(|row| row[0] *= 1.5);
+        }),
+        (smoothed, "drag that nodes do not feel", |scene| {
             scene.columns.fluid.held.fill([0.0; 4]);
         }),
-        ("drag that particles do not feel", |scene| {
+        (smoothed, "drag that particles do not feel", |scene| {
             scene.columns.fluid.mobility.iter_mut().for_each(|row| row[0] = 1.0);
         }),
-        ("material of another volume on one side", |scene| {
+        (smoothed, "material of another volume on one side", |scene| {
             for row in &mut scene.columns.controls.material {
                 row[lane::controls::material::VOLUME] = 0.0;
             }
@@ -207,8 +223,8 @@ fn faults_of_drag_and_material_are_noticed() {
             }
         }),
     ];
-    for (name, fault) in faults {
-        let found = asymmetry(fault);
+    for (kernels, name, fault) in faults {
+        let found = asymmetry(kernels, fault);
         assert!(found > 1e-5, "{name} is not noticed: {found:.1e}");
     }
 }

@@ -115,6 +115,16 @@ pub(super) fn scale(columns: &mut Columns, column: Column, factor: f32) -> bool 
             // Of every other entry: some kernels only know weights over their sum.
             chunks.iter_mut().flatten().step_by(2).flatten().for_each(|value| *value *= factor);
         }
+        Column::FluidShares => {
+            columns
+                .fluid
+                .shares
+                .0
+                .as_flattened_mut()
+                .as_flattened_mut()
+                .iter_mut()
+                .for_each(|value| *value *= factor);
+        }
         Column::FluidExtremes => {
             columns.fluid.extremes.0.iter_mut().for_each(|chunk| chunk.acceleration_squared *= factor);
         }

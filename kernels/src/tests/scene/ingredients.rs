@@ -75,6 +75,7 @@ pub(super) fn params(options: Options) -> Params {
         sponges: if options.sponges { sponges(options.wetting, options.touch) } else { Vec::new() },
         coupling: Wendland::new(0.015),
         solid: options.porous.then(|| Wendland::new(0.012)),
+        is_barycentric: options.barycentric,
     }
 }
 

@@ -22,6 +22,8 @@ pub(crate) struct Options {
     /// Whether the pressure is solved for the divergence of the velocities.
     pub(crate) divergence: bool,
     pub(crate) porous: bool,
+    /// Whether particles exchange momentum with the corners of their tets.
+    pub(crate) barycentric: bool,
     pub(crate) cohesion: bool,
     /// Whether properties depend on how wet sponges are, where a kernel asks.
     pub(crate) wetting: bool,
@@ -45,6 +47,7 @@ pub(crate) const FULL: Options = Options {
     incompressible: false,
     divergence: false,
     porous: false,
+    barycentric: false,
     cohesion: false,
     wetting: false,
     implicit_viscosity: false,
@@ -90,6 +93,7 @@ impl Options {
             incompressible: porous || solves,
             divergence,
             porous,
+            barycentric: kernel.needs.contains(&Need::Barycentric),
             cohesion,
             implicit_viscosity,
             wetting,

@@ -1,0 +1,31 @@
+//! Applies the drag to the particles: they lose the impulses that the nodes gain.
+//!
+//! ```text
+//! v_i -= J_i / m
+//! ```
+
+use crate::{
+    columns::{Columns, Fluid},
+    cpu::Cpu,
+    kernel::declare,
+    params::Params,
+};
+
+declare! {
+    needs: [Fluid, Sponge, Divergence, Porous, Barycentric],
+    reads: [FluidVelocity, FluidDrag],
+    writes: [FluidVelocity],
+    oracle: crate::oracle::tets::drag_kick,
+    bound: 2e-6,
+    twin: [pass(NAME, Fluid)],
+}
+
+fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
+    let Fluid { velocity, drag, .. } = &mut columns.fluid;
+    let inverse_mass = 1.0 / params.fluid.particle_mass;
+    cpu.for_chunks(&mut velocity[..], |first, velocity| {
+        for (v, drag) in velocity.iter_mut().zip(&drag[first..]) {
+            (0..3).for_each(|axis| v[axis] -= drag[axis] * inverse_mass);
+        }
+    });
+}

@@ -1,0 +1,40 @@
+// #include control_group, corner_list
+// Last pass of `tets::corners`: entries in the order of the particles, so that sums do not depend on the order of threads.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> corner_places: array<u32>;
+@group(0) @binding(3) var<storage, read_write> control_corners: array<u32>;
+
+@compute @workgroup_size(GROUP_THREADS)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    if (clock.running == 0u) {
+        return;
+    }
+    let row = control_row(group, groups, lane);
+    let is_row = row < params.node_rows;
+    let list = corner_list(row, is_row);
+    let base = params.node_rows + 1u;
+    for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
+        let own = corner_places[k - base];
+        var ranks = vec4<u32>(0u);
+        // By fours: lavapipe ends the loops of a thread after 65 535 turns in all.
+        for (var other = list.x; other < list.y; other += 4u) {
+            let at = other + vec4<u32>(0u, 1u, 2u, 3u);
+            let from = at - base;
+            let places = vec4<u32>(
+                corner_places[from.x],
+                corner_places[from.y],
+                corner_places[from.z],
+                corner_places[from.w],
+            );
+            ranks += select(vec4<u32>(0u), vec4<u32>(1u), (places < vec4<u32>(own)) & (at < vec4<u32>(list.y)));
+        }
+        let rank = ranks.x + ranks.y + ranks.z + ranks.w;
+        control_corners[list.x + rank] = own;
+    }
+}

@@ -1,0 +1,26 @@
+// #include corner_mean, drag
+// Drag impulse that every particle loses to the sponge; `drag_impulse.rs` has the formulas.
+
+@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(1) var<uniform> params: Params;
+@group(0) @binding(2) var<storage, read> fluid_velocity: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_corners: array<vec4<u32>>;
+@group(0) @binding(5) var<storage, read> fluid_shares: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> controls: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> fluid_drag: array<vec4<f32>>;
+
+@compute @workgroup_size(GROUP)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let row = row_of(group, groups, lane);
+    if (clock.running == 0u || row >= params.fluid_rows) {
+        return;
+    }
+    let relative = fluid_velocity[row].xyz - corner_mean(row);
+    let strength = drag_strength(fluid_drag_rate[row].xy, length(relative), clock.step) * params.particle_mass;
+    fluid_drag[row] = vec4<f32>(relative * strength, strength);
+}
