@@ -1,5 +1,6 @@
 //! Files of frames for other programs: `sorb run --export`.
 
+mod bodies;
 mod gltf;
 mod npy;
 mod ply;
@@ -20,13 +21,13 @@ use snapshot::Snapshot;
 /// Kinds of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
-    /// VTK poly data of water and sponges with a series (.pvd), for `ParaView`
+    /// VTK poly data of water, sponges and bodies with a series (.pvd), for `ParaView`
     Vtp,
-    /// Points of the water and meshes of the sponges, for Blender and `MeshLab`
+    /// Points of the water, meshes of sponges and bodies, for Blender and `MeshLab`
     Ply,
-    /// Columns as arrays of `NumPy`
+    /// Columns and poses as arrays of `NumPy`
     Npy,
-    /// Water as points and sponges as a mesh in one binary glTF file
+    /// Water as points, sponges and bodies as meshes in one binary glTF file
     Gltf,
 }
 

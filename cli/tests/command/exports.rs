@@ -52,6 +52,23 @@ fn ply(path: &str, names: &[&str]) -> (Vec<f32>, usize) {
     (rows.collect(), file.payload.get("face").map_or(0, Vec::len))
 }
 
+/// A binary glTF file, after its reader has found it valid.
+fn glb(path: &str) -> (gltf::Document, Vec<u8>) {
+    let file = gltf::Gltf::from_slice(&fs::read(path).expect("the file is there")).expect("glTF");
+    (file.document, file.blob.unwrap_or_default())
+}
+
+/// Positions of a mesh of one primitive.
+fn places(mesh: &gltf::Mesh<'_>, blob: &[u8]) -> Vec<f32> {
+    let primitive = mesh.primitives().next().expect("a primitive");
+    primitive.reader(|_| Some(blob)).read_positions().expect("positions").flatten().collect()
+}
+
+fn indices(mesh: &gltf::Mesh<'_>, blob: &[u8]) -> Vec<u32> {
+    let primitive = mesh.primitives().next().expect("a primitive");
+    primitive.reader(|_| Some(blob)).read_indices().expect("indices").into_u32().collect()
+}
+
 #[test]
 fn all_formats_are_read_back_with_the_same_numbers() {
     let scratch = Scratch::new("exports");
@@ -91,21 +108,106 @@ fn all_formats_are_read_back_with_the_same_numbers() {
     );
     assert_eq!(ply(&format!("{folder}/sponges_00004.ply"), &["saturation"]).0, saturations);
 
-    let bytes = fs::read(format!("{folder}/scene_00004.glb")).expect("the file is there");
-    // As it is built here, this reader takes attributes of one's own, such as `_SATURATION`, for invalid names.
-    let file = gltf::Gltf::from_slice_without_validation(&bytes).expect("glTF");
-    let blob = file.blob.as_deref();
-    let meshes: Vec<_> = file.document.meshes().collect();
-    let read = |mesh: usize| meshes[mesh].primitives().next().expect("a primitive");
-    let places = |mesh: usize| -> Vec<f32> {
-        let primitive = read(mesh);
-        let reader = primitive.reader(|_| blob);
-        reader.read_positions().expect("positions").flatten().collect()
+    let (document, blob) = glb(&format!("{folder}/scene_00004.glb"));
+    let meshes: Vec<_> = document.meshes().collect();
+    assert_eq!((places(&meshes[0], &blob), places(&meshes[1], &blob)), (positions, nodes));
+    assert_eq!(indices(&meshes[1], &blob), triangles);
+}
+
+/// A ball that falls, a turned box, a cup and a floor without an end.
+const BODIES: &str = r#"
+version = 1
+name = "bodies"
+[[bodies]]
+name = "ball"
+shape = { kind = "sphere", radius = 0.02 }
+position = [0.1, 0.2, 0.0]
+[[bodies]]
+name = "box"
+kind = "fixed"
+shape = { kind = "cuboid", half_extents = [0.01, 0.02, 0.03] }
+position = [-0.1, 0.1, 0.0]
+rotation = { axis = [0.0, 0.0, 1.0], degrees = 30.0 }
+[[bodies]]
+name = "floor"
+kind = "fixed"
+shape = { kind = "plane" }
+[[bodies]]
+name = "cup"
+kind = "fixed"
+shape = { kind = "cup", radius = 0.03, height = 0.05, thickness = 0.005 }
+position = [0.0, 0.0, 0.2]
+"#;
+
+#[test]
+fn bodies_are_meshes_at_their_poses() {
+    let scratch = Scratch::new("exported_bodies");
+    let (scene, out) = (scratch.write("bodies.toml", BODIES), scratch.path("out"));
+    let run = ["run", &scene, "--frames", "3", "--quiet", "--out", &out, "--export", "vtp,ply,npy,gltf"];
+    let answer = sorb(&run);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
+    let folder = scratch.path("out/export");
+
+    // The poses are those of the table.
+    let (_, numbers) = npy::<u32>(&folder, "body_numbers_00003");
+    let (shape, positions) = npy::<f32>(&folder, "body_positions_00003");
+    let (_, rotations) = npy::<f32>(&folder, "body_rotations_00003");
+    let (_, velocities) = npy::<f32>(&folder, "body_linear_velocities_00003");
+    assert_eq!((numbers.as_slice(), shape.as_slice()), (&[0, 1, 2, 3][..], &[4, 3][..]));
+    let table = scratch.read("out/bodies.csv");
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let rows: Vec<_> = rows.iter().filter(|row| row[0] == "3").collect();
+    assert_eq!(rows.iter().map(|row| row[2]).collect::<Vec<_>>(), ["ball", "box", "floor", "cup"]);
+    let columns = |from: usize, to: usize| -> Vec<f32> {
+        rows.iter()
+            .flat_map(|row| row[from..to].iter().map(|value| value.parse().expect("a number")))
+            .collect()
     };
-    assert_eq!((places(0), places(1)), (positions, nodes));
-    let primitive = read(1);
-    let indices = primitive.reader(|_| blob).read_indices().expect("indices").into_u32();
-    assert_eq!(indices.collect::<Vec<_>>(), triangles);
+    assert_eq!((positions.clone(), rotations, velocities), (columns(3, 6), columns(6, 10), columns(10, 13)));
+    assert!(positions[1] < 0.2, "the ball falls");
+
+    // Corners of the ball are on the ball, in its present place and in no other.
+    let piece = vtp(&format!("{folder}/bodies_00003.vtp"));
+    let corners = piece.points.clone().cast_into::<f32>().expect("positions");
+    let bodies = attribute(&piece, "body");
+    let of_body = |body: f32| -> Vec<[f32; 3]> {
+        let rows = corners.as_chunks::<3>().0.iter().zip(&bodies);
+        rows.filter(|(_, own)| **own == body).map(|(row, _)| *row).collect()
+    };
+    let farthest = |centre: [f32; 3]| {
+        let distance =
+            |row: &[f32; 3]| row.iter().zip(&centre).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt();
+        of_body(0.0).iter().map(|row| (distance(row) - 0.02).abs()).fold(0.0, f32::max)
+    };
+    assert!(farthest([positions[0], positions[1], positions[2]]) < 1e-6);
+    assert!(farthest([0.1, 0.2, 0.0]) > 1e-3, "the control: where it was at first");
+    // The highest corner of the turned box.
+    let highest = of_body(1.0).iter().map(|row| row[1]).fold(f32::MIN, f32::max);
+    assert!((highest - (0.1 + 0.02 * 0.866_025_4 + 0.01 * 0.5)).abs() < 1e-6, "{highest}");
+    assert!(of_body(2.0).is_empty() && of_body(3.0).len() > 24, "a plane has no end, a cup has a mesh");
+
+    // The other formats have the same.
+    let faces = piece.polys.expect("triangles").num_cells() as usize;
+    assert_eq!(ply(&format!("{folder}/bodies_00003.ply"), &["x", "y", "z"]), (corners.clone(), faces));
+    assert_eq!(ply(&format!("{folder}/bodies_00003.ply"), &["body"]).0, bodies);
+    let (document, blob) = glb(&format!("{folder}/scene_00003.glb"));
+    assert_eq!(
+        document.nodes().filter_map(|node| node.name()).collect::<Vec<_>>(),
+        ["ball", "box", "floor", "cup"]
+    );
+    let in_world = document.nodes().flat_map(|node| {
+        let matrix = node.transform().matrix();
+        let own = node.mesh().map(|mesh| places(&mesh, &blob)).unwrap_or_default();
+        let at = move |row: &[f32; 3]| {
+            [0, 1, 2]
+                .map(|axis| (0..3).map(|from| matrix[from][axis] * row[from]).sum::<f32>() + matrix[3][axis])
+        };
+        own.as_chunks::<3>().0.iter().flat_map(at).collect::<Vec<_>>()
+    });
+    let in_world: Vec<f32> = in_world.collect();
+    assert_eq!(in_world.len(), corners.len());
+    assert!(in_world.iter().zip(&corners).all(|(one, other)| (one - other).abs() < 1e-6));
+    assert!(scratch.read("out/export/bodies.pvd").contains("file=\"bodies_00003.vtp\""));
 }
 
 #[test]
