@@ -12,6 +12,8 @@ mod runs;
 mod scenes;
 #[path = "command/support.rs"]
 mod support;
+#[path = "command/sweeps.rs"]
+mod sweeps;
 #[path = "command/usage.rs"]
 mod usage;
 #[cfg(feature = "validation")]

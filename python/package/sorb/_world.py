@@ -106,7 +106,8 @@ class World(Columns, Questions):
         if frames is None:
             rate = self.scene["time"]["frame_rate"]
             span = seconds if seconds is not None else self.scene["time"]["duration"] - self.clock.time
-            frames = int(np.ceil(span * rate - 1e-6))
+            # Rates and durations have 24 bits: 6000 frames may be 6000.0004.
+            frames = max(int(np.ceil(span * rate - 1e-3)), 0)
         elif seconds is not None:
             raise ValueError("give frames or seconds, not both")
         for _ in range(frames):
