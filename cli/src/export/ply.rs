@@ -47,6 +47,16 @@ fn bodies(surfaces: &Surfaces) -> Vec<u8> {
     bytes
 }
 
+/// A mesh without more.
+#[cfg(feature = "surface")]
+pub(super) fn mesh(vertices: &[[f32; 3]], corners: &[[u32; 3]]) -> Vec<u8> {
+    let (count, faces) = (vertices.len(), elements(corners.len()));
+    let mut bytes = header(&format!("element vertex {count}\n{PLACE}{faces}"));
+    bytes.extend(vertices.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
+    triangles(&mut bytes, corners);
+    bytes
+}
+
 /// So many triangles, in a header.
 fn elements(faces: usize) -> String {
     format!("element face {faces}\nproperty list uchar uint vertex_indices\n")

@@ -34,7 +34,7 @@ pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
 }
 
 /// Triangles, with data of their corners.
-fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]], data: impl FnOnce(&mut String)) -> String {
+pub(super) fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]], data: impl FnOnce(&mut String)) -> String {
     let mut text = begin(positions.len(), 0, triangles.len());
     text.push_str("<PointData>\n");
     data(&mut text);

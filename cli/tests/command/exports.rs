@@ -21,7 +21,7 @@ fn npy<T: npyz::Deserialize>(folder: &str, name: &str) -> (Vec<u64>, Vec<T>) {
 }
 
 /// The poly data of a file.
-fn vtp(path: &str) -> PolyDataPiece {
+pub(crate) fn vtp(path: &str) -> PolyDataPiece {
     let DataSet::PolyData { mut pieces, .. } = Vtk::import(path).expect("VTK").data else {
         panic!("{path} is no poly data");
     };
@@ -50,6 +50,19 @@ fn ply(path: &str, names: &[&str]) -> (Vec<f32>, usize) {
     let rows =
         file.payload["vertex"].iter().flat_map(|vertex| names.iter().map(move |name| value(vertex, name)));
     (rows.collect(), file.payload.get("face").map_or(0, Vec::len))
+}
+
+/// Corners and triangles of a PLY file.
+#[cfg(feature = "surface")]
+pub(crate) fn ply_mesh(path: &str) -> (Vec<f32>, Vec<[u32; 3]>) {
+    let bytes = fs::read(path).expect("the file is there");
+    let file = Parser::<DefaultElement>::new().read_ply(&mut &bytes[..]).expect("PLY");
+    let triangle = |face: &DefaultElement| match &face["vertex_indices"] {
+        Property::ListUInt(corners) => <[u32; 3]>::try_from(corners.as_slice()).expect("three corners"),
+        other => panic!("{other:?}"),
+    };
+    let triangles = file.payload.get("face").into_iter().flatten().map(triangle).collect();
+    (ply(path, &["x", "y", "z"]).0, triangles)
 }
 
 /// A binary glTF file, after its reader has found it valid.
@@ -210,6 +223,76 @@ fn bodies_are_meshes_at_their_poses() {
     assert!(scratch.read("out/export/bodies.pvd").contains("file=\"bodies_00003.vtp\""));
 }
 
+/// Chunks of a binary glTF file: its description, and the place of the buffer in the file.
+fn chunks(bytes: &[u8]) -> (serde_json::Value, usize) {
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    (serde_json::from_slice(&bytes[20..20 + length]).expect("JSON"), 20 + length + 8)
+}
+
+/// What is wrong with views and bounds, which the reader does not look at.
+fn wrong_numbers(bytes: &[u8]) -> Vec<String> {
+    let (description, start) = chunks(bytes);
+    let whole = |value: &serde_json::Value| value.as_u64().expect("a whole number") as usize;
+    let (buffer, mut wrong) = (&bytes[start..], Vec::new());
+    if whole(&description["buffers"][0]["byteLength"]) != buffer.len() || !start.is_multiple_of(4) {
+        wrong.push("the buffer".to_owned());
+    }
+    let views = description["bufferViews"].as_array().expect("views");
+    for view in views {
+        let [from, length] = [&view["byteOffset"], &view["byteLength"]].map(whole);
+        if !from.is_multiple_of(4) || from + length > buffer.len() {
+            wrong.push(format!("view at {from}"));
+        }
+    }
+    for accessor in description["accessors"].as_array().expect("accessors") {
+        let view = &views[whole(&accessor["bufferView"])];
+        let (from, width) = (whole(&view["byteOffset"]), if accessor["type"] == "VEC3" { 3 } else { 1 });
+        let count = width * whole(&accessor["count"]);
+        if 4 * count != whole(&view["byteLength"]) {
+            wrong.push(format!("accessor at {from}"));
+            continue;
+        }
+        let bounds = accessor
+            .get("min")
+            .and_then(|_| Some((accessor["min"].as_array()?, accessor["max"].as_array()?)));
+        let words = buffer[from..from + 4 * count].as_chunks::<4>().0.iter();
+        let values: Vec<f32> = words.map(|word| f32::from_le_bytes(*word)).collect();
+        for (axis, (low, high)) in bounds.into_iter().flat_map(|(low, high)| low.iter().zip(high)).enumerate()
+        {
+            let own = || values.iter().skip(axis).step_by(width).copied();
+            let (least, most) = (own().fold(f32::MAX, f32::min), own().fold(f32::MIN, f32::max));
+            let is = |bound: &serde_json::Value, value: f32| {
+                bound.as_f64().map(|bound| bound as f32) == Some(value)
+            };
+            if !is(low, least) || !is(high, most) {
+                wrong.push(format!("bounds of axis {axis} at {from}"));
+            }
+        }
+    }
+    wrong
+}
+
+#[test]
+fn gltf_files_are_valid_and_faults_are_found() {
+    let scratch = Scratch::new("valid_gltf");
+    let out = scratch.path("out");
+    let run = ["run", "ball_drop", "--resolution", "0.3", "--frames", "1", "--quiet", "--out", &out];
+    assert_eq!(sorb(&[&run[..], &["--export", "gltf"]].concat()).code, Some(0));
+    let bytes = fs::read(scratch.path("out/export/scene_00001.glb")).expect("the file is there");
+    assert!(gltf::Gltf::from_slice(&bytes).is_ok());
+    assert_eq!(wrong_numbers(&bytes), Vec::<String>::new());
+
+    // The controls: a node of a mesh that is not there, and a coordinate out of the bounds.
+    let at = bytes.windows(8).position(|text| text == b"\"mesh\":0").expect("a node with a mesh");
+    let mut planted = bytes.clone();
+    planted[at + 7] = b'9';
+    assert!(gltf::Gltf::from_slice(&planted).is_err());
+    let start = chunks(&bytes).1;
+    let mut planted = bytes;
+    planted[start..start + 4].copy_from_slice(&1e9_f32.to_le_bytes());
+    assert_eq!(wrong_numbers(&planted), ["bounds of axis 0 at 0"]);
+}
+
 #[test]
 fn a_series_has_the_times_of_its_frames_and_a_new_run_replaces_it() {
     let scratch = Scratch::new("series");
@@ -242,4 +325,15 @@ fn unknown_formats_are_wrong_usage() {
     {
         assert_eq!(sorb(&[&["run", "dry"], wrong].concat()).code, Some(2), "{wrong:?}");
     }
+}
+
+#[cfg(not(feature = "surface"))]
+#[test]
+fn usage_of_a_program_without_meshes_of_water() {
+    let scratch = Scratch::new("no_surface");
+    let out = scratch.path("out");
+    let answer = sorb(&["run", "dry", "--frames", "0", "--out", &out, "--export", "surface"]);
+    assert_eq!(answer.code, Some(2));
+    assert!(answer.err.contains("--features surface"), "{}", answer.err);
+    assert!(!Path::new(&out).exists());
 }
