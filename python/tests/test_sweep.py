@@ -115,3 +115,12 @@ def test_vectors_are_three_columns_and_lists_are_json(tmp_path):
     assert list(rows[0])[2:6] == ["sponge_centre_x", "sponge_centre_y", "sponge_centre_z", "saturation"]
     with out.open(newline="") as file:
         assert [row["gravity"] for row in csv.DictReader(file)] == ["[0,-9.81,0]", "[0,0,0]"]
+
+
+def test_the_table_is_there_as_parquet_too(tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
+    out = tmp_path / "table.csv"
+    grid = {"bodies.ball.density": [2000, 5000], "gravity": [[0, -9.81, 0]]}
+    rows = sorb.sweep("ball_drop", grid, ["absorbed_mass", "sponge_centre"], resolution=0.2, out=out, **SMALL)
+    read = parquet.read_table(tmp_path / "table.parquet").to_pylist()
+    assert read == rows and list(read[0]) == list(rows[0])
