@@ -140,6 +140,23 @@ impl World {
         self.world.next_flow().number()
     }
 
+    /// Handle of the next body: its number, and how many had it before.
+    fn next_body(&self) -> (usize, u32) {
+        let body = self.world.next_body();
+        (body.index(), body.generation())
+    }
+
+    /// Handle of the next sponge.
+    fn next_sponge(&self) -> (usize, u32) {
+        let sponge = self.world.next_sponge();
+        (sponge.index(), sponge.generation())
+    }
+
+    /// Handles of the bodies that are there.
+    fn body_handles(&self) -> Vec<(usize, u32)> {
+        self.world.body_handles().map(|body| (body.index(), body.generation())).collect()
+    }
+
     fn bodies(&self) -> Vec<Body<'_>> {
         let bodies = self.world.bodies().iter().zip(&self.world.scene().bodies);
         bodies

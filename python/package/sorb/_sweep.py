@@ -173,7 +173,7 @@ def _rows(jobs: list[_Job], processes: int, on: str) -> Iterator[Row]:
 
 
 def _on_ray(jobs: list[_Job]) -> Iterator[Row]:
-    import ray  # type: ignore[import-not-found, unused-ignore]
+    import ray  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
     if not ray.is_initialized():
         ray.init()
@@ -220,8 +220,8 @@ class _Journal:
             writer.writeheader()
             writer.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
         try:
-            import pyarrow  # type: ignore[import-not-found, unused-ignore]
-            import pyarrow.parquet  # type: ignore[import-not-found, unused-ignore]
+            import pyarrow  # type: ignore[import-not-found, import-untyped, unused-ignore]
+            import pyarrow.parquet  # type: ignore[import-not-found, import-untyped, unused-ignore]
         except ImportError:
             return
         columns = {name: [row.get(name) for row in rows] for name in (*names, *END)}
