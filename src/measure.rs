@@ -46,6 +46,29 @@ pub struct Measures {
 }
 
 impl Measures {
+    /// All of them by name: one number, or the three of a vector.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, Vec<f64>); 15] {
+        let vector = |vector: DVec3| vector.to_array().to_vec();
+        [
+            ("time", vec![self.time]),
+            ("water_mass", vec![self.water_mass]),
+            ("absorbed_mass", vec![self.absorbed_mass]),
+            ("saturation", vec![self.saturation]),
+            ("wicking_height", vec![self.wicking_height]),
+            ("sponge_volume", vec![self.sponge_volume]),
+            ("sponge_centre", vector(self.sponge_centre)),
+            ("linear_momentum", vector(self.linear_momentum)),
+            ("angular_momentum", vector(self.angular_momentum)),
+            ("kinetic_energy", vec![self.kinetic_energy]),
+            ("potential_energy", vec![self.potential_energy]),
+            ("elastic_energy", vec![self.elastic_energy]),
+            ("maximum_speed", vec![self.maximum_speed]),
+            ("mean_density_error", vec![self.mean_density_error]),
+            ("maximum_density_error", vec![self.maximum_density_error]),
+        ]
+    }
+
     pub(crate) fn of(world: &World) -> Self {
         let mut measures = Self { time: world.clock().time, ..Self::default() };
         let device = world.stores.device.as_ref();

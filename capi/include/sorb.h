@@ -360,6 +360,15 @@ typedef struct sorb_view {
   uint32_t element_type;
 } sorb_view;
 
+// A body or a sponge for ever: its number, and how many had that number before it, which is 0 for those of the scene. Functions that
+// take a number alone mean one with a generation of 0; in JSON a handle is `{"index": 0, "generation": 1}`, or the number.
+typedef struct sorb_handle {
+  // Its number.
+  uint32_t index;
+  // How many had this number before it.
+  uint32_t generation;
+} sorb_handle;
+
 // A ray.
 typedef struct sorb_ray {
   // Where it begins, -1000 to 1000 m.
@@ -548,6 +557,60 @@ sorb_status sorb_world_push_pour(struct sorb_world *world,
                                  const float *minimum,
                                  const float *maximum,
                                  const float *velocity);
+
+// Adds a body, and gives its handle, which the next step makes valid. `json` has the keys of a body of a scene (docs/scene-format.md):
+// `{"name": "ball", "shape": {"kind": "sphere", "radius": 0.02}, "position": [0, 0.2, 0]}`. A place in a sponge or in water is refused.
+sorb_status sorb_world_push_add_body(struct sorb_world *world,
+                                     const char *json,
+                                     struct sorb_handle *body);
+
+// Removes a body; what it held is let go.
+sorb_status sorb_world_push_remove_body(struct sorb_world *world, struct sorb_handle body);
+
+// Gives a body another `sorb_body_kind`, where it is now. A dynamic one begins with its velocity, others rest until a pose is pushed.
+sorb_status sorb_world_push_body_kind(struct sorb_world *world,
+                                      struct sorb_handle body,
+                                      uint32_t kind);
+
+// Adds a sponge, with the water in its pores, and gives its handle, which the next step makes valid. `json` has the keys of a sponge of a
+// scene: `{"name": "cube", "edge": 0.02, "cells": [3, 3, 3], "position": [0, 0.1, 0]}`. Rows of nodes change. A place in a body or in
+// another sponge is refused.
+sorb_status sorb_world_push_add_sponge(struct sorb_world *world,
+                                       const char *json,
+                                       struct sorb_handle *sponge);
+
+// Removes a sponge; the water in it stays where it is. Rows of nodes change.
+sorb_status sorb_world_push_remove_sponge(struct sorb_world *world, struct sorb_handle sponge);
+
+// Puts a sponge elsewhere, in its shape at rest, with the water in its pores. `position` is where the middle of its block goes: 3 numbers
+// of -1000 to 1000 m. `rotation` is a quaternion of unit length, x, y, z, w, and NULL for none; `velocity` has 3 numbers of -100 to
+// 100 m/s, and NULL is at rest.
+sorb_status sorb_world_push_place_sponge(struct sorb_world *world,
+                                         struct sorb_handle sponge,
+                                         const float *position,
+                                         const float *rotation,
+                                         const float *velocity);
+
+// Changes the material of a sponge from the next step on: `json` has the keys that change, such as `{"young_modulus": 5000}`.
+sorb_status sorb_world_push_material(struct sorb_world *world,
+                                     struct sorb_handle sponge,
+                                     const char *json);
+
+// Begins a stream of water, and gives its number. `json` has the keys of an emitter of a scene:
+// `{"position": [0, 0.2, 0], "velocity": [0, -1, 0], "radius": 0.01}`. It begins at once if its `start` is past.
+sorb_status sorb_world_push_emit(struct sorb_world *world, const char *json, uint32_t *flow);
+
+// Opens a drain, and gives its number. `json` has the keys of a drain of a scene:
+// `{"minimum": [0, 0, 0], "maximum": [0.1, 0.02, 0.1], "rate": 0.2}`. It opens at once if its `start` is past.
+sorb_status sorb_world_push_drain(struct sorb_world *world, const char *json, uint32_t *flow);
+
+// Ends an emitter or a drain by its number; those of the scene count from 0, emitters first. One that has ended is refused.
+sorb_status sorb_world_push_end_flow(struct sorb_world *world,
+                                     uint32_t flow);
+
+// Moves the container on, after the motions that it has. `json` is a list of motions of a scene, in absolute times:
+// `[{"kind": "linear", "velocity": [0.2, 0, 0], "start": 1.0, "end": 1.5, "ease": 0.1}]`.
+sorb_status sorb_world_push_container(struct sorb_world *world, const char *json);
 
 // What every ray meets first. `targets` is a sum of `sorb_target`; `hits` has room for `count`.
 sorb_status sorb_world_cast_rays(const struct sorb_world *world,

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Pushes a command, and records it if a recording runs.
-fn push(world: Option<&mut World>, command: Command) -> Result<(), Failure> {
+pub(crate) fn push(world: Option<&mut World>, command: Command) -> Result<(), Failure> {
     given(world, "world")?.change(|world, recorder| {
         match recorder {
             Some(recorder) => recorder.push(world, command),
@@ -28,9 +28,30 @@ fn push(world: Option<&mut World>, command: Command) -> Result<(), Failure> {
 ///
 /// # Safety
 /// `first` is null or points to three numbers.
-unsafe fn vector(first: *const f32, name: &str) -> Result<Vec3, Failure> {
+pub(crate) unsafe fn vector(first: *const f32, name: &str) -> Result<Vec3, Failure> {
     // SAFETY: the promise of the caller.
     unsafe { numbers::<3>(first, name) }.map(Vec3::from_array)
+}
+
+/// A vector of a caller, of which NULL is zero.
+///
+/// # Safety
+/// As [`vector`].
+pub(crate) unsafe fn optional_vector(first: *const f32, name: &str) -> Result<Vec3, Failure> {
+    // SAFETY: the promise of the caller.
+    if first.is_null() { Ok(Vec3::ZERO) } else { unsafe { vector(first, name) } }
+}
+
+/// A rotation of a caller, of which NULL is none.
+///
+/// # Safety
+/// `first` is null or points to four numbers.
+pub(crate) unsafe fn optional_rotation(first: *const f32) -> Result<Quat, Failure> {
+    if first.is_null() {
+        return Ok(Quat::IDENTITY);
+    }
+    // SAFETY: the promise of the caller.
+    unsafe { numbers::<4>(first, "rotation") }.map(Quat::from_array)
 }
 
 /// Any command, as JSON: `{"impulse": {"body": 0, "impulse": [0, 1, 0], "angular_impulse": [0, 0, 0]}}`. The next step begins with all
@@ -59,12 +80,8 @@ pub unsafe extern "C" fn sorb_world_push_pose(
     entry(|| {
         // SAFETY: the promise of the caller.
         let position = unsafe { vector(position, "position") }?;
-        let rotation = if rotation.is_null() {
-            Quat::IDENTITY
-        } else {
-            // SAFETY: as above.
-            Quat::from_array(unsafe { numbers::<4>(rotation, "rotation") }?)
-        };
+        // SAFETY: as above.
+        let rotation = unsafe { optional_rotation(rotation) }?;
         push(world, Command::Pose { body: body.into(), position, rotation, duration })
     })
 }
@@ -145,12 +162,8 @@ pub unsafe extern "C" fn sorb_world_push_pour(
         let minimum = unsafe { vector(minimum, "minimum") }?;
         // SAFETY: as above.
         let maximum = unsafe { vector(maximum, "maximum") }?;
-        let velocity = if velocity.is_null() {
-            Vec3::ZERO
-        } else {
-            // SAFETY: as above.
-            unsafe { vector(velocity, "velocity") }?
-        };
+        // SAFETY: as above.
+        let velocity = unsafe { optional_vector(velocity, "velocity") }?;
         push(world, Command::Pour { region: Region::Box { minimum, maximum }, velocity })
     })
 }

@@ -10,6 +10,7 @@
 #![allow(clippy::missing_safety_doc, reason = "the crate says once what a caller must keep to")]
 
 mod body;
+mod change;
 mod column;
 mod command;
 mod failure;
@@ -23,6 +24,7 @@ mod state;
 mod world;
 
 pub use body::*;
+pub use change::*;
 pub use column::*;
 pub use command::*;
 pub use failure::{Status, sorb_last_error, sorb_status_name};

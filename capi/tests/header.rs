@@ -3,7 +3,7 @@
 use std::{env, fs, path::Path};
 
 /// The order of the header: what is needed first comes first.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 12] = [
     "failure",
     "options",
     "scene",
@@ -12,6 +12,7 @@ const SOURCES: [&str; 11] = [
     "body",
     "column",
     "command",
+    "change",
     "query",
     "state",
     "recording",

@@ -26,6 +26,10 @@ pub(crate) enum CliError {
     #[cfg(feature = "validation")]
     #[error("{0}")]
     Drawing(String),
+    /// The water has no mesh.
+    #[cfg(feature = "surface")]
+    #[error("the surface of the water cannot be made: {0}")]
+    Surface(String),
     /// A file or folder of the results cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {

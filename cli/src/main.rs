@@ -17,6 +17,7 @@ mod replay;
 mod run;
 mod scenes;
 mod schema;
+mod sweep;
 #[cfg(feature = "validation")]
 mod validate;
 #[cfg(feature = "view")]
@@ -54,6 +55,8 @@ enum Command {
     Plan(plan::Arguments),
     /// Simulates a scene and writes measures and pictures
     Run(Box<run::Arguments>),
+    /// Runs a scene with many settings, alone or in parts, and writes a table
+    Sweep(Box<sweep::Arguments>),
     /// Draws films and stills of a scene, a recording or a save
     Render(Box<render::Arguments>),
     /// Shows a scene or a recording in a window, and lets the mouse act on it
@@ -78,6 +81,7 @@ fn main() -> ExitCode {
         Some(Command::Schema) => schema::run(),
         Some(Command::Plan(arguments)) => plan::run(&arguments),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Sweep(arguments)) => sweep::run(&arguments),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::View(arguments)) => view::run(&arguments),
         Some(Command::Record(arguments)) => record::run(&arguments),

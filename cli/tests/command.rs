@@ -12,6 +12,11 @@ mod runs;
 mod scenes;
 #[path = "command/support.rs"]
 mod support;
+#[cfg(feature = "surface")]
+#[path = "command/surfaces.rs"]
+mod surfaces;
+#[path = "command/sweeps.rs"]
+mod sweeps;
 #[path = "command/usage.rs"]
 mod usage;
 #[cfg(feature = "validation")]

@@ -2,7 +2,7 @@
 
 use pyo3::{prelude::*, types::PyBytes};
 use sorb::{
-    Command, Ledger, Load, Measures, Recorder, Save, Surface, Targets,
+    Command, Ledger, Load, Recorder, Save, Surface, Targets,
     glam::Vec3,
     render::{self, View},
 };
@@ -140,6 +140,23 @@ impl World {
         self.world.next_flow().number()
     }
 
+    /// Handle of the next body: its number, and how many had it before.
+    fn next_body(&self) -> (usize, u32) {
+        let body = self.world.next_body();
+        (body.index(), body.generation())
+    }
+
+    /// Handle of the next sponge.
+    fn next_sponge(&self) -> (usize, u32) {
+        let sponge = self.world.next_sponge();
+        (sponge.index(), sponge.generation())
+    }
+
+    /// Handles of the bodies that are there.
+    fn body_handles(&self) -> Vec<(usize, u32)> {
+        self.world.body_handles().map(|body| (body.index(), body.generation())).collect()
+    }
+
     fn bodies(&self) -> Vec<Body<'_>> {
         let bodies = self.world.bodies().iter().zip(&self.world.scene().bodies);
         bodies
@@ -168,24 +185,7 @@ impl World {
     }
 
     fn measures(&self, py: Python<'_>) -> Vec<(&'static str, Vec<f64>)> {
-        let own: Measures = py.detach(|| self.world.measures());
-        vec![
-            ("time", vec![own.time]),
-            ("water_mass", vec![own.water_mass]),
-            ("absorbed_mass", vec![own.absorbed_mass]),
-            ("saturation", vec![own.saturation]),
-            ("wicking_height", vec![own.wicking_height]),
-            ("sponge_volume", vec![own.sponge_volume]),
-            ("sponge_centre", own.sponge_centre.to_array().to_vec()),
-            ("linear_momentum", own.linear_momentum.to_array().to_vec()),
-            ("angular_momentum", own.angular_momentum.to_array().to_vec()),
-            ("kinetic_energy", vec![own.kinetic_energy]),
-            ("potential_energy", vec![own.potential_energy]),
-            ("elastic_energy", vec![own.elastic_energy]),
-            ("maximum_speed", vec![own.maximum_speed]),
-            ("mean_density_error", vec![own.mean_density_error]),
-            ("maximum_density_error", vec![own.maximum_density_error]),
-        ]
+        py.detach(|| self.world.measures()).named().into()
     }
 
     fn ledger(&self) -> (Vec<(&'static str, i64)>, f32) {

@@ -2,6 +2,8 @@
 
 import csv
 import json
+import os
+import subprocess
 
 import pytest
 
@@ -82,3 +84,43 @@ def test_wrong_settings_are_found_before_anything_runs(tmp_path):
     assert not out.exists()
     with pytest.raises(sorb.Error, match="shard"):
         sorb.sweep("ball_drop", {}, shard=(2, 2), **SMALL)
+
+
+@pytest.mark.skipif("SORB" not in os.environ, reason="SORB is not the path of the command sorb")
+def test_the_command_has_the_same_table(tmp_path):
+    names = ["absorbed_mass", "sponge_centre"]
+    sorb.sweep("ball_drop", GRID, names, out=tmp_path / "python.csv", frames=2)
+    keys = "".join(f"{key} = {json.dumps(values)}\n" for key, values in GRID.items())
+    plan = tmp_path / "plan.toml"
+    plan.write_text(f'scene = "ball_drop"\nframes = 2\nmeasures = {json.dumps(names)}\n[grid]\n{keys}')
+    command = [os.environ["SORB"], "sweep", plan, "--out", tmp_path / "parts"]
+    for shard in ("1/2", "0/2"):
+        subprocess.run([*command, "--shard", shard], check=True)
+    tables = []
+    for path in (tmp_path / "python.csv", tmp_path / "parts" / "table.csv"):
+        with path.open(newline="") as file:
+            tables.append(list(csv.DictReader(file)))
+    assert len(tables[0]) == 8 and list(tables[0][0]) == list(tables[1][0])
+    for row, other in zip(*tables):
+        assert (row.pop("digest"), row.pop("error")) == (other.pop("digest"), other.pop("error"))
+        for own in (row, other):
+            own.pop("wall_seconds")
+        assert {name: float(value) for name, value in row.items()} == {name: float(value) for name, value in other.items()}
+
+
+def test_vectors_are_three_columns_and_lists_are_json(tmp_path):
+    out = tmp_path / "table.csv"
+    grid = {"gravity": [[0, -9.81, 0], [0, 0, 0]]}
+    rows = sorb.sweep("ball_drop", grid, ["sponge_centre", "saturation"], resolution=0.2, out=out, **SMALL)
+    assert list(rows[0])[2:6] == ["sponge_centre_x", "sponge_centre_y", "sponge_centre_z", "saturation"]
+    with out.open(newline="") as file:
+        assert [row["gravity"] for row in csv.DictReader(file)] == ["[0,-9.81,0]", "[0,0,0]"]
+
+
+def test_the_table_is_there_as_parquet_too(tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
+    out = tmp_path / "table.csv"
+    grid = {"bodies.ball.density": [2000, 5000], "gravity": [[0, -9.81, 0]]}
+    rows = sorb.sweep("ball_drop", grid, ["absorbed_mass", "sponge_centre"], resolution=0.2, out=out, **SMALL)
+    read = parquet.read_table(tmp_path / "table.parquet").to_pylist()
+    assert read == rows and list(read[0]) == list(rows[0])

@@ -103,6 +103,35 @@ def test_commands_move_what_they_say(world):
     assert world.ledger()["drained"] > 0
 
 
+def test_bodies_and_sponges_come_and_go(world):
+    nodes = len(world.node_positions)
+    ball = {"name": "other", "shape": {"kind": "sphere", "radius": 0.01}, "position": [0.06, 0.2, 0.06]}
+    assert world.add_body(ball) == 1
+    world.advance_frame()
+    assert list(world.bodies) == list(world.body_loads()) == ["ball", "other"]
+    world.push("remove_body", body="other")
+    world.advance_frame()
+    assert list(world.bodies) == list(world.body_loads()) == ["ball"]
+    # The number is taken again, by another body: the first handle is stale.
+    second = world.add_body(ball)
+    assert second == {"index": 1, "generation": 1}
+    world.advance_frame()
+    with pytest.raises(sorb.CommandError, match="remove_body.body"):
+        world.push("remove_body", body=1)
+    world.push("body_kind", body="other", kind="kinematic")
+    world.move(second, [0.06, 0.15, 0.06])
+    world.advance_frame()
+    assert world.bodies["other"].position == pytest.approx((0.06, 0.15, 0.06), abs=1e-5)
+    sponge = world.add_sponge({"name": "cube", "edge": 0.015, "cells": [2, 2, 2], "position": [-0.08, 0.1, -0.08]})
+    world.advance_frame()
+    assert sponge == 1 and len(world.node_positions) == nodes + 27
+    world.push("remove_sponge", sponge=sponge)
+    world.advance_frame()
+    assert len(world.node_positions) == nodes
+    with pytest.raises(sorb.CommandError, match="edge"):
+        world.add_sponge({"edge": -1})
+
+
 @pytest.mark.parametrize(
     ("command", "keys", "text"),
     [

@@ -1,6 +1,7 @@
 //! The C interface as a caller uses and misuses it: bad input is a status and a text, and nothing is lost.
 #![allow(unsafe_code, reason = "calls what C calls")]
 
+mod changed;
 mod refused;
 mod used;
 

@@ -1,8 +1,11 @@
-//! Binary glTF 2.0: water as points, sponges as triangles with saturation as an own attribute.
+//! Binary glTF 2.0: water as points, sponges as triangles with saturation as an own attribute, bodies as triangles at their poses.
 
 use serde_json::{Value, json};
 
-use super::snapshot::{Snapshot, floats, integers};
+use super::{
+    bodies::Bodies,
+    snapshot::{Snapshot, floats, integers},
+};
 use crate::error::CliError;
 
 const FLOAT: u32 = 5126;
@@ -19,6 +22,7 @@ struct Parts {
     views: Vec<Value>,
     accessors: Vec<Value>,
     meshes: Vec<Value>,
+    nodes: Vec<Value>,
 }
 
 /// The file of a frame.
@@ -41,15 +45,10 @@ pub(super) fn file(frame: &Snapshot) -> Result<Vec<u8>, CliError> {
             "POSITION": parts.places(&frame.nodes),
             "_SATURATION": parts.accessor((floats(&frame.saturations), frame.saturations.len()), "SCALAR"),
         });
-        let indices = frame.triangles.as_flattened();
-        let view = parts.view(integers(indices), INDICES);
-        let indices = parts.accessors.len();
-        let count = 3 * frame.triangles.len();
-        parts
-            .accessors
-            .push(json!({ "bufferView": view, "componentType": UNSIGNED, "count": count, "type": "SCALAR" }));
+        let indices = parts.indices(&frame.triangles);
         parts.mesh("sponges", json!({ "attributes": attributes, "indices": indices, "mode": TRIANGLES }));
     }
+    parts.bodies(&frame.bodies);
     parts.finish()
 }
 
@@ -80,21 +79,55 @@ impl Parts {
         accessor
     }
 
+    /// Corners of triangles.
+    fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
+        let view = self.view(integers(triangles.as_flattened()), INDICES);
+        let count = 3 * triangles.len();
+        self.accessors
+            .push(json!({ "bufferView": view, "componentType": UNSIGNED, "count": count, "type": "SCALAR" }));
+        self.accessors.len() - 1
+    }
+
+    /// A node of the same name shows the mesh.
     fn mesh(&mut self, name: &str, primitive: Value) {
+        self.nodes.push(json!({ "name": name, "mesh": self.meshes.len() }));
         self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }
 
+    /// A node for every body, at its pose; that of a plane, which has no end, shows nothing.
+    fn bodies(&mut self, bodies: &Bodies) {
+        let poses = bodies.positions.iter().zip(&bodies.rotations);
+        for ((name, mesh), (position, rotation)) in bodies.names.iter().zip(&bodies.meshes).zip(poses) {
+            if mesh.triangles.is_empty() {
+                self.nodes.push(json!({ "name": name }));
+            } else {
+                let vertices: Vec<[f32; 3]> = mesh.vertices.iter().map(|vertex| vertex.to_array()).collect();
+                let attributes = json!({ "POSITION": self.places(&vertices) });
+                let indices = self.indices(&mesh.triangles);
+                self.mesh(name, json!({ "attributes": attributes, "indices": indices, "mode": TRIANGLES }));
+            }
+            if let Some(node) = self.nodes.last_mut() {
+                node["translation"] = json!(position);
+                node["rotation"] = json!(rotation);
+            }
+        }
+    }
+
     fn finish(self) -> Result<Vec<u8>, CliError> {
-        let nodes: Vec<Value> = (0..self.meshes.len()).map(|mesh| json!({ "mesh": mesh })).collect();
-        let roots: Vec<usize> = (0..nodes.len()).collect();
+        let roots: Vec<usize> = (0..self.nodes.len()).collect();
         let mut description = json!({ "asset": { "version": "2.0", "generator": "sorb" }, "scene": 0 });
         // Empty lists are not allowed.
         description["scenes"] = if roots.is_empty() { json!([{}]) } else { json!([{ "nodes": roots }]) };
-        if !roots.is_empty() {
-            description["nodes"] = json!(nodes);
-            description["meshes"] = json!(self.meshes);
-            description["accessors"] = json!(self.accessors);
-            description["bufferViews"] = json!(self.views);
+        let lists = [
+            ("nodes", self.nodes),
+            ("meshes", self.meshes),
+            ("accessors", self.accessors),
+            ("bufferViews", self.views),
+        ];
+        for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+            description[name] = Value::Array(list);
+        }
+        if !self.bytes.is_empty() {
             description["buffers"] = json!([{ "byteLength": self.bytes.len() }]);
         }
         let mut text = serde_json::to_vec(&description)?;

@@ -1,9 +1,12 @@
 //! Files of frames for other programs: `sorb run --export`.
 
+mod bodies;
 mod gltf;
 mod npy;
 mod ply;
 mod snapshot;
+#[cfg(feature = "surface")]
+mod surface;
 mod vtp;
 
 use std::{
@@ -20,14 +23,31 @@ use snapshot::Snapshot;
 /// Kinds of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
-    /// VTK poly data of water and sponges with a series (.pvd), for `ParaView`
+    /// VTK poly data of water, sponges and bodies with a series (.pvd), for `ParaView`
     Vtp,
-    /// Points of the water and meshes of the sponges, for Blender and `MeshLab`
+    /// Points of the water, meshes of sponges and bodies, for Blender and `MeshLab`
     Ply,
-    /// Columns as arrays of `NumPy`
+    /// Columns and poses as arrays of `NumPy`
     Npy,
-    /// Water as points and sponges as a mesh in one binary glTF file
+    /// Water as points, sponges and bodies as meshes in one binary glTF file
     Gltf,
+    /// Surface of the water as a mesh in PLY, with vtp as VTK poly data too; of programs with the feature `surface`
+    Surface,
+}
+
+/// Refuses formats that the program was built without.
+///
+/// # Errors
+/// [`CliError::Usage`].
+pub(crate) fn check(formats: &[Format]) -> Result<(), CliError> {
+    if cfg!(feature = "surface") || !formats.contains(&Format::Surface) {
+        return Ok(());
+    }
+    Err(CliError::Usage(
+        "this program was built without meshes of water; this one has them:\n\
+         cargo run --release -p sorb-cli --features surface -- run SCENE --export surface"
+            .to_owned(),
+    ))
 }
 
 /// Extensions of all files.
@@ -72,6 +92,11 @@ impl Exports {
                 Format::Ply => ply::files(&snapshot),
                 Format::Npy => npy::files(&snapshot),
                 Format::Gltf => vec![("scene.glb".to_owned(), gltf::file(&snapshot)?)],
+                #[cfg(feature = "surface")]
+                Format::Surface => self.surface(world)?,
+                // `check` has refused it.
+                #[cfg(not(feature = "surface"))]
+                Format::Surface => Vec::new(),
             };
             for (name, bytes) in files {
                 let (stem, extension) = name.split_once('.').unwrap_or((&name, ""));
@@ -80,6 +105,17 @@ impl Exports {
             }
         }
         Ok(())
+    }
+
+    #[cfg(feature = "surface")]
+    fn surface(&self, world: &World) -> Result<Vec<(String, Vec<u8>)>, CliError> {
+        let (vertices, triangles) = surface::surface(world)?;
+        let mut files = vec![("surface.ply".to_owned(), ply::mesh(&vertices, &triangles))];
+        if self.formats.contains(&Format::Vtp) {
+            let text = vtp::mesh(&vertices, &triangles, |_| ());
+            files.push(("surface.vtp".to_owned(), text.into_bytes()));
+        }
+        Ok(files)
     }
 
     /// Writes the series, of all frames that are there.

@@ -4,13 +4,14 @@ use super::snapshot::{Snapshot, floats, integers};
 
 /// A file for every column.
 pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
-    let vectors =
-        |rows: &[[f32; 3]]| file("<f4", &format!("({}, 3)", rows.len()), &floats(rows.as_flattened()));
+    fn vectors<const N: usize>(rows: &[[f32; N]]) -> Vec<u8> {
+        file("<f4", &format!("({}, {N})", rows.len()), &floats(rows.as_flattened()))
+    }
     let numbers = |rows: &[f32]| file("<f4", &format!("({},)", rows.len()), &floats(rows));
     let whole = |rows: &[u32]| file("<u4", &format!("({},)", rows.len()), &integers(rows));
     let triangles = &frame.triangles;
     let shape = format!("({}, 3)", triangles.len());
-    let columns = [
+    let mut columns = vec![
         ("particle_positions", vectors(&frame.particles)),
         ("particle_velocities", vectors(&frame.velocities)),
         ("particle_pressures", numbers(&frame.pressures)),
@@ -20,6 +21,16 @@ pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
         ("node_sponges", whole(&frame.sponges)),
         ("triangles", file("<u4", &shape, &integers(triangles.as_flattened()))),
     ];
+    let bodies = &frame.bodies;
+    if !bodies.is_empty() {
+        columns.extend([
+            ("body_numbers", whole(&bodies.numbers)),
+            ("body_positions", vectors(&bodies.positions)),
+            ("body_rotations", vectors(&bodies.rotations)),
+            ("body_linear_velocities", vectors(&bodies.linear_velocities)),
+            ("body_angular_velocities", vectors(&bodies.angular_velocities)),
+        ]);
+    }
     columns.into_iter().map(|(name, bytes)| (format!("{name}.npy"), bytes)).collect()
 }
 

@@ -1,13 +1,14 @@
 //! Binary PLY.
 
-use super::snapshot::Snapshot;
+use super::{bodies::Surfaces, snapshot::Snapshot};
 
-/// Water as vertices, and sponges as vertices and faces.
+const PLACE: &str = "property float x\nproperty float y\nproperty float z\n";
+
+/// Water as vertices, sponges and bodies as vertices and faces.
 pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
-    let place = "property float x\nproperty float y\nproperty float z\n";
     let count = frame.particles.len();
     let mut water = header(&format!(
-        "element vertex {count}\n{place}property float vx\nproperty float vy\nproperty float vz\n\
+        "element vertex {count}\n{PLACE}property float vx\nproperty float vy\nproperty float vz\n\
          property float pressure\nproperty uint id\n"
     ));
     let rows = frame.particles.iter().zip(&frame.velocities).zip(frame.pressures.iter().zip(&frame.ids));
@@ -17,10 +18,9 @@ pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
         }
         water.extend(id.to_le_bytes());
     }
-    let (nodes, faces) = (frame.nodes.len(), frame.triangles.len());
+    let (nodes, faces) = (frame.nodes.len(), elements(frame.triangles.len()));
     let mut sponges = header(&format!(
-        "element vertex {nodes}\n{place}property float saturation\nproperty uint sponge\n\
-         element face {faces}\nproperty list uchar uint vertex_indices\n"
+        "element vertex {nodes}\n{PLACE}property float saturation\nproperty uint sponge\n{faces}"
     ));
     for ((position, saturation), sponge) in frame.nodes.iter().zip(&frame.saturations).zip(&frame.sponges) {
         for value in position.iter().chain([saturation]) {
@@ -28,11 +28,45 @@ pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
         }
         sponges.extend(sponge.to_le_bytes());
     }
-    for triangle in &frame.triangles {
-        sponges.push(3);
-        sponges.extend(triangle.iter().flat_map(|node| node.to_le_bytes()));
+    triangles(&mut sponges, &frame.triangles);
+    let mut files = vec![("water.ply".to_owned(), water), ("sponges.ply".to_owned(), sponges)];
+    if !frame.bodies.is_empty() {
+        files.push(("bodies.ply".to_owned(), bodies(&frame.bodies.surfaces())));
     }
-    vec![("water.ply".to_owned(), water), ("sponges.ply".to_owned(), sponges)]
+    files
+}
+
+fn bodies(surfaces: &Surfaces) -> Vec<u8> {
+    let (count, faces) = (surfaces.vertices.len(), elements(surfaces.triangles.len()));
+    let mut bytes = header(&format!("element vertex {count}\n{PLACE}property uint body\n{faces}"));
+    for (position, body) in surfaces.vertices.iter().zip(&surfaces.bodies) {
+        bytes.extend(position.iter().flat_map(|value| value.to_le_bytes()));
+        bytes.extend(body.to_le_bytes());
+    }
+    triangles(&mut bytes, &surfaces.triangles);
+    bytes
+}
+
+/// A mesh without more.
+#[cfg(feature = "surface")]
+pub(super) fn mesh(vertices: &[[f32; 3]], corners: &[[u32; 3]]) -> Vec<u8> {
+    let (count, faces) = (vertices.len(), elements(corners.len()));
+    let mut bytes = header(&format!("element vertex {count}\n{PLACE}{faces}"));
+    bytes.extend(vertices.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
+    triangles(&mut bytes, corners);
+    bytes
+}
+
+/// So many triangles, in a header.
+fn elements(faces: usize) -> String {
+    format!("element face {faces}\nproperty list uchar uint vertex_indices\n")
+}
+
+fn triangles(bytes: &mut Vec<u8>, triangles: &[[u32; 3]]) {
+    for triangle in triangles {
+        bytes.push(3);
+        bytes.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));
+    }
 }
 
 fn header(elements: &str) -> Vec<u8> {

@@ -2,6 +2,8 @@
 
 use sorb::World;
 
+use super::bodies::Bodies;
+
 /// What is exported of a frame.
 #[derive(Debug)]
 pub(super) struct Snapshot {
@@ -21,6 +23,8 @@ pub(super) struct Snapshot {
     pub(super) sponges: Vec<u32>,
     /// Outer surface: nodes of every triangle.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Poses and surfaces of the bodies.
+    pub(super) bodies: Bodies,
 }
 
 impl Snapshot {
@@ -38,6 +42,7 @@ impl Snapshot {
             saturations,
             sponges: world.lattice().node_sponge.clone(),
             triangles: world.lattice().triangles.clone(),
+            bodies: Bodies::of(world),
         }
     }
 }

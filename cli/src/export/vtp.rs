@@ -2,9 +2,9 @@
 
 use std::fmt::{Display, Write as _};
 
-use super::snapshot::Snapshot;
+use super::{bodies::Surfaces, snapshot::Snapshot};
 
-/// Water as vertices, and sponges as triangles.
+/// Water as vertices, sponges and bodies as triangles.
 pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
     let count = frame.particles.len();
     let mut water = begin(count, count, 0);
@@ -19,17 +19,32 @@ pub(super) fn files(frame: &Snapshot) -> Vec<(String, Vec<u8>)> {
     water.push_str("</Verts>\n");
     end(&mut water);
 
-    let mut sponges = begin(frame.nodes.len(), 0, frame.triangles.len());
-    sponges.push_str("<PointData>\n");
-    numbers(&mut sponges, ("Float32", "saturation"), &frame.saturations);
-    numbers(&mut sponges, ("UInt32", "sponge"), &frame.sponges);
-    sponges.push_str("</PointData>\n<Points>\n");
-    vectors(&mut sponges, "position", &frame.nodes);
-    sponges.push_str("</Points>\n<Polys>\n");
-    cells(&mut sponges, frame.triangles.as_flattened(), 3);
-    sponges.push_str("</Polys>\n");
-    end(&mut sponges);
-    vec![("water.vtp".to_owned(), water.into_bytes()), ("sponges.vtp".to_owned(), sponges.into_bytes())]
+    let sponges = mesh(&frame.nodes, &frame.triangles, |text| {
+        numbers(text, ("Float32", "saturation"), &frame.saturations);
+        numbers(text, ("UInt32", "sponge"), &frame.sponges);
+    });
+    let mut files =
+        vec![("water.vtp".to_owned(), water.into_bytes()), ("sponges.vtp".to_owned(), sponges.into_bytes())];
+    if !frame.bodies.is_empty() {
+        let Surfaces { vertices, bodies, triangles } = frame.bodies.surfaces();
+        let bodies = mesh(&vertices, &triangles, |text| numbers(text, ("UInt32", "body"), &bodies));
+        files.push(("bodies.vtp".to_owned(), bodies.into_bytes()));
+    }
+    files
+}
+
+/// Triangles, with data of their corners.
+pub(super) fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]], data: impl FnOnce(&mut String)) -> String {
+    let mut text = begin(positions.len(), 0, triangles.len());
+    text.push_str("<PointData>\n");
+    data(&mut text);
+    text.push_str("</PointData>\n<Points>\n");
+    vectors(&mut text, "position", positions);
+    text.push_str("</Points>\n<Polys>\n");
+    cells(&mut text, triangles.as_flattened(), 3);
+    text.push_str("</Polys>\n");
+    end(&mut text);
+    text
 }
 
 /// A series: files with their times \[s\].

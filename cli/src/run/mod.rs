@@ -13,7 +13,11 @@ use std::time::{Duration, Instant};
 
 use sorb::{FrameReport, Measures, StepError, World, scene::Scene};
 
-use crate::{error::CliError, export::Exports, output};
+use crate::{
+    error::CliError,
+    export::{self, Exports},
+    output,
+};
 use bodies::Bodies;
 use folder::Folder;
 pub(crate) use options::Arguments;
@@ -44,6 +48,7 @@ struct Record {
 /// # Errors
 /// The scene or the options are invalid, results cannot be written, or the simulation diverged.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
+    export::check(&arguments.export)?;
     let (mut world, done) = begin(arguments)?;
     let scene = world.scene().clone();
     let frames = arguments.frames(&scene, done);

@@ -24,12 +24,14 @@ class Questions:
     @property
     def bodies(self) -> dict[str, Body]:
         """Poses and velocities of the bodies, by name in the order of the scene."""
-        return {own[0]: Body(*own) for own in self._world.bodies()}
+        own = self._world.bodies()
+        return {own[index][0]: Body(*own[index]) for index, _ in self._world.body_handles()}
 
     def body_loads(self) -> dict[str, BodyLoads]:
         """What acts on every body, by name; empty before the first step."""
         loads = [BodyLoads(**{name: Load(*own) for name, *own in body}) for body in self._world.body_loads()]
-        return dict(zip(self.bodies, loads))
+        names = [own[0] for own in self._world.bodies()]
+        return {names[index]: loads[index] for index, _ in self._world.body_handles() if index < len(loads)}
 
     def measures(self) -> dict[str, Any]:
         """Masses, momenta, energies and errors of the present state; docs/measures.md explains them."""

@@ -60,14 +60,15 @@ def sweep(
         source: a scene, as `World` takes it.
         grid: for every key its values, of which all combinations run, or the settings of every run. Keys are those of scenes, and
             "resolution" and "quality".
-        measure: names of measures (`World.measures`), or a function that takes the world at the end and returns a number or a
-            dictionary; default: all measures that are numbers.
+        measure: names of measures (`World.measures`), of which vectors become three numbers such as `sponge_centre_x`, or a function that
+            takes the world at the end and returns a number or a dictionary; default: all measures that are numbers.
         frames, seconds: length of a run, as `World.run` takes it.
         processes: number of processes, at least 1. In more than one, worlds have one thread each unless `threads` is given.
         on: "processes" of this machine, or "ray": a Ray cluster, which retries runs of workers that are lost.
         out: path of the table as CSV; beside it goes the same as `.parquet` if pyarrow is installed, and the runs as they end
             (`.jsonl`). Runs that are there are not run again, so that a sweep that was ended continues.
-        shard: of i and n: every n-th run from the i-th on, for jobs of a cluster. Give every shard an `out` of its own.
+        shard: of i and n: every n-th run from the i-th on, for jobs of a cluster. Give every shard an `out` of its own. The command
+            `sorb sweep` makes one table of all shards.
         options: `overrides`, `quality`, `resolution`, `threads` and keys, as `World` takes them.
 
     Returns:
@@ -148,7 +149,11 @@ def _measured(world: World, measure: Measure) -> dict[str, Any]:
     unknown = [name for name in names if name not in own]
     if unknown:
         raise Error(f"no measure {unknown}; measures: {', '.join(own)}", unknown)
-    return {name: own[name] for name in names}
+    found = {}
+    for name in names:
+        vector = isinstance(own[name], tuple)
+        found.update(zip((f"{name}_{axis}" for axis in "xyz"), own[name]) if vector else [(name, own[name])])
+    return found
 
 
 def _rows(jobs: list[_Job], processes: int, on: str) -> Iterator[Row]:
@@ -168,7 +173,7 @@ def _rows(jobs: list[_Job], processes: int, on: str) -> Iterator[Row]:
 
 
 def _on_ray(jobs: list[_Job]) -> Iterator[Row]:
-    import ray  # type: ignore[import-not-found, unused-ignore]
+    import ray  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
     if not ray.is_initialized():
         ray.init()
@@ -213,14 +218,20 @@ class _Journal:
         with self.table.open("w", newline="") as file:
             writer = csv.DictWriter(file, [*names, *END], restval="")
             writer.writeheader()
-            writer.writerows(rows)
+            writer.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
         try:
-            import pyarrow  # type: ignore[import-not-found, unused-ignore]
-            import pyarrow.parquet  # type: ignore[import-not-found, unused-ignore]
+            import pyarrow  # type: ignore[import-not-found, import-untyped, unused-ignore]
+            import pyarrow.parquet  # type: ignore[import-not-found, import-untyped, unused-ignore]
         except ImportError:
             return
         columns = {name: [row.get(name) for row in rows] for name in (*names, *END)}
         pyarrow.parquet.write_table(pyarrow.table(columns), self.table.with_suffix(".parquet"))
+
+
+def _cell(value: Any) -> Any:
+    """A value in a table: text and numbers as they are, all else as JSON, as `sorb sweep` of the command has them."""
+    plain_value = isinstance(value, (str, int, float)) and not isinstance(value, bool)
+    return value if plain_value else json.dumps(value, separators=(",", ":"))
 
 
 def _entry(line: str) -> dict[str, Any] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,10 @@ from ._errors import CommandError, Error, QueryError
 from ._questions import Questions
 from ._results import Clock, FrameReport, StepReport
 from ._scene import Scene, plain, source_of, texts_of
+
+# The number of a body or sponge, or {"index": .., "generation": ..} where others had the number before.
+Handle = Union[int, dict[str, int]]
+
 
 class World(Columns, Questions):
     """A scene in motion.
@@ -106,7 +110,8 @@ class World(Columns, Questions):
         if frames is None:
             rate = self.scene["time"]["frame_rate"]
             span = seconds if seconds is not None else self.scene["time"]["duration"] - self.clock.time
-            frames = int(np.ceil(span * rate - 1e-6))
+            # Rates and durations have 24 bits: 6000 frames may be 6000.0004.
+            frames = max(int(np.ceil(span * rate - 1e-3)), 0)
         elif seconds is not None:
             raise ValueError("give frames or seconds, not both")
         for _ in range(frames):
@@ -139,7 +144,7 @@ class World(Columns, Questions):
             world.push("impulse", body="ball", impulse=[0, 1, 0], angular_impulse=[0, 0, 0])
             world.push({"remove": {"region": {"sphere": {"centre": [0, 0.1, 0], "radius": 0.05}}}})
 
-        Bodies go by name or number. docs/embedding.md lists the commands, src/command/mod.rs their fields with ranges.
+        Bodies go by name, number or handle. docs/embedding.md lists the commands, src/command/mod.rs their fields with ranges.
 
         Raises:
             CommandError: a value is out of range, or there is no such body or node; nothing has changed.
@@ -148,12 +153,12 @@ class World(Columns, Questions):
         own = plain(own, "", CommandError)
         for kind, values in own.items():
             if isinstance(values, dict) and isinstance(values.get("body"), str):
-                values["body"] = self._number_of(values["body"], f"{kind}.body")
+                values["body"] = self._handle_of(values["body"], f"{kind}.body")
         self._world.push(json.dumps(own))
 
     def move(
         self,
-        body: str | int,
+        body: str | Handle,
         position: Sequence[float],
         rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
         duration: float | None = None,
@@ -161,7 +166,7 @@ class World(Columns, Questions):
         """Moves a kinematic body to a pose at constant velocity and rate.
 
         Args:
-            body: name or number.
+            body: name, number or handle.
             position: of its centre, -1000 to 1000 m.
             rotation: quaternion of unit length: x, y, z, w.
             duration: time to get there, 0.000001 to 100000 s; default: a frame.
@@ -191,16 +196,37 @@ class World(Columns, Questions):
         """Opens a drain with the keys of `drains` in a scene; its number."""
         return self._begin("drain", "drain", drain)
 
+    def add_body(self, body: Mapping[str, Any]) -> Handle:
+        """Adds a body with the keys of `bodies` in a scene; its handle, for `push("remove_body", body=...)`.
+
+        Raises:
+            CommandError: as `push`, or it is in a sponge or in water.
+        """
+        handle = _handle(*self._world.next_body())
+        self.push({"add_body": {"body": handle, "description": body}})
+        return handle
+
+    def add_sponge(self, sponge: Mapping[str, Any]) -> Handle:
+        """Adds a sponge with the keys of `sponges` in a scene; its handle, for `push("remove_sponge", sponge=...)`. Rows of nodes change.
+
+        Raises:
+            CommandError: as `push`, or it is in a body or in another sponge.
+        """
+        handle = _handle(*self._world.next_sponge())
+        self.push({"add_sponge": {"sponge": handle, "description": sponge}})
+        return handle
+
     def _begin(self, kind: str, name: str, flow: Mapping[str, Any]) -> int:
         number = self._world.next_flow()
         self.push({kind: {"number": number, name: flow}})
         return number
 
-    def _number_of(self, name: str, key: str) -> int:
+    def _handle_of(self, name: str, key: str) -> Handle:
         names = [body[0] for body in self._world.bodies()]
-        if name not in names:
-            raise CommandError(f"command: `{key}` = {name!r} is no body; bodies: {', '.join(names)}", [key])
-        return names.index(name)
+        found = {names[index]: _handle(index, generation) for index, generation in self._world.body_handles()}
+        if name not in found:
+            raise CommandError(f"command: `{key}` = {name!r} is no body; bodies: {', '.join(found)}", [key])
+        return found[name]
 
     # States.
 
@@ -320,6 +346,10 @@ def write_png(path: str | os.PathLike[str], picture: npt.ArrayLike) -> None:
     if pixels.ndim != 3 or pixels.shape[2] != 3:
         raise Error(f"a picture of shape {pixels.shape}; expected (height, width, 3)")
     _sorb.write_png(os.fspath(path), pixels.shape[1], pixels.shape[0], pixels.tobytes())
+
+
+def _handle(index: int, generation: int) -> Handle:
+    return index if generation == 0 else {"index": index, "generation": generation}
 
 
 def _place(values: Sequence[float] | None) -> tuple[float, float, float] | None:
