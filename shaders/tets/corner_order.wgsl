@@ -25,12 +25,12 @@ fn main(
         // By fours: lavapipe ends the loops of a thread after 65 535 turns in all.
         for (var other = list.x; other < list.y; other += 4u) {
             let at = other + vec4<u32>(0u, 1u, 2u, 3u);
-            let from = at - base;
+            let place_at = at - base;
             let places = vec4<u32>(
-                corner_places[from.x],
-                corner_places[from.y],
-                corner_places[from.z],
-                corner_places[from.w],
+                corner_places[place_at.x],
+                corner_places[place_at.y],
+                corner_places[place_at.z],
+                corner_places[place_at.w],
             );
             ranks += select(vec4<u32>(0u), vec4<u32>(1u), (places < vec4<u32>(own)) & (at < vec4<u32>(list.y)));
         }
