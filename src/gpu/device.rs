@@ -9,7 +9,7 @@ use sorb_kernels::{
     columns::{Column, Columns},
     couple::weights::weigh,
     cpu::Cpu,
-    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, make_room},
+    gpu::{Answer, Dispatches, Gpu, GpuError, Pending, Profile, Program, Resident, Start, make_room},
     params::Params,
     stage::Stage,
 };
@@ -136,6 +136,16 @@ impl Device {
     /// The device.
     pub(crate) fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
+    }
+
+    /// The dispatches of a step: of the kernels that run here.
+    pub(crate) fn dispatches(&self, host: &Columns, params: &Params) -> Result<Dispatches, GpuError> {
+        let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
+        let stages: Vec<Stage> = shares.flat_map(|share| share.stages.clone()).collect();
+        Ok(match self.resident() {
+            Some(resident) => resident.dispatches_of(&stages),
+            None => Resident::new(&self.gpu, host, params, self.limits)?.dispatches_of(&stages),
+        })
     }
 
     /// The columns on the device, if there are any yet.
