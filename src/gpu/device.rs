@@ -251,6 +251,8 @@ impl Device {
         }
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
         resident.upload(host, &columns, false)?;
+        // Kernels are timed one by one.
+        resident.set_fused(!self.wants_times);
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
         let programs =
             shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;

@@ -3,17 +3,20 @@
 use std::fmt;
 
 use super::{
+    fusion::{Dispatched, dispatched},
     groups::CONTROL_THREADS,
     jobs::{Job, Jobs},
     program::FIRST_ROUNDS,
     resident::Resident,
-    twins::{END_ROUND, END_ROUNDS, Rows},
+    twins::{END_ROUNDS, Rows},
 };
 use crate::stage::Stage;
 
 /// Dispatches of a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dispatches {
+    /// Every dispatch in order: its passes, those side by side after a bar; and whether it is of a round.
+    pub passes: Vec<(String, bool)>,
     /// Kernels in the order of their first pass.
     pub kernels: Vec<KernelDispatches>,
     /// Dispatches outside of repetitions that end when they have converged.
@@ -42,6 +45,12 @@ impl Dispatches {
         self.once + self.rounds.iter().map(|(passes, rounds)| passes * *rounds as usize).sum::<usize>()
     }
 
+    /// Lists dispatches, and returns their number.
+    fn list(&mut self, dispatched: &[Dispatched], is_round: bool) -> usize {
+        self.passes.extend(dispatched.iter().map(|all| (all.names(), is_round)));
+        dispatched.len()
+    }
+
     fn count(&mut self, jobs: &[Job], is_round: bool) {
         for job in jobs {
             let threads = if job.pass.rows == Rows::Controls { CONTROL_THREADS } else { job.threads.shares };
@@ -58,6 +67,10 @@ impl Dispatches {
 
 impl fmt::Display for Dispatches {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(formatter, "dispatches of a step, and of a round:")?;
+        for (names, is_round) in &self.passes {
+            writeln!(formatter, "{} {names}", if *is_round { "round" } else { "once " })?;
+        }
         writeln!(formatter, "passes of a step, those of a round, and threads of a row:")?;
         for KernelDispatches { kernel, once, in_round, threads } in &self.kernels {
             writeln!(formatter, "{once:6} {in_round:6} {threads:6}  {kernel}")?;
@@ -75,25 +88,25 @@ impl Resident {
     /// are encoded at first.
     #[must_use]
     pub fn dispatches_of(&self, stages: &[Stage]) -> Dispatches {
-        let mut all = Dispatches { kernels: Vec::new(), once: 0, rounds: Vec::new() };
+        let mut all = Dispatches { passes: Vec::new(), kernels: Vec::new(), once: 0, rounds: Vec::new() };
         for part in self.jobs_of(stages) {
             match part {
                 Jobs::Once(jobs) => {
-                    all.once += jobs.len();
+                    all.once += all.list(&self.dispatched(&jobs), false);
                     all.count(&jobs, false);
                 }
-                Jobs::Rounds { maximum, mut jobs } => {
-                    jobs.extend(self.jobs("clock", &END_ROUND));
+                Jobs::Rounds { maximum, jobs } => {
                     let end = self.jobs("clock", &END_ROUNDS);
-                    all.once += end.len();
-                    all.rounds.push((jobs.len(), maximum.min(FIRST_ROUNDS)));
+                    let of_round = all.list(&self.dispatched(&jobs), true);
+                    all.rounds.push((of_round, maximum.min(FIRST_ROUNDS)));
+                    all.once += all.list(&dispatched(&end, None), false);
                     all.count(&jobs, true);
                     all.count(&end, false);
                 }
             }
         }
         let last = self.last_jobs();
-        all.once += last.len();
+        all.once += all.list(&dispatched(&last, None), false);
         all.count(&last, false);
         all
     }

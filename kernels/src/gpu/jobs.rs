@@ -2,14 +2,15 @@
 
 use super::{
     cells::ONE_GROUP_PAGES,
+    fusion::{Dispatched, dispatched},
     groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of},
     lists::IMAGES,
     pack::BATCHES,
     pipeline::{Threads, has_any_group, has_shares},
     resident::Resident,
-    twins::{BODY_WRENCHES, CHECK, FINISH, Pass, Rows},
+    twins::{BODY_WRENCHES, CHECK, FINISH, LAST, Pass, Rows},
 };
-use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS, stage::Stage};
+use crate::{column::Life, columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS, stage::Stage};
 
 /// A pass, over the rows that a scene has for it.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +19,9 @@ pub(super) struct Job {
     pub(super) pass: Pass,
     /// Which of the batches, for passes that are dispatched once for each.
     pub(super) color: usize,
+    pub(super) work: Work,
     pub(super) threads: Threads,
-    pub(super) groups: [u32; 2],
+    pub(super) groups: [u32; 3],
 }
 
 /// The passes of a part of a step, in order.
@@ -46,23 +48,32 @@ impl Resident {
     pub(super) fn jobs_of(&self, stages: &[Stage]) -> Vec<Jobs> {
         let mut all = Vec::new();
         let mut before: Option<&Kernel> = None;
-        let kernels = stages.iter().flat_map(Stage::kernels);
-        let last_search = kernels.rev().find(|kernel| kernel.searches_fluid()).map(|kernel| kernel.name);
-        for stage in stages {
+        let mut unchecked: Option<&'static str> = None;
+        for (index, stage) in stages.iter().enumerate() {
             let mut jobs = Vec::new();
+            let later = &stages[index..];
+            // As late as it can be: nothing waits for it that need not.
+            if let Some(kernel) = unchecked.filter(|_| is_check_due(later)) {
+                unchecked = None;
+                push_once(&mut all, self.jobs(kernel, &CHECK));
+            }
             for kernel in stage.kernels() {
                 let is_done = before.is_some_and(|before| kernel.is_done_by(before));
-                let is_checked_later = kernel.searches_fluid() && last_search != Some(kernel.name);
-                let is_needed = |pass: &&Pass| !(is_done || is_checked_later && **pass == CHECK);
-                let needed = kernel.twin.iter().filter(is_needed);
+                let needed = kernel.twin.iter().filter(|pass| !is_done && **pass != CHECK);
                 jobs.extend(needed.flat_map(|pass| self.jobs(kernel.name, pass)));
+                unchecked = if kernel.searches_fluid() { Some(kernel.name) } else { unchecked };
                 before = Some(kernel);
             }
-            match (stage, all.last_mut()) {
-                (Stage::Run(_), Some(Jobs::Once(last))) => last.append(&mut jobs),
-                (Stage::Run(_), _) => all.push(Jobs::Once(jobs)),
-                (Stage::Rounds { maximum, .. }, _) => all.push(Jobs::Rounds { maximum: *maximum, jobs }),
+            match stage {
+                Stage::Run(_) => push_once(&mut all, jobs),
+                Stage::Rounds { maximum, .. } => {
+                    jobs.last_mut().into_iter().for_each(|job| job.pass = job.pass.from(LAST));
+                    all.push(Jobs::Rounds { maximum: *maximum, jobs });
+                }
             }
+        }
+        if let Some(kernel) = unchecked {
+            push_once(&mut all, self.jobs(kernel, &CHECK));
         }
         all
     }
@@ -82,17 +93,29 @@ impl Resident {
             _ => 0..1,
         };
         let job = |color| {
-            let (threads, count) = match self.work(pass.rows, color) {
+            let work = self.work(pass.rows, color);
+            let (threads, count) = match work {
                 Work::Groups(count) => (Threads { group: GROUP_THREADS, shares: 1 }, count),
                 Work::Rows(rows) => {
-                    let shares = if has_shares(text) { shares_of(rows) } else { 1 };
+                    let shares = if has_shares(text) { shares_of(self.sharing(pass.rows, rows)) } else { 1 };
                     let group = if has_any_group(text) { group_of(rows) } else { GROUP_THREADS };
                     (Threads { group, shares }, rows.div_ceil(u64::from(group / shares)))
                 }
             };
-            Job { kernel, pass: *pass, color, threads, groups: self.lines(count) }
+            Job { kernel, pass: *pass, color, work, threads, groups: self.lines(count) }
         };
         batches.map(job).filter(|job| job.groups[0] > 0).collect()
+    }
+
+    /// Passes in as few dispatches as the device permits.
+    pub(super) fn dispatched(&self, jobs: &[Job]) -> Vec<Dispatched> {
+        let limits = self.is_fused.then_some(&self.gpu.limits);
+        dispatched(jobs, limits)
+    }
+
+    /// Rows that decide how many threads share one: as many for images as for their particles.
+    fn sharing(&self, rows: Rows, count: u64) -> u64 {
+        if matches!(rows, Rows::Images | Rows::ImagesOfBodies) { self.rows.fluid as u64 } else { count }
     }
 
     /// Rows of a pass, or groups if its threads come in groups.
@@ -127,18 +150,38 @@ impl Resident {
     }
 
     /// Groups in two dimensions, none larger than the device allows.
-    fn lines(&self, count: u64) -> [u32; 2] {
+    pub(super) fn lines(&self, count: u64) -> [u32; 3] {
         let maximum = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
         if count <= maximum {
-            return [count as u32, 1];
+            return [count as u32, 1, 1];
         }
         let lines = count.div_ceil(maximum);
-        [count.div_ceil(lines) as u32, lines as u32]
+        [count.div_ceil(lines) as u32, lines as u32, 1]
     }
 }
 
+/// Appends passes to the last part.
+fn push_once(all: &mut Vec<Jobs>, mut jobs: Vec<Job>) {
+    match all.last_mut() {
+        Some(Jobs::Once(last)) => last.append(&mut jobs),
+        _ => all.push(Jobs::Once(jobs)),
+    }
+}
+
+/// Whether what comes next may only be done if all lists fit: rounds, and what writes what survives the step.
+fn is_check_due(stages: &[Stage]) -> bool {
+    let searches = |kernel: &&Kernel| kernel.searches_fluid();
+    let lasts = |kernel: &&Kernel| kernel.writes.iter().any(|column| column.life() == Life::State);
+    let is_last = !stages.iter().flat_map(Stage::kernels).any(searches);
+    let next = stages.first();
+    is_last
+        && next
+            .is_some_and(|stage| matches!(stage, Stage::Rounds { .. }) || stage.kernels().iter().any(lasts))
+}
+
 /// What a pass is over.
-enum Work {
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Work {
     /// Rows: groups are as large as is best, and threads share rows where there are few.
     Rows(u64),
     /// Groups of threads.

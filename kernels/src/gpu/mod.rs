@@ -22,6 +22,7 @@ mod dispatches;
 mod error;
 mod facts;
 mod form;
+mod fusion;
 mod groups;
 mod images;
 mod jobs;
@@ -89,7 +90,6 @@ mod tests {
         let helpers = [
             twins::BEGIN,
             twins::BODY_WRENCHES,
-            twins::END_ROUND,
             twins::END_ROUNDS,
             twins::FINISH,
             twins::RESUME,

@@ -6,12 +6,13 @@ use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 
 use super::{
     error::GpuError,
+    fusion::Dispatched,
     jobs::{Job, Jobs},
     layout::Value,
     pack::{BATCH_STRIDE, Batch, Repetition},
     pipeline::Pipeline,
     resident::Resident,
-    twins::{BEGIN, END_ROUND, END_ROUNDS, Pass, RESUME},
+    twins::{BEGIN, END_ROUNDS, Pass, RESUME, Rows},
 };
 use crate::{kernel::Kernel, stage::Stage};
 
@@ -26,7 +27,7 @@ pub(super) struct Dispatch {
     pub(super) kernel: &'static str,
     pub(super) pipeline: Arc<Pipeline>,
     pub(super) bind: BindGroup,
-    pub(super) groups: [u32; 2],
+    pub(super) groups: [u32; 3],
 }
 
 /// A part of a step.
@@ -138,8 +139,17 @@ impl Resident {
     pub fn program_of(&self, stages: Vec<Stage>) -> Result<Program, GpuError> {
         let mut step = Vec::new();
         let mut repetitions = 0;
-        for jobs in self.jobs_of(&stages) {
-            let dispatches = self.bind_all(jobs.jobs(), None)?;
+        let parts: Vec<(Jobs, Vec<Dispatched>)> = self
+            .jobs_of(&stages)
+            .into_iter()
+            .map(|jobs| {
+                let all = self.dispatched(jobs.jobs());
+                (jobs, all)
+            })
+            .collect();
+        self.gpu.compile_all(parts.iter().flat_map(|(_, all)| all))?;
+        for (jobs, fused) in parts {
+            let dispatches = fused.iter().map(|all| self.bind_fused(all)).collect::<Result<_, _>>()?;
             step.push(match jobs {
                 Jobs::Once(_) => Part::Once(dispatches),
                 Jobs::Rounds { maximum, .. } => {
@@ -159,7 +169,7 @@ impl Resident {
         &self,
         maximum: u32,
         index: usize,
-        mut round: Vec<Dispatch>,
+        round: Vec<Dispatch>,
     ) -> Result<Rounds, GpuError> {
         if index > REPETITIONS {
             let reason = format!("more than {REPETITIONS} repetitions that end when they have converged");
@@ -167,9 +177,7 @@ impl Resident {
         }
         let maximum = maximum.max(1);
         let repetition = self.uniform("repetition", &Repetition { maximum, index: index as u32 })?;
-        let own = Some(("repetition", &repetition));
-        round.extend(self.bind_all(&self.jobs("clock", &END_ROUND), own)?);
-        let end = self.bind_all(&self.jobs("clock", &END_ROUNDS), own)?;
+        let end = self.bind_all(&self.jobs("clock", &END_ROUNDS), Some(("repetition", &repetition)))?;
         Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
     }
 
@@ -201,10 +209,24 @@ impl Resident {
     }
 
     fn bind(&self, job: &Job, own: Option<(&str, &Buffer)>) -> Result<Dispatch, GpuError> {
-        let Job { kernel, pass, color, threads, groups } = *job;
+        let Job { kernel, pass, color, threads, groups, .. } = *job;
         let pipeline = self.gpu.pipeline(pass.shader, pass.entry, threads)?;
         let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, color, own))?;
         Ok(Dispatch { kernel, pipeline, bind, groups })
+    }
+
+    /// Passes of one dispatch.
+    fn bind_fused(&self, all: &Dispatched) -> Result<Dispatch, GpuError> {
+        if let Some(job) = all.single() {
+            return self.bind(job, None);
+        }
+        let kernel = all.jobs().next().map_or("", |job| job.kernel);
+        let pipeline = self.gpu.fused_pipeline(all)?;
+        let pass = Pass { shader: "fused", entry: "fused", rows: Rows::One, names: &[] };
+        let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, 0, None))?;
+        let (count, beside) = all.groups();
+        let [x, y, _] = self.lines(count);
+        Ok(Dispatch { kernel, pipeline, bind, groups: [x, y, beside] })
     }
 
     pub(super) fn bind_group(
