@@ -75,6 +75,7 @@ fn names(folder: &Path, extension: Option<&str>) -> Result<Vec<String>, Box<dyn 
 fn entry(name: &str, common: &[String], path: &str) -> String {
     let text = |path: &str| format!("include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/{path}\"))");
     let common: Vec<String> = common.iter().map(|path| text(path)).collect();
-    let all = [common, vec![text(path)]].concat().join(", ");
-    format!("Shader {{ name: {name:?}, source: concat!({all}) }},\n")
+    let (own, parts) = (text(path), common.join(", "));
+    let all = [common, vec![own.clone()]].concat().join(", ");
+    format!("Shader {{ name: {name:?}, common: &[{parts}], own: {own}, source: concat!({all}) }},\n")
 }

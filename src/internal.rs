@@ -56,3 +56,15 @@ pub fn state_columns(state: &crate::gpu::State) -> &Columns {
 pub fn resident(world: &World) -> Option<&sorb_kernels::gpu::Resident> {
     world.resident()
 }
+
+/// How many dispatches a step of a world takes on its device; none for a world on the CPU.
+///
+/// # Errors
+/// There is not enough memory on the device.
+#[cfg(feature = "gpu")]
+pub fn dispatches(
+    world: &World,
+) -> Result<Option<sorb_kernels::gpu::Dispatches>, sorb_kernels::gpu::GpuError> {
+    let device = world.stores.device.as_ref();
+    device.map(|device| device.dispatches(&world.stores.host, &world.params)).transpose()
+}

@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     let options = Options { threads: Some(1), offload: arguments.backend.clone(), ..Options::default() };
     let world = World::with_options(&scene, &options)?;
     if !arguments.json {
-        return output::print(&world.plan().to_string());
+        return output::print(&format!("{}{}", world.plan(), dispatches(&world)?.0));
     }
     let plan = world.plan();
     let phases: Vec<Value> = plan.lines().iter().map(|entry| line(plan, entry)).collect();
@@ -49,8 +49,45 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
             })
         })
         .collect();
-    let plan = json!({ "scene": scene.name, "reason": reason, "transfers": transfers, "phases": phases });
+    let (_, dispatches) = dispatches(&world)?;
+    let plan = json!({
+        "scene": scene.name,
+        "reason": reason,
+        "transfers": transfers,
+        "phases": phases,
+        "dispatches": dispatches,
+    });
     output::print(&format!("{}\n", serde_json::to_string_pretty(&plan)?))
+}
+
+/// How many dispatches a step takes on a GPU, as text and as JSON; nothing for a world on the CPU.
+#[cfg(feature = "gpu")]
+fn dispatches(world: &World) -> Result<(String, Value), CliError> {
+    let found = sorb::internal::dispatches(world).map_err(sorb::WorldError::from)?;
+    let Some(all) = found else { return Ok((String::new(), Value::Null)) };
+    let kernels = all.kernels.iter().map(|own| {
+        json!({
+            "name": own.kernel,
+            "passes": own.once,
+            "passes_of_a_round": own.in_round,
+            "threads_of_a_row": own.threads,
+        })
+    });
+    let rounds =
+        all.rounds.iter().map(|(dispatches, rounds)| json!({ "dispatches": dispatches, "rounds": rounds }));
+    let value = json!({
+        "kernels": kernels.collect::<Vec<_>>(),
+        "once": all.once,
+        "rounds": rounds.collect::<Vec<_>>(),
+        "total": all.total(),
+    });
+    Ok((all.to_string(), value))
+}
+
+#[cfg(not(feature = "gpu"))]
+#[expect(clippy::unnecessary_wraps, reason = "as with the feature")]
+fn dispatches(_: &World) -> Result<(&'static str, Value), CliError> {
+    Ok(("", Value::Null))
 }
 
 fn line(plan: &Plan, line: &PlanLine) -> Value {

@@ -1,27 +1,11 @@
 // Repetitions that end when they have converged, which the host need not know before it submits what comes after.
 //
-// A kernel of the round leaves `convergence[0]` above zero if another round is needed. Once it does not, `running` is
-// taken away: all passes of the rounds that are left leave at once, as they do when the time is filled. `end_rounds` gives
+// The last pass of the round takes `running` away once another round is not needed (`common/end_of_round.wgsl`). `end_rounds` gives
 // it back. If the rounds that were handed in do not suffice, the device stops there: nothing after them is done, and the
 // host hands in more, and all that comes after them again.
 
 @group(0) @binding(0) var<uniform> repetition: Repetition;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;
-@group(0) @binding(2) var<storage, read_write> convergence: array<u32, 4>;
-
-@compute @workgroup_size(1)
-fn end_round() {
-    if (clock.running == 0u) {
-        return;
-    }
-    clock.rounds += 1u;
-    clock.all_rounds += 1u;
-    if (convergence[0] == 0u) {
-        clock.is_converged = 1u;
-        clock.running = 0u;
-    }
-    convergence[0] = 0u;
-}
 
 fn note_rounds() {
     let place = repetition.index - 1u;

@@ -25,6 +25,11 @@ fn shared_row(group: vec3<u32>, groups: vec3<u32>, lane: u32, rows: u32) -> Shar
     return SharedRow(min(row, rows - 1u), first, is_row, is_row && first == 0u, is_row && first == SHARES - 1u);
 }
 
+// Whether no thread of a group has one of `rows`.
+fn is_beyond(group: vec3<u32>, groups: vec3<u32>, rows: u32) -> bool {
+    return group_of(group, groups) * (GROUP / SHARES) >= rows;
+}
+
 // Sum or largest values over the threads of a row, always in the same order. All threads of a group take part.
 fn share_all(lane: u32, own: vec4<f32>, is_largest: bool) -> vec4<f32> {
     if (SHARES == 1u) {

@@ -28,10 +28,10 @@ fn main(
     let cell = cell_of(control_grid, point);
     let begin = control_starts[cell];
     let end = control_starts[cell + 1u];
-    var row = begin;
+    var place = begin;
     for (var other = begin; other < end; other += 1u) {
         if (control_grouped[other] < node) {
-            row += 1u;
+            place += 1u;
         }
     }
     let swelling = sponges.all[node_sponge[node]].wetting.swelling;
@@ -43,6 +43,6 @@ fn main(
     if (is_asleep(sponges.all[node_sponge[node]])) {
         volume = 0.0;
     }
-    control_position[row] = vec4<f32>(point, volume);
-    control_node[row] = node;
+    control_position[place] = vec4<f32>(point, volume);
+    control_node[place] = node;
 }

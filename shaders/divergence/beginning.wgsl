@@ -1,4 +1,4 @@
-// #include sums
+// #include sums, shares
 // Third pass of `divergence::moments`: the pressure to begin with.
 // Sums of the squared speeds, and outside of pores of the squared pressures and of the targets, for `begin_solve.wgsl`.
 
@@ -20,10 +20,11 @@ fn main(
     if (clock.running == 0u) {
         return;
     }
-    let row = row_of(group, groups, lane);
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     var sums = vec4<f32>(0.0);
-    if (row < rows) {
+    if (share.writes) {
         let own = fluid_velocity[row];
         let outside = vec2<f32>(own.w * own.w, fluid_factors[row].w);
         let counted = select(outside, vec2<f32>(0.0), fluid_moment[row].w > MINIMUM_MATERIAL);
@@ -32,7 +33,7 @@ fn main(
     }
     let all = group_row(lane, sums, false);
     let place = group_of(group, groups);
-    if (lane == 0u && place * GROUP < rows) {
+    if (lane == 0u && place * (GROUP / SHARES) < rows) {
         solve_sums[place * 2u] = all;
     }
 }

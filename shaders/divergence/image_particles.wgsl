@@ -34,7 +34,7 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    if (clock.running == 0u || group_of(group, groups) * (GROUP / SHARES) >= image_grid.rows) {
+    if (clock.running == 0u || is_beyond(group, groups, image_grid.rows)) {
         return;
     }
     let share = shared_row(group, groups, lane, image_grid.rows);

@@ -16,8 +16,8 @@
 
 // A vector and its curl: velocity and angular velocity of a body, or their rates.
 struct Twist {
-    linear: vec3<f32>,
-    angular: vec3<f32>,
+    velocity: vec3<f32>,
+    spin: vec3<f32>,
 }
 
 fn reflected(row: u32, twist: Twist) -> vec4<f32> {
@@ -27,9 +27,9 @@ fn reflected(row: u32, twist: Twist) -> vec4<f32> {
         return vec4<f32>(signs_of(image) * value, 0.0);
     }
     let centre = body_states[image.body].position;
-    value -= twist.linear + cross(twist.angular, fluid_position[image.source].xyz - centre);
+    value -= twist.velocity + cross(twist.spin, fluid_position[image.source].xyz - centre);
     value = symmetric_times(image.along, image.between, value);
-    value += twist.linear + cross(twist.angular, image.foot - centre);
+    value += twist.velocity + cross(twist.spin, image.foot - centre);
     return vec4<f32>(signs_of(image) * value, f32(image.body + 1u));
 }
 

@@ -1,4 +1,4 @@
-// #include sums
+// #include sums, shares
 // After the rate of the velocities: the remaining compression, and the sums for `solve_round.wgsl`.
 //
 //     r_i = h t_i - h div w_i
@@ -22,11 +22,12 @@ fn main(
     if (clock.running == 0u) {
         return;
     }
-    let row = row_of(group, groups, lane);
     let rows = params.fluid_rows;
+    let share = shared_row(group, groups, lane, rows);
+    let row = share.row;
     var sums = vec4<f32>(0.0);
     var others = vec4<f32>(0.0);
-    if (row < rows) {
+    if (share.writes) {
         let is_in_pores = fluid_moment[row].w > MINIMUM_MATERIAL;
         let scale = select(fluid_pressure_solve.target_scale, 1.0, is_in_pores);
         let rest = fluid_factors[row].w * scale + fluid_rate[row] * clock.step;
@@ -50,7 +51,7 @@ fn main(
     let all = group_row(lane, sums, false);
     let rest = group_row(lane, others, false);
     let place = group_of(group, groups);
-    if (lane == 0u && place * GROUP < rows) {
+    if (lane == 0u && place * (GROUP / SHARES) < rows) {
         solve_sums[place * 2u] = all;
         solve_sums[place * 2u + 1u] = rest;
     }

@@ -28,13 +28,13 @@ fn main(
     let cell = cell_of(fluid_grid, point.xyz);
     let begin = fluid_starts[cell];
     let end = fluid_starts[cell + 1u];
-    var row = begin;
+    var place = begin;
     for (var other = begin; other < end; other += 1u) {
         if (fluid_grouped[other] < source) {
-            row += 1u;
+            place += 1u;
         }
     }
-    fluid_position[row] = point;
-    fluid_velocity[row] = fluid_velocity_next[source];
-    fluid_id[row] = fluid_id_next[source];
+    fluid_position[place] = point;
+    fluid_velocity[place] = fluid_velocity_next[source];
+    fluid_id[place] = fluid_id_next[source];
 }

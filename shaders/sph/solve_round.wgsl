@@ -1,18 +1,13 @@
-// #include sums
+// #include sums, end_of_round
 // After a round of a pressure solve: how far to go in the next one, and whether there is one.
 
-@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(0) var<storage, read_write> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> solve_sums: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read_write> fluid_pressure_solve: Solve;
-@group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
-@group(0) @binding(5) var<storage, read_write> extremes: array<u32, EXTREME_COUNT>;
+@group(0) @binding(4) var<storage, read_write> extremes: array<u32, EXTREME_COUNT>;
 
-@compute @workgroup_size(GROUP_THREADS)
-fn main(@builtin(local_invocation_index) lane: u32) {
-    if (clock.running == 0u) {
-        return;
-    }
+fn take_round(lane: u32) {
     // Sums of missing groups stay zero.
     let groups = arrayLength(&solve_sums) / 2u;
     var own = vec4<f32>(0.0);
@@ -23,9 +18,12 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     }
     let sums = group_row(lane, own, false);
     let others = group_row(lane, rest, false);
-    if (lane != 0u) {
-        return;
+    if (lane == 0u) {
+        choose_length(sums, others);
     }
+}
+
+fn choose_length(sums: vec4<f32>, others: vec4<f32>) {
     let particles = f32(max(params.fluid_rows, 1u));
     let rounds = fluid_pressure_solve.rounds + 1u;
     fluid_pressure_solve.rounds = rounds;
@@ -40,7 +38,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let is_small = fluid_pressure_solve.error <= fluid_pressure_solve.tolerance && is_even && rounds > still;
     let has_converged = is_small || rounds >= params.solve_rounds;
     fluid_pressure_solve.is_converged = select(0u, 1u, has_converged);
-    convergence[0] = select(1u, 0u, has_converged);
     fluid_pressure_solve.length = FIRST_LENGTH * most;
     let below = select(sums.w, sums.z, rounds % 2u == 0u);
     let above = select(sums.z, sums.y, rounds % 2u == 0u);
@@ -49,5 +46,24 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         if (is_finite(ratio)) {
             fluid_pressure_solve.length = clamp(ratio, MINIMUM_LENGTH * most, MAXIMUM_LENGTH);
         }
+    }
+}
+
+@compute @workgroup_size(GROUP_THREADS)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running != 0u) {
+        take_round(lane);
+    }
+}
+
+@compute @workgroup_size(GROUP_THREADS)
+fn last(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u) {
+        return;
+    }
+    take_round(lane);
+    workgroupBarrier();
+    if (lane == 0u) {
+        end_of_round(fluid_pressure_solve.is_converged != 0u);
     }
 }

@@ -1,17 +1,12 @@
-// #include sums
+// #include sums, end_of_round
 // After a round of a solve for the implicit viscosity: whether there is another one.
 
-@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(0) var<storage, read_write> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> viscosity_sums: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read_write> fluid_viscosity_solve: ViscositySolve;
-@group(0) @binding(4) var<storage, read_write> convergence: array<u32, 4>;
 
-@compute @workgroup_size(GROUP_THREADS)
-fn main(@builtin(local_invocation_index) lane: u32) {
-    if (clock.running == 0u) {
-        return;
-    }
+fn take_round(lane: u32) {
     // Sums of missing groups stay zero.
     var own = vec4<f32>(0.0);
     for (var k = lane; k < arrayLength(&viscosity_sums); k += GROUP_THREADS) {
@@ -30,5 +25,23 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let has_converged = is_solved || rounds >= params.viscosity_rounds;
     fluid_viscosity_solve.is_solved = select(0u, 1u, is_solved);
     fluid_viscosity_solve.is_converged = select(0u, 1u, has_converged);
-    convergence[0] = select(1u, 0u, has_converged);
+}
+
+@compute @workgroup_size(GROUP_THREADS)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running != 0u) {
+        take_round(lane);
+    }
+}
+
+@compute @workgroup_size(GROUP_THREADS)
+fn last(@builtin(local_invocation_index) lane: u32) {
+    if (clock.running == 0u) {
+        return;
+    }
+    take_round(lane);
+    workgroupBarrier();
+    if (lane == 0u) {
+        end_of_round(fluid_viscosity_solve.is_converged != 0u);
+    }
 }

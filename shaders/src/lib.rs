@@ -11,7 +11,11 @@
 pub struct Shader {
     /// Name of the file, `family::name`.
     pub name: &'static str,
-    /// WGSL text.
+    /// What it shares with others, file by file.
+    pub common: &'static [&'static str],
+    /// What it has for itself.
+    pub own: &'static str,
+    /// WGSL text: all of that.
     pub source: &'static str,
 }
 
@@ -21,6 +25,8 @@ include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 /// out with it.
 pub static PROBE: Shader = Shader {
     name: "grid::probe",
+    common: &[include_str!("../common/scan_subgroup.wgsl")],
+    own: include_str!("probe.wgsl"),
     source: concat!(include_str!("../common/scan_subgroup.wgsl"), include_str!("probe.wgsl")),
 };
 

@@ -9,7 +9,7 @@ use sorb_kernels::{
     columns::{Column, Columns},
     couple::weights::weigh,
     cpu::Cpu,
-    gpu::{Answer, Gpu, GpuError, Pending, Profile, Program, Resident, Start, make_room},
+    gpu::{Answer, Dispatches, Gpu, GpuError, Pending, Profile, Program, Resident, Start, make_room},
     params::Params,
     stage::Stage,
 };
@@ -138,6 +138,16 @@ impl Device {
         &self.gpu
     }
 
+    /// The dispatches of a step: of the kernels that run here.
+    pub(crate) fn dispatches(&self, host: &Columns, params: &Params) -> Result<Dispatches, GpuError> {
+        let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
+        let stages: Vec<Stage> = shares.flat_map(|share| share.stages.clone()).collect();
+        Ok(match self.resident() {
+            Some(resident) => resident.dispatches_of(&stages),
+            None => Resident::new(&self.gpu, host, params, self.limits)?.dispatches_of(&stages),
+        })
+    }
+
     /// The columns on the device, if there are any yet.
     pub(crate) fn resident(&self) -> Option<&Resident> {
         self.resident.as_ref().map(|on| &on.resident)
@@ -241,6 +251,8 @@ impl Device {
         }
         let mut resident = Resident::new(&self.gpu, host, params, self.limits)?;
         resident.upload(host, &columns, false)?;
+        // Kernels are timed one by one.
+        resident.set_fused(!self.wants_times);
         let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
         let programs =
             shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;

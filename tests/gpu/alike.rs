@@ -1,12 +1,15 @@
 //! Scenes after 1, 60 and 180 frames.
 
+use std::sync::Arc;
+
 use sorb::{
-    Offload, World,
+    Offload, Options, World,
     glam::{DVec3, Vec3},
+    gpu::{Gpu, wgpu::Limits},
     scene::Scene,
 };
 
-use super::{DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, world, worst};
+use super::{DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, gpu, world, worst};
 
 /// Largest difference of quantities that do not depend on single particles: place of water and sponges, absorbed water, and
 /// energies, over the energy that the scene had to lose.
@@ -183,4 +186,29 @@ cases! {
     three_seconds_of_water: "water_paper", 0.3, NARROW, 180, 1e-2;
     three_seconds_of_standing: "standing_paper", 0.3, SOFT, 180, 1e-2;
     three_seconds_of_ball_drop: "ball_drop_paper", 0.2, SOFT, 180, 1e-3;
+}
+
+/// Passes that are one dispatch do what they do one after the other: where kernels are timed every pass is alone, and with the
+/// limits that every adapter has fewer are one.
+#[test]
+fn dispatches_of_several_passes_change_nothing() {
+    for scene in
+        [busy::scene("ball_drop", 0.5), common::with(&busy::scene("water", 0.5), DIVERGENCE_AND_BODIES)]
+    {
+        let run = |limits: Option<Limits>, gpu_times: bool| {
+            let adapter = sorb::gpu::adapters().into_iter().next().expect("there is an adapter");
+            let small = limits.map(|limits| Gpu::with_limits(&adapter, limits).expect("a device"));
+            let device = small.map_or_else(gpu, Arc::new);
+            let options =
+                Options { offload: Offload::Gpu, gpu: Some(device), gpu_times, ..Options::default() };
+            let mut world = World::with_options(&scene, &options).expect("a scene of the tests");
+            common::steps(&mut world, 8);
+            world.measures()
+        };
+        let expected = run(None, true);
+        for limits in [None, Some(Limits::default())] {
+            let (found, what) = difference(&expected, &run(limits, false));
+            assert!(found < 1e-6, "{}: {what} differs by {found:.1e}", scene.name);
+        }
+    }
 }

@@ -1,9 +1,12 @@
 //! Placement of kernels, and the lines of the plan about it.
 
+use std::sync::Arc;
+
 use sorb::{
     Offload, Options, World,
     glam::{UVec3, Vec3},
-    internal::{KERNELS, Place, Verdict},
+    gpu::{self, Gpu, wgpu},
+    internal::{self, KERNELS, Place, Verdict},
     scene::{Domain, Scene, Solver, Sponge},
 };
 
@@ -194,4 +197,28 @@ fn plans_say_where_and_why_and_what_travels() {
     let few = world(&scene, Offload::Auto).plan().to_string();
     assert!(few.contains("backend cpu, of auto") && few.contains("worth a GPU"), "{few}");
     assert!(!world(&scene, Offload::Cpu).plan().to_string().contains("backend"));
+}
+
+/// With the limits that every adapter has, so that the text is the same everywhere.
+#[test]
+fn plans_say_how_many_dispatches_a_step_takes() {
+    let limits = wgpu::Limits::default();
+    let small = gpu::adapters().into_iter().next().map(|adapter| Gpu::with_limits(&adapter, limits));
+    let Some(Ok(small)) = small else { panic!("no adapter with the limits of WebGPU: {small:?}") };
+    let small = Arc::new(small);
+    let dispatches = |name: &str, offload: Offload| {
+        let options = Options { offload, gpu: Some(Arc::clone(&small)), ..Options::default() };
+        let world = World::with_options(&busy::scene(name, 0.5), &options).expect("a scene of the tests");
+        internal::dispatches(&world).expect("there is enough memory")
+    };
+    for name in ["ball_drop", "water"] {
+        let all = dispatches(name, Offload::Gpu).expect("dispatches of a world on a device");
+        common::golden(&format!("dispatches_{name}"), &all.to_string());
+        let of_rounds: usize = all.rounds.iter().map(|(passes, rounds)| passes * *rounds as usize).sum();
+        assert_eq!(all.total(), all.once + of_rounds);
+    }
+    let part = dispatches("water", Offload::Each(vec![("sph::forces", Place::Gpu)]));
+    let names = part.expect("dispatches of a part of a step").kernels;
+    assert_eq!(names.iter().map(|own| own.kernel).collect::<Vec<_>>(), ["sph::forces", "clock"]);
+    assert_eq!(dispatches("water", Offload::Cpu), None);
 }

@@ -1,6 +1,7 @@
 //! Adapters and devices.
 
 use std::{
+    borrow::Cow,
     collections::BTreeMap,
     fmt,
     sync::{Arc, Mutex, PoisonError},
@@ -70,20 +71,32 @@ pub fn required_features(adapter: &Adapter) -> Features {
     adapter.features() & TIMESTAMPS.union(Features::SUBGROUP)
 }
 
+/// Most storage and uniform buffers of a dispatch that several passes are in, and bytes of a group.
+const STORAGE_BUFFERS: u32 = 32;
+const UNIFORM_BUFFERS: u32 = 4;
+const GROUP_BYTES: u32 = 32_768;
+
 /// The limits that a host should request for a device that it hands in: WebGPU's defaults, with buffers as large as the
-/// adapter allows.
+/// adapter allows, and what permits more passes in one dispatch.
 #[must_use]
 pub fn required_limits(adapter: &Adapter) -> Limits {
     let offered = adapter.limits();
     Limits {
         max_buffer_size: offered.max_buffer_size,
         max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+        max_storage_buffers_per_shader_stage: offered
+            .max_storage_buffers_per_shader_stage
+            .min(STORAGE_BUFFERS),
+        max_buffers_and_acceleration_structures_per_shader_stage: offered
+            .max_buffers_and_acceleration_structures_per_shader_stage
+            .min(STORAGE_BUFFERS + UNIFORM_BUFFERS),
+        max_compute_workgroup_storage_size: offered.max_compute_workgroup_storage_size.min(GROUP_BYTES),
         ..Limits::default()
     }
 }
 
 /// Pipelines by shader, entry point and threads.
-type Pipelines = BTreeMap<(&'static str, &'static str, Threads), Arc<Pipeline>>;
+type Pipelines = BTreeMap<(Cow<'static, str>, &'static str, Threads), Arc<Pipeline>>;
 
 /// A device to run kernels on, and the pipelines compiled for it so far. Worlds can share one.
 pub struct Gpu {

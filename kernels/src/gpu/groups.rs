@@ -38,10 +38,10 @@ pub(super) const fn groups_of(rows: usize) -> usize {
     rows.div_ceil(GROUP_THREADS as usize)
 }
 
-/// Most groups of a pass over this many rows: groups are small where there are few rows.
+/// Most groups of a pass over this many rows: groups are small where there are few rows, and several threads share one.
 pub(super) fn maximum_groups(rows: u64) -> u64 {
-    let small = rows.min(SMALL_GROUP_ROWS).div_ceil(u64::from(SMALL_GROUP_THREADS));
-    small.max(rows.div_ceil(u64::from(GROUP_THREADS)))
+    let rows_of_group = group_of(rows) / shares_of(rows);
+    rows.div_ceil(u64::from(rows_of_group))
 }
 
 /// Bytes of the wrenches on bodies: one for every body and group of a pass over this many rows.

@@ -93,7 +93,7 @@ impl Resident {
         let fluid = if has_images { self.rows.fluid as u64 } else { 0 };
         let mut all = vec![
             ("image_grid", Grid::BYTES, uniform | plain),
-            ("image_line", Grid::BYTES, uniform),
+            ("image_line", Grid::BYTES, uniform | plain),
             ("image_line_counts", of_line * 4, plain),
             ("image_line_sums", sums(of_line), plain),
             ("fluid_image_first", of_line * 4, plain),

@@ -18,11 +18,14 @@ mod answer;
 mod bodies;
 mod cells;
 mod device;
+mod dispatches;
 mod error;
 mod facts;
 mod form;
+mod fusion;
 mod groups;
 mod images;
+mod jobs;
 pub(crate) mod layout;
 mod lists;
 mod pack;
@@ -45,6 +48,7 @@ mod wgsl;
 pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
 pub use bodies::BODY_BYTES;
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
+pub use dispatches::{Dispatches, KernelDispatches};
 pub use error::GpuError;
 pub use pipeline::{Binding, Pipeline};
 pub use profile::Profile;
@@ -86,7 +90,6 @@ mod tests {
         let helpers = [
             twins::BEGIN,
             twins::BODY_WRENCHES,
-            twins::END_ROUND,
             twins::END_ROUNDS,
             twins::FINISH,
             twins::RESUME,

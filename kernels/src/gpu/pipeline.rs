@@ -1,11 +1,24 @@
 //! Pipelines, compiled on first use. What a pass is bound to is read off its text, so that it is said once.
 
-use std::sync::{Arc, PoisonError};
+use std::{
+    borrow::Cow,
+    collections::BTreeMap,
+    sync::{
+        Arc, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread::{self, available_parallelism},
+};
 
 use sorb_shaders::Shader;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 
-use super::{device::Gpu, error::GpuError, wgsl};
+use super::{
+    device::Gpu,
+    error::GpuError,
+    fusion::{Dispatched, Fused},
+    wgsl,
+};
 
 /// The constant of `rows.wgsl` for the threads of a group.
 const GROUP: &str = "GROUP";
@@ -36,13 +49,49 @@ pub struct Binding {
     pub index: u32,
     /// Name of the variable.
     pub name: &'static str,
+    /// Type of the variable.
+    content: &'static str,
     kind: BufferBindingType,
 }
 
 impl Binding {
-    #[cfg(test)]
+    /// The same of a buffer of another name.
+    pub(super) fn named(&self, name: &'static str) -> Self {
+        Self { name, ..self.clone() }
+    }
+
+    /// The same in a storage buffer.
+    pub(super) fn in_storage(&self) -> Self {
+        let kind = match self.kind {
+            BufferBindingType::Uniform => BufferBindingType::Storage { read_only: true },
+            kind @ BufferBindingType::Storage { .. } => kind,
+        };
+        Self { kind, ..self.clone() }
+    }
+
     pub(super) fn is_storage(&self) -> bool {
         matches!(self.kind, BufferBindingType::Storage { .. })
+    }
+
+    pub(super) fn is_written(&self) -> bool {
+        self.kind == BufferBindingType::Storage { read_only: false }
+    }
+
+    /// For this use and another one of the same buffer; none if they cannot be one.
+    pub(super) fn with(&self, other: &Self) -> Option<Self> {
+        let is_same = self.content == other.content && self.is_storage() == other.is_storage();
+        let written = if self.is_written() { self } else { other };
+        is_same.then(|| written.clone())
+    }
+
+    /// Its declaration.
+    pub(super) fn wgsl(&self) -> String {
+        let space = match self.kind {
+            BufferBindingType::Uniform => "uniform",
+            BufferBindingType::Storage { read_only: true } => "storage, read",
+            BufferBindingType::Storage { read_only: false } => "storage, read_write",
+        };
+        format!("@group(0) @binding({}) var<{space}> {}: {};\n", self.index, self.name, self.content)
     }
 }
 
@@ -66,13 +115,46 @@ fn binding(line: &'static str) -> Option<Binding> {
     let rest = line.strip_prefix("@group(0) @binding(")?;
     let (index, rest) = rest.split_once(')')?;
     let (space, rest) = rest.trim_start().strip_prefix("var<")?.split_once('>')?;
-    let (name, _) = rest.split_once(':')?;
+    let (name, content) = rest.split_once(':')?;
+    let content = content.trim().strip_suffix(';')?;
     let kind = match space {
         "uniform" => BufferBindingType::Uniform,
         "storage, read" => BufferBindingType::Storage { read_only: true },
         _ => BufferBindingType::Storage { read_only: false },
     };
-    Some(Binding { index: index.parse().ok()?, name: name.trim(), kind })
+    Some(Binding { index: index.parse().ok()?, name: name.trim(), content, kind })
+}
+
+/// Values of the constants that a text leaves open.
+fn constants_of(text: &str, threads: Threads) -> Vec<(&'static str, f64)> {
+    let group = has_any_group(text).then_some((GROUP, f64::from(threads.group)));
+    let shares = has_shares(text).then_some((SHARES, f64::from(threads.shares)));
+    group.into_iter().chain(shares).collect()
+}
+
+/// Most threads that compile.
+const COMPILERS: usize = 16;
+
+/// Does work for each, on threads where there are some.
+fn in_parallel<T: Sync>(all: &[T], work: impl Fn(&T) -> Result<(), GpuError> + Sync) -> Result<(), GpuError> {
+    let available =
+        if cfg!(target_family = "wasm") { 1 } else { available_parallelism().map_or(1, Into::into) };
+    let threads = available.min(COMPILERS).min(all.len());
+    if threads <= 1 {
+        return all.iter().try_for_each(work);
+    }
+    let next = AtomicUsize::new(0);
+    let run = || {
+        while let Some(one) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
+            work(one)?;
+        }
+        Ok(())
+    };
+    let lost = |_| Err(GpuError::Refused { reason: "a thread that compiles has failed".to_owned() });
+    thread::scope(|scope| {
+        let started: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+        started.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(lost))
+    })
 }
 
 impl Gpu {
@@ -83,7 +165,7 @@ impl Gpu {
         entry: &'static str,
         threads: Threads,
     ) -> Result<Arc<Pipeline>, GpuError> {
-        let key = (shader, entry, threads);
+        let key = (Cow::Borrowed(shader), entry, threads);
         if let Some(found) = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
             return Ok(Arc::clone(found));
         }
@@ -96,14 +178,36 @@ impl Gpu {
         Ok(Arc::clone(all.entry(key).or_insert(made)))
     }
 
+    /// The pipeline of several passes in one text.
+    pub(super) fn fused_pipeline(&self, all: &Dispatched) -> Result<Arc<Pipeline>, GpuError> {
+        let key = (Cow::Owned(all.key()), "fused", all.threads());
+        if let Some(found) = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
+            return Ok(Arc::clone(found));
+        }
+        let refused = || GpuError::Refused { reason: "passes cannot be one dispatch".to_owned() };
+        let Fused { text, bindings } = Fused::of(all).ok_or_else(refused)?;
+        let constants = constants_of(&text, all.threads());
+        let text = wgsl::complete(&text);
+        let compile = || self.compile_text("fused", bindings, &text, "fused", &constants);
+        let made = Arc::new(self.guarded(None, compile)?);
+        let mut all = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(Arc::clone(all.entry(key).or_insert(made)))
+    }
+
+    /// Compiles the pipelines of dispatches that were not used before, side by side: most of the time of a first step is that of the
+    /// compiler of the driver.
+    pub(super) fn compile_all<'d>(&self, all: impl Iterator<Item = &'d Dispatched>) -> Result<(), GpuError> {
+        let distinct: BTreeMap<_, _> = all.map(|own| ((own.key(), own.threads()), own)).collect();
+        let distinct: Vec<&Dispatched> = distinct.into_values().collect();
+        let compile = |own: &&Dispatched| match own.single() {
+            Some(job) => self.pipeline(job.pass.shader, job.pass.entry, job.threads).map(|_| ()),
+            None => self.fused_pipeline(own).map(|_| ()),
+        };
+        in_parallel(&distinct, compile)
+    }
+
     pub(super) fn compile(&self, shader: &'static Shader, entry: &'static str, threads: Threads) -> Pipeline {
-        let mut constants = Vec::new();
-        if has_any_group(shader.source) {
-            constants.push((GROUP, f64::from(threads.group)));
-        }
-        if has_shares(shader.source) {
-            constants.push((SHARES, f64::from(threads.shares)));
-        }
+        let constants = constants_of(shader.source, threads);
         self.compile_with(shader, &wgsl::complete(shader.source), entry, &constants)
     }
 
@@ -117,7 +221,17 @@ impl Gpu {
         entry: &'static str,
         constants: &[(&str, f64)],
     ) -> Pipeline {
-        let bindings = bindings(shader.source);
+        self.compile_text(shader.name, bindings(shader.source), text, entry, constants)
+    }
+
+    fn compile_text(
+        &self,
+        name: &'static str,
+        bindings: Vec<Binding>,
+        text: &str,
+        entry: &str,
+        constants: &[(&str, f64)],
+    ) -> Pipeline {
         let entries: Vec<_> = bindings
             .iter()
             .map(|binding| wgpu::BindGroupLayoutEntry {
@@ -133,20 +247,20 @@ impl Gpu {
             .collect();
         let device = &self.device;
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(shader.name),
+            label: Some(name),
             entries: &entries,
         });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(shader.name),
+            label: Some(name),
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(shader.name),
+            label: Some(name),
             source: wgpu::ShaderSource::Wgsl(text.into()),
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(shader.name),
+            label: Some(name),
             layout: Some(&pipeline_layout),
             module: &module,
             entry_point: Some(entry),

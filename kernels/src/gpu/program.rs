@@ -5,22 +5,21 @@ use std::sync::Arc;
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 
 use super::{
-    cells::ONE_GROUP_PAGES,
     error::GpuError,
-    groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of},
+    fusion::Dispatched,
+    jobs::{Job, Jobs},
     layout::Value,
-    lists::IMAGES,
-    pack::{BATCH_STRIDE, BATCHES, Batch, Repetition},
-    pipeline::{Pipeline, Threads, has_any_group, has_shares},
+    pack::{BATCH_STRIDE, Batch, Repetition},
+    pipeline::Pipeline,
     resident::Resident,
-    twins::{BEGIN, BODY_WRENCHES, CHECK, END_ROUND, END_ROUNDS, FINISH, Pass, RESUME, Rows},
+    twins::{BEGIN, END_ROUNDS, Pass, RESUME, Rows},
 };
-use crate::{columns::RowCounts, kernel::Kernel, pbd::lattice::COLORS, stage::Stage};
+use crate::{kernel::Kernel, stage::Stage};
 
 /// Most repetitions of a step that end when they have converged: the clock counts the rounds of each.
 pub(super) const REPETITIONS: usize = 4;
 /// Rounds that are encoded before it is known how many are needed.
-const FIRST_ROUNDS: u32 = 4;
+pub(super) const FIRST_ROUNDS: u32 = 4;
 
 /// A pass bound to its buffers.
 #[derive(Debug)]
@@ -28,7 +27,7 @@ pub(super) struct Dispatch {
     pub(super) kernel: &'static str,
     pub(super) pipeline: Arc<Pipeline>,
     pub(super) bind: BindGroup,
-    pub(super) groups: [u32; 2],
+    pub(super) groups: [u32; 3],
 }
 
 /// A part of a step.
@@ -139,39 +138,29 @@ impl Resident {
     /// As [`Self::program`], or there are too many repetitions.
     pub fn program_of(&self, stages: Vec<Stage>) -> Result<Program, GpuError> {
         let mut step = Vec::new();
-        let mut before: Option<&Kernel> = None;
         let mut repetitions = 0;
-        let kernels = stages.iter().flat_map(Stage::kernels);
-        let last_search = kernels.rev().find(|kernel| kernel.searches_fluid()).map(|kernel| kernel.name);
-        for stage in &stages {
-            let mut dispatches = Vec::new();
-            for kernel in stage.kernels() {
-                let is_done = before.is_some_and(|before| kernel.is_done_by(before));
-                let is_checked_later = kernel.searches_fluid() && last_search != Some(kernel.name);
-                let is_needed = |pass: &&Pass| !(is_done || is_checked_later && **pass == CHECK);
-                for pass in kernel.twin.iter().filter(is_needed) {
-                    self.bind(kernel.name, pass, None, &mut dispatches)?;
-                }
-                before = Some(kernel);
-            }
-            match stage {
-                Stage::Run(_) => match step.last_mut() {
-                    Some(Part::Once(last)) => last.append(&mut dispatches),
-                    _ => step.push(Part::Once(dispatches)),
-                },
-                Stage::Rounds { maximum, .. } => {
+        let parts: Vec<(Jobs, Vec<Dispatched>)> = self
+            .jobs_of(&stages)
+            .into_iter()
+            .map(|jobs| {
+                let all = self.dispatched(jobs.jobs());
+                (jobs, all)
+            })
+            .collect();
+        self.gpu.compile_all(parts.iter().flat_map(|(_, all)| all))?;
+        for (jobs, fused) in parts {
+            let dispatches = fused.iter().map(|all| self.bind_fused(all)).collect::<Result<_, _>>()?;
+            step.push(match jobs {
+                Jobs::Once(_) => Part::Once(dispatches),
+                Jobs::Rounds { maximum, .. } => {
                     repetitions += 1;
-                    step.push(Part::Rounds(self.rounds(*maximum, repetitions, dispatches)?));
+                    Part::Rounds(self.rounds(maximum, repetitions, dispatches)?)
                 }
-            }
+            });
         }
-        let (mut begin, mut resume, mut finish) = (Vec::new(), Vec::new(), Vec::new());
-        self.bind("clock", &BEGIN, None, &mut begin)?;
-        self.bind("clock", &RESUME, None, &mut resume)?;
-        if self.rows.bodies > 0 {
-            self.bind("clock", &BODY_WRENCHES, None, &mut finish)?;
-        }
-        self.bind("clock", &FINISH, None, &mut finish)?;
+        let begin = self.bind_all(&self.jobs("clock", &BEGIN), None)?;
+        let resume = self.bind_all(&self.jobs("clock", &RESUME), None)?;
+        let finish = self.bind_all(&self.last_jobs(), None)?;
         Ok(Program { stages, begin, resume, step, finish, prepared: None, bound: self.replaced })
     }
 
@@ -180,7 +169,7 @@ impl Resident {
         &self,
         maximum: u32,
         index: usize,
-        mut round: Vec<Dispatch>,
+        round: Vec<Dispatch>,
     ) -> Result<Rounds, GpuError> {
         if index > REPETITIONS {
             let reason = format!("more than {REPETITIONS} repetitions that end when they have converged");
@@ -188,10 +177,7 @@ impl Resident {
         }
         let maximum = maximum.max(1);
         let repetition = self.uniform("repetition", &Repetition { maximum, index: index as u32 })?;
-        let mut end = Vec::new();
-        let own = Some(("repetition", &repetition));
-        self.bind("clock", &END_ROUND, own, &mut round)?;
-        self.bind("clock", &END_ROUNDS, own, &mut end)?;
+        let end = self.bind_all(&self.jobs("clock", &END_ROUNDS), Some(("repetition", &repetition)))?;
         Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
     }
 
@@ -214,36 +200,33 @@ impl Resident {
         Ok(())
     }
 
-    pub(super) fn bind(
+    pub(super) fn bind_all(
         &self,
-        kernel: &'static str,
-        pass: &Pass,
+        jobs: &[Job],
         own: Option<(&str, &Buffer)>,
-        into: &mut Vec<Dispatch>,
-    ) -> Result<(), GpuError> {
-        let text = sorb_shaders::shader(pass.shader).map_or("", |text| text.source);
-        let batches = match pass.rows {
-            Rows::Colors => 0..COLORS,
-            Rows::VertexColors => COLORS..BATCHES,
-            _ => 0..1,
-        };
-        for color in batches {
-            let (threads, count) = match self.work(pass.rows, color) {
-                Work::Groups(count) => (Threads { group: GROUP_THREADS, shares: 1 }, count),
-                Work::Rows(rows) => {
-                    let shares = if has_shares(text) { shares_of(rows) } else { 1 };
-                    let group = if has_any_group(text) { group_of(rows) } else { GROUP_THREADS };
-                    (Threads { group, shares }, rows.div_ceil(u64::from(group / shares)))
-                }
-            };
-            let groups = self.lines(count);
-            if groups[0] > 0 {
-                let pipeline = self.gpu.pipeline(pass.shader, pass.entry, threads)?;
-                let bind = self.gpu.guarded(None, || self.bind_group(pass, &pipeline, color, own))?;
-                into.push(Dispatch { kernel, pipeline, bind, groups });
-            }
+    ) -> Result<Vec<Dispatch>, GpuError> {
+        jobs.iter().map(|job| self.bind(job, own)).collect()
+    }
+
+    fn bind(&self, job: &Job, own: Option<(&str, &Buffer)>) -> Result<Dispatch, GpuError> {
+        let Job { kernel, pass, color, threads, groups, .. } = *job;
+        let pipeline = self.gpu.pipeline(pass.shader, pass.entry, threads)?;
+        let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, color, own))?;
+        Ok(Dispatch { kernel, pipeline, bind, groups })
+    }
+
+    /// Passes of one dispatch.
+    fn bind_fused(&self, all: &Dispatched) -> Result<Dispatch, GpuError> {
+        if let Some(job) = all.single() {
+            return self.bind(job, None);
         }
-        Ok(())
+        let kernel = all.jobs().next().map_or("", |job| job.kernel);
+        let pipeline = self.gpu.fused_pipeline(all)?;
+        let pass = Pass { shader: "fused", entry: "fused", rows: Rows::One, names: &[] };
+        let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, 0, None))?;
+        let (count, beside) = all.groups();
+        let [x, y, _] = self.lines(count);
+        Ok(Dispatch { kernel, pipeline, bind, groups: [x, y, beside] })
     }
 
     pub(super) fn bind_group(
@@ -273,53 +256,4 @@ impl Resident {
             entries: &entries,
         })
     }
-
-    /// Rows of a pass, or groups if its threads come in groups.
-    fn work(&self, rows: Rows, color: usize) -> Work {
-        let RowCounts { fluid, nodes, tets, bodies } = self.rows;
-        let threads = |rows: usize| Work::Rows(rows as u64);
-        let groups = Work::Groups;
-        match rows {
-            Rows::One => groups(1),
-            Rows::Fluid => threads(fluid),
-            Rows::Nodes => threads(nodes),
-            Rows::Tets => threads(tets),
-            Rows::FluidOrNodes => threads(fluid.max(nodes)),
-            Rows::Colors | Rows::VertexColors => threads(self.batches[color].count as usize),
-            Rows::Sponges => groups(self.params.sponges.len() as u64),
-            Rows::Controls => groups(nodes.div_ceil(CONTROLS_PER_GROUP as usize) as u64),
-            Rows::FluidScan => groups(u64::from(self.grids[0].pages() > u64::from(ONE_GROUP_PAGES))),
-            Rows::ControlScan => groups(u64::from(self.grids[1].pages() > u64::from(ONE_GROUP_PAGES))),
-            Rows::PairScan => groups(u64::from(self.grids[2].pages() > u64::from(ONE_GROUP_PAGES))),
-            Rows::PairPages => groups(self.grids[2].pages()),
-            Rows::FluidPages => groups(self.grids[0].pages()),
-            Rows::ControlPages => groups(self.grids[1].pages()),
-            Rows::ImageLineScan => groups(u64::from(self.grids[4].pages() > u64::from(ONE_GROUP_PAGES))),
-            Rows::ImageLinePages => groups(self.grids[4].pages()),
-            Rows::ImageScan => groups(u64::from(self.grids[3].pages() > u64::from(ONE_GROUP_PAGES))),
-            Rows::ImagePages => groups(self.grids[3].pages()),
-            Rows::Images => threads(self.capacities[IMAGES] as usize),
-            Rows::ImagesOfBodies => threads(if bodies > 0 { self.capacities[IMAGES] as usize } else { 0 }),
-            Rows::FluidBesideBodies => threads(if bodies > 0 { fluid } else { 0 }),
-            Rows::Bodies => groups(bodies as u64),
-        }
-    }
-
-    /// Groups in two dimensions, none larger than the device allows.
-    fn lines(&self, count: u64) -> [u32; 2] {
-        let maximum = u64::from(self.gpu.limits.max_compute_workgroups_per_dimension);
-        if count <= maximum {
-            return [count as u32, 1];
-        }
-        let lines = count.div_ceil(maximum);
-        [count.div_ceil(lines) as u32, lines as u32]
-    }
-}
-
-/// What a pass is over.
-enum Work {
-    /// Rows: groups are as large as is best, and threads share rows where there are few.
-    Rows(u64),
-    /// Groups of threads.
-    Groups(u64),
 }

@@ -53,6 +53,8 @@ pub struct Resident {
     pub(super) has_begun: bool,
     /// How often buffers were replaced, so that programs know when to bind anew.
     pub(super) replaced: u32,
+    /// Whether passes that can be are one dispatch.
+    pub(super) is_fused: bool,
     /// Where the host reads what the device says after a batch.
     pub(super) answer: Buffer,
 }
@@ -97,6 +99,7 @@ impl Resident {
             steps: 0,
             has_begun: false,
             replaced: 0,
+            is_fused: !gpu.has_subgroups,
             answer,
         };
         for (name, size, usage) in resident.layout(columns) {
@@ -130,6 +133,11 @@ impl Resident {
         self.plain_buffer(Column::FluidInterior)
             .filter(|(_, _, bytes)| *bytes > 0)
             .map(|(_, name, _)| self.buffer(name))
+    }
+
+    /// Whether passes of programs that are bound from now on are one dispatch where they can be; they are, unless they are timed.
+    pub fn set_fused(&mut self, is_fused: bool) {
+        self.is_fused = is_fused && !self.gpu.has_subgroups;
     }
 
     /// Bytes of all buffers.
@@ -168,13 +176,12 @@ impl Resident {
         let own = vec![
             ("params", StepParams::BYTES, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
-            ("sponges", SPONGES as u64 * SpongeParams::BYTES, uniform),
-            ("fluid_grid", Grid::BYTES, uniform),
-            ("control_grid", Grid::BYTES, uniform),
-            ("pair_grid", Grid::BYTES, uniform),
+            ("sponges", SPONGES as u64 * SpongeParams::BYTES, uniform | plain),
+            ("fluid_grid", Grid::BYTES, uniform | plain),
+            ("control_grid", Grid::BYTES, uniform | plain),
+            ("pair_grid", Grid::BYTES, uniform | plain),
             ("batch", BATCH_STRIDE * BATCHES as u64, uniform | plain),
             ("extremes", 4 * Extreme::ALL.len() as u64, plain),
-            ("convergence", 16, plain),
             ("fluid_pressure_solve", Solve::BYTES, plain),
             ("solve_sums", maximum_groups(solved) * 32, plain),
             ("fluid_viscosity_solve", ViscositySolve::BYTES, plain),

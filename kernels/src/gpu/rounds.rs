@@ -20,12 +20,14 @@ use crate::tests::{
 /// Density 0 is halved until it is small; density 1 counts the steps.
 static HALVING: Shader = Shader {
     name: "test::halving",
+    common: &[],
+    own: "",
     source: concat!(
         include_str!("../../../shaders/common/rows.wgsl"),
+        include_str!("../../../shaders/common/end_of_round.wgsl"),
         "
-@group(0) @binding(0) var<uniform> clock: Clock;
+@group(0) @binding(0) var<storage, read_write> clock: Clock;
 @group(0) @binding(1) var<storage, read_write> fluid_density: array<f32>;
-@group(0) @binding(2) var<storage, read_write> convergence: array<u32, 4>;
 
 @compute @workgroup_size(1)
 fn before() {
@@ -37,7 +39,7 @@ fn before() {
 fn halve() {
     if (clock.running == 0u) { return; }
     fluid_density[0] *= 0.5;
-    convergence[0] = select(0u, 1u, fluid_density[0] > 0.01);
+    end_of_round(fluid_density[0] <= 0.01);
 }
 
 @compute @workgroup_size(1)
@@ -56,7 +58,7 @@ fn dispatch(resident: &Resident, entry: &'static str) -> Vec<Dispatch> {
     let pass = Pass { shader: "test::halving", entry, rows: Rows::One, names: &[] };
     let pipeline = Arc::new(resident.gpu.compile(&HALVING, entry, Threads { group: 1, shares: 1 }));
     let bind = resident.bind_group(&pass, &pipeline, 0, None);
-    vec![Dispatch { kernel: "test::halving", pipeline, bind, groups: [1, 1] }]
+    vec![Dispatch { kernel: "test::halving", pipeline, bind, groups: [1, 1, 1] }]
 }
 
 /// What steps of a repetition of at most `maximum` rounds, of which `planned` are encoded at first, leave behind.

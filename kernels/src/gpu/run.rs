@@ -217,7 +217,8 @@ impl Resident {
             while let Some(dispatch) = dispatches.next() {
                 pass.set_pipeline(&dispatch.pipeline.pipeline);
                 pass.set_bind_group(0, &dispatch.bind, &[]);
-                pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
+                let [x, y, z] = dispatch.groups;
+                pass.dispatch_workgroups(x, y, z);
                 let ends = dispatches.peek().is_none_or(|next| next.kernel != dispatch.kernel);
                 if let Some(profile) = profile.as_deref_mut().filter(|_| ends) {
                     profile.mark(&mut pass, dispatch.kernel);

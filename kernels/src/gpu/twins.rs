@@ -132,10 +132,9 @@ pub(crate) const CHECK: Pass = Pass { shader: "clock::clock", entry: "check", ro
 pub(crate) const BEGIN: Pass = Pass { shader: "clock::clock", entry: "begin", rows: Rows::One, names: &[] };
 /// After the last phase of a step.
 pub(crate) const FINISH: Pass = Pass { shader: "clock::clock", entry: "finish", rows: Rows::One, names: &[] };
-/// After a round of a repetition that ends when it has converged.
-pub(crate) const END_ROUND: Pass =
-    Pass { shader: "clock::rounds", entry: "end_round", rows: Rows::One, names: &[] };
-/// After the last of its rounds.
+/// Entry point of the last pass of a round of a repetition that ends when it has converged: it ends the round.
+pub(crate) const LAST: &str = "last";
+/// After the last round of such a repetition.
 pub(crate) const END_ROUNDS: Pass =
     Pass { shader: "clock::rounds", entry: "end_rounds", rows: Rows::One, names: &[] };
 /// Before more rounds, where those that were handed in did not suffice.
