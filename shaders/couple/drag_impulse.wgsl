@@ -48,7 +48,7 @@ fn main(
     let inverse = weight_inside(sum.w);
     let relative = fluid_velocity[row].xyz - sum.xyz * inverse;
     // The column has impulses and masses over chi.
-    let part = drag_strength(fluid_drag_rate[row].xy, length(relative), clock.step);
-    let strength = part * params.particle_mass * inverse;
+    let strength =
+        drag_strength(fluid_drag_rate[row].xy, length(relative), clock.step) * params.particle_mass * inverse;
     fluid_drag[row] = vec4<f32>(relative * strength, strength);
 }

@@ -110,9 +110,13 @@ fn main(
     }
     var weights = clamp(best.weights, vec4<f32>(SMALLEST_WEIGHT), vec4<f32>(LARGEST_WEIGHT));
     weights += 0.25 * (1.0 - dot(weights, vec4<f32>(1.0)));
+    let first = -(best.p + best.q + best.r);
+    let limit = STEEPEST / edge * (STEEPEST / edge);
+    let steepest = max(max(dot(first, first), dot(best.p, best.p)), max(dot(best.q, best.q), dot(best.r, best.r)));
+    let scale = sqrt(limit / max(limit, steepest));
     fluid_corners[row] = vec4<u32>(node, best.nodes);
-    fluid_shares[4u * row] = vec4<f32>(-(best.p + best.q + best.r), weights.x);
-    fluid_shares[4u * row + 1u] = vec4<f32>(best.p, weights.y);
-    fluid_shares[4u * row + 2u] = vec4<f32>(best.q, weights.z);
-    fluid_shares[4u * row + 3u] = vec4<f32>(best.r, weights.w);
+    fluid_shares[4u * row] = vec4<f32>(first * scale, weights.x);
+    fluid_shares[4u * row + 1u] = vec4<f32>(best.p * scale, weights.y);
+    fluid_shares[4u * row + 2u] = vec4<f32>(best.q * scale, weights.z);
+    fluid_shares[4u * row + 3u] = vec4<f32>(best.r * scale, weights.w);
 }

@@ -1,4 +1,4 @@
-// #include corner_mean, drag
+// #include drag
 // Drag impulse that every particle loses to the sponge; `drag_impulse.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -7,8 +7,10 @@
 @group(0) @binding(3) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> fluid_corners: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> fluid_shares: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> controls: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> fluid_drag: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> control_node: array<u32>;
+@group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> node_predicted: array<vec4<f32>>;
+@group(0) @binding(9) var<storage, read_write> fluid_drag: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -20,7 +22,19 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let relative = fluid_velocity[row].xyz - corner_mean(row);
+    let corners = fluid_corners[row];
+    if (corners.x == corners.y) {
+        fluid_drag[row] = vec4<f32>(0.0);
+        return;
+    }
+    var moved = vec3<f32>(0.0);
+    for (var corner = 0u; corner < 4u; corner += 1u) {
+        // As `node_velocity.wgsl` has it, which may run beside this.
+        let control = corners[corner];
+        let way = node_predicted[control_node[control]].xyz - control_position[control].xyz;
+        moved += fluid_shares[4u * row + corner].w * way;
+    }
+    let relative = fluid_velocity[row].xyz - moved * clock.inverse_step;
     let strength = drag_strength(fluid_drag_rate[row].xy, length(relative), clock.step) * params.particle_mass;
     fluid_drag[row] = vec4<f32>(relative * strength, strength);
 }

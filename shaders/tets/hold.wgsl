@@ -1,4 +1,3 @@
-// #include corner_mean
 // First pass of `tets::mobility`: how much the drag leaves of a change of the velocity of every particle.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -7,7 +6,7 @@
 @group(0) @binding(3) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> fluid_corners: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> fluid_shares: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> controls: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> control_material: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> fluid_pushed: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
@@ -20,7 +19,12 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let relative = fluid_velocity[row].xyz - corner_mean(row);
+    let corners = fluid_corners[row];
+    var mean = vec3<f32>(0.0);
+    for (var corner = 0u; corner < 4u && corners.x != corners.y; corner += 1u) {
+        mean += fluid_shares[4u * row + corner].w * control_material[corners[corner]].xyz;
+    }
+    let relative = fluid_velocity[row].xyz - mean;
     let drag = fluid_drag_rate[row].xy;
     fluid_pushed[row].w = 1.0 / (1.0 + (drag.x + drag.y * length(relative)) * clock.step);
 }

@@ -216,9 +216,7 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         let rule = "needs `fluid.solver` = \"divergence\", \"dfsph\" or \"pbf\", and `solver` = \"vbd\" of every sponge";
         problems.push(Problem::rule("fluid.coupling", "\"porous\"", rule));
     }
-    let is_porous =
-        scene.coupling() == Coupling::Porous && scene.fluid_solver() == Some(FluidSolver::Divergence);
-    if fluid.coupling_weights == Some(CouplingWeights::Barycentric) && !is_porous {
+    if fluid.coupling_weights == Some(CouplingWeights::Barycentric) && !scene.allows_barycentric() {
         let rule = "needs `fluid.coupling` = \"porous\" and `fluid.solver` = \"divergence\"";
         problems.push(Problem::rule("fluid.coupling_weights", "\"barycentric\"", rule));
     }

@@ -6,7 +6,7 @@
 use sorb::{
     glam::Vec3,
     rigid::BodyKind,
-    scene::{self, FluidSolver, Motion, Scene, Solver},
+    scene::{self, CouplingWeights, FluidSolver, Motion, Scene, Solver},
 };
 
 /// Names of all presets, in the order of the documentation.
@@ -45,16 +45,20 @@ fn without_sponges(scene: &mut Scene) {
 }
 
 /// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based
-/// fluids, `_divergence` the solve for the divergence: in `life` without sponges.
+/// fluids, `_divergence` the solve for the divergence: in `life` without sponges, `_barycentric` the coupling by tets.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
     let (name, projected) = name.strip_suffix("_pbf").map_or((name, false), |name| (name, true));
+    let (name, barycentric) = name.strip_suffix("_barycentric").map_or((name, false), |name| (name, true));
     let (name, divergence) = name.strip_suffix("_divergence").map_or((name, false), |name| (name, true));
     let mut scene = scene::preset(name)
         .and_then(|scene| scene.scaled(resolution))
         .unwrap_or_else(|error| panic!("{name}: {error}"));
     if paper {
         as_in_the_paper(&mut scene);
+    }
+    if let Some(fluid) = scene.fluid.as_mut().filter(|_| barycentric) {
+        fluid.coupling_weights = Some(CouplingWeights::Barycentric);
     }
     if let Some(fluid) = scene.fluid.as_mut().filter(|_| projected) {
         fluid.solver = Some(FluidSolver::Pbf);

@@ -32,6 +32,9 @@ const DIVERGENCE_AND_BODIES: &[&str] = &[
         {name=\"box\",kind=\"dynamic\",shape={kind=\"cuboid\",half_extents=[0.02,0.015,0.02]},position=[-0.09,0.016,0.0]}]",
 ];
 
+/// Water and sponges coupled by the tets of particles.
+const BARYCENTRIC: &[&str] = &["fluid.coupling_weights=\"barycentric\""];
+
 /// Viscous fluid with no-slip everywhere, solved so precisely that one iteration more or less does not show.
 const HONEY: &[&str] = &[
     "fluid.viscosity=5",

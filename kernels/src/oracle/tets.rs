@@ -38,7 +38,9 @@ fn tet_of(columns: &Columns, node: u32, point: DVec3, edge: f64) -> ([u32; 4], [
         if lowest > least {
             least = lowest;
             let [a, b, c] = gradients;
-            best = (corners, weights, [-a - b - c, a, b, c]);
+            let all = [-a - b - c, a, b, c];
+            let steepest = all.iter().map(|gradient| gradient.length()).fold(3.0 / edge, f64::max);
+            best = (corners, weights, all.map(|gradient| gradient * (3.0 / edge / steepest)));
         }
     }
     best

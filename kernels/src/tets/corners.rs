@@ -38,8 +38,10 @@ declare! {
     constants: {
         /// Smallest weight of a corner with which a point counts as one within the tet.
         const INSIDE_TET: f32 = -1.0e-5;
-        /// Least volume of a tet over that at rest that counts for the gradients: those of a flat one are infinite.
+        /// Least volume of a tet over that at rest that counts: the gradients of a flat one are infinite.
         const MINIMUM_TET: f32 = 0.1;
+        /// Steepest gradient of a weight, times the edge. It is the square root of 2 at rest.
+        const STEEPEST: f32 = 3.0;
         /// Largest weight of a corner of a tet that does not contain the particle.
         const LARGEST_WEIGHT: f32 = 2.0;
         /// Smallest.
@@ -142,8 +144,7 @@ impl Search<'_> {
             sum += *within;
         }
         let missing = (one - sum) * 0.25;
-        let [p, q, r] = best.gradients;
-        let gradients = [negative(plus(plus(p, q), r)), p, q, r];
+        let gradients = self.bounded(simd, best.gradients, node);
         for corner in 0..4 {
             let [x, y, z] = gradients[corner];
             let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
@@ -158,6 +159,26 @@ impl Search<'_> {
                 shares[lane][corner] = [x[lane], y[lane], z[lane], weight[lane]];
             }
         }
+    }
+
+    /// The gradients of all corners, all less where one is steeper than in a lattice that is only moderately compressed.
+    #[inline(always)]
+    fn bounded<S: Simd>(&self, simd: S, [p, q, r]: [Vec3x8<S>; 3], node: [u32; LANES]) -> [Vec3x8<S>; 4] {
+        let mut gradients = [negative(plus(plus(p, q), r)), p, q, r];
+        let limit = node.map(|node| {
+            let limit = STEEPEST / self.params.sponges[self.nodes.sponge[node as usize] as usize].edge;
+            limit * limit
+        });
+        let limit = lanes::load_array(simd, &limit);
+        let mut steepest = limit;
+        for gradient in gradients {
+            steepest = steepest.max(dot(gradient, gradient));
+        }
+        let scale = (limit / steepest).sqrt();
+        for gradient in &mut gradients {
+            *gradient = times(*gradient, scale);
+        }
+        gradients
     }
 
     /// The tets of eight particles: those around the neighbour that lies in their direction, if they are in one of these.

@@ -26,10 +26,8 @@ declare! {
     writes: [ControlVelocity, FluidDrag],
     oracle: crate::oracle::tets::drag_impulse,
     bound: 4e-6,
-    twin: [
-        pass("couple::node_velocity", Nodes),
-        pass(NAME, Fluid).on(&[("controls", "control_velocity")]),
-    ],
+    twin_reads: [ControlPosition],
+    twin: [pass("couple::node_velocity", Nodes), pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

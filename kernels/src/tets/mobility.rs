@@ -30,7 +30,7 @@ declare! {
     oracle: crate::oracle::tets::mobility,
     bound: 2e-5,
     twin: [
-        pass("tets::hold", Fluid).on(&[("controls", "control_material")]),
+        pass("tets::hold", Fluid),
         pass("tets::drawn", Controls),
         pass("couple::solid_compliance", Nodes),
         pass(NAME, Fluid),

@@ -306,6 +306,17 @@ fn sponges_do_not_repeat() {
 }
 
 #[test]
+fn barycentric_weights_need_the_divergence_step() {
+    let mut scene = full();
+    scene.sponges.iter_mut().for_each(|sponge| sponge.solver = Solver::Vbd);
+    fluid(&mut scene).coupling_weights = Some(CouplingWeights::Barycentric);
+    assert_eq!(scene.problems(), []);
+    fluid(&mut scene).solver = Some(FluidSolver::Dfsph);
+    let message = only(&scene).to_string();
+    assert!(message.contains("`fluid.coupling_weights`") && message.contains("\"barycentric\""), "{message}");
+}
+
+#[test]
 fn the_divergence_step_has_sponges_as_porous_media_only() {
     let mut scene = full();
     scene.sponges.iter_mut().for_each(|sponge| sponge.solver = Solver::Vbd);
