@@ -219,7 +219,7 @@ pub enum CouplingWeights {
     #[default]
     Smoothed,
     /// The four corners of the tet around the particle, by its barycentric coordinates. Steps of soaked sponges take two thirds of the
-    /// time. Not for suctions of 0.1 MPa or moduli of 10 Pa: nodes without water in their tets have suction and no drag.
+    /// time. Not for suctions of 1e5 Pa or moduli of 10 Pa: nodes without water in their tets have suction and no drag.
     Barycentric,
 }
 

@@ -247,7 +247,7 @@ impl Search<'_> {
             let mut weights = [one; 4];
             for (corner, gradient) in gradients.into_iter().enumerate() {
                 weights[corner + 1] = dot(gradient, around.offset);
-                weights[0] = weights[0] - weights[corner + 1];
+                weights[0] -= weights[corner + 1];
             }
             let smallest = weights[0].min(weights[1]).min(weights[2].min(weights[3]));
             let smallest = select(
