@@ -63,6 +63,8 @@ const TOGETHER: [&[&str]; 4] = [
         "divergence::acceleration",
         "couple::solid_response",
         "couple::solid_velocity",
+        "tets::response",
+        "tets::velocity",
         "divergence::residual",
     ],
     &["sph::pressure_update", "sph::pressure_acceleration", "couple::solid_yield", "sph::pressure_residual"],
