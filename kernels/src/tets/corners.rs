@@ -226,7 +226,13 @@ impl Search<'_> {
 
     /// Compares the tets around a direction, of every lane, with the best so far. Those of particles that have one already stay.
     #[inline(always)]
-    fn compare<S: Simd>(&self, simd: S, around: &Around<'_, S>, direction: [usize; LANES], best: &mut Best<S>) {
+    fn compare<S: Simd>(
+        &self,
+        simd: S,
+        around: &Around<'_, S>,
+        direction: [usize; LANES],
+        best: &mut Best<S>,
+    ) {
         let one = lanes::splat(simd, 1.0);
         let partner = self.way(simd, around, direction.map(|direction| CORNERS + direction));
         let ring = |k: usize| direction.map(|direction| RINGS[direction][k % 4]);

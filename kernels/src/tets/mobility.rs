@@ -86,7 +86,8 @@ fn compliances(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let volume = position[first + row][lane::controls::position::VOLUME];
             let drawn = drawn * mass;
             let response = response(params, nodes, (own, volume), drawn);
-            *compliance = [response, drawn * response, 0.0, material[first + row][lane::controls::material::VOLUME]];
+            *compliance =
+                [response, drawn * response, 0.0, material[first + row][lane::controls::material::VOLUME]];
         }
     });
 }

@@ -28,8 +28,14 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(smoothing) = &params.solid else { return };
     let controls = &columns.controls;
-    let Fluid { position, controls: lists, moment, renormalisation: along, renormalisation_between: between, .. } =
-        &mut columns.fluid;
+    let Fluid {
+        position,
+        controls: lists,
+        moment,
+        renormalisation: along,
+        renormalisation_between: between,
+        ..
+    } = &mut columns.fluid;
     for column in [&mut *moment, along, between] {
         column.resize(position.len(), [0.0; 4]);
     }
