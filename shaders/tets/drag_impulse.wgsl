@@ -8,7 +8,7 @@
 @group(0) @binding(4) var<storage, read> fluid_corners: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read> fluid_shares: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read> control_node: array<u32>;
-@group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> node_position: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> node_predicted: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> fluid_drag: array<vec4<f32>>;
 
@@ -30,8 +30,8 @@ fn main(
     var moved = vec3<f32>(0.0);
     for (var corner = 0u; corner < 4u; corner += 1u) {
         // As `node_velocity.wgsl` has it, which may run beside this.
-        let control = corners[corner];
-        let way = node_predicted[control_node[control]].xyz - control_position[control].xyz;
+        let node = control_node[corners[corner]];
+        let way = node_predicted[node].xyz - node_position[node].xyz;
         moved += fluid_shares[4u * row + corner].w * way;
     }
     let relative = fluid_velocity[row].xyz - moved * clock.inverse_step;

@@ -26,7 +26,6 @@ declare! {
     writes: [ControlVelocity, FluidDrag],
     oracle: crate::oracle::tets::drag_impulse,
     bound: 4e-6,
-    twin_reads: [ControlPosition],
     twin: [pass("couple::node_velocity", Nodes), pass(NAME, Fluid)],
 }
 
