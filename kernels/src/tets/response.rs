@@ -73,9 +73,9 @@ fn carry(cpu: &Cpu, params: &Params, fluid: &mut Fluid) {
         undragged.copy_from_slice(&correction[first..][..undragged.len()]);
         for (row, (carried, w)) in carried.iter_mut().zip(undragged).enumerate() {
             let (v, row) = (velocity[first + row], first + row);
-            let held = mass * (1.0 - pushed[row][3]);
+            let held = mass * (1.0 - pushed[row][lane::fluid::pushed::MOBILITY]);
             (0..3).for_each(|axis| carried[axis] = held * (w[axis] - v[axis]));
-            carried[3] = mass * predicted[row][lane::fluid::predicted::PRESSURE];
+            carried[lane::fluid::carried::ENERGY] = mass * predicted[row][lane::fluid::predicted::PRESSURE];
         }
     });
 }

@@ -6,6 +6,9 @@ use crate::{
     vector::{Vec3x8, plus, splat, times},
 };
 
+/// Lane of the weight of a corner, behind a vector.
+pub(crate) const WEIGHT: usize = 3;
+
 /// Four control rows for every particle: those of the corners of its tet, or the padding row.
 #[derive(Clone, Debug, Default)]
 pub struct Corners(pub(crate) Vec<[u32; 4]>);
