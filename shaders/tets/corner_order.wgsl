@@ -35,7 +35,7 @@ fn main(
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let own = corner_places[k - base];
         var ranks = vec4<u32>(0u);
-        // Many in a turn: lavapipe ends the loops of a thread after 65 535 turns in all.
+        // Many in an iteration: lavapipe ends the loops of a thread after 65 535 of them.
         for (var other = list.x; other < list.y; other += 32u) {
             ranks += before(other, own, list.y) + before(other + 4u, own, list.y);
             ranks += before(other + 8u, own, list.y) + before(other + 12u, own, list.y);

@@ -1,5 +1,5 @@
 // #include control_group, corner_list, corner_drag
-// Drag impulses on the nodes, and their moments; `drag_reaction.rs` has the formulas.
+// Drag impulses on the nodes, and their moments; `drag_reaction.rs` and `drag_settled.rs` have the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -12,12 +12,7 @@
 @group(0) @binding(8) var<storage, read_write> node_drag: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
-@compute @workgroup_size(GROUP_THREADS)
-fn main(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32,
-) {
+fn on_node(group: vec3<u32>, groups: vec3<u32>, lane: u32, responds: bool) {
     if (clock.running == 0u) {
         return;
     }
@@ -29,6 +24,25 @@ fn main(
         return;
     }
     let node = control_node[row];
-    node_drag[node] = drag.impulse;
+    node_drag[node] = vec4<f32>(drag.impulse.xyz, select(0.0, drag.impulse.w, responds));
     node_drag_moment[node] = drag.moment;
+}
+
+@compute @workgroup_size(GROUP_THREADS)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    on_node(group, groups, lane, true);
+}
+
+// Nodes no longer move fluid with them.
+@compute @workgroup_size(GROUP_THREADS)
+fn settled(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    on_node(group, groups, lane, false);
 }

@@ -1,7 +1,7 @@
 //! Impulses of the drag between particles and nodes.
 
 use crate::{
-    columns::{Columns, Controls},
+    columns::{Columns, Controls, Nodes},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
@@ -106,10 +106,15 @@ pub(super) fn on_nodes(cpu: &Cpu, columns: &mut Columns, responds: bool) {
             }
         });
     });
-    for (rows, sums) in [(&mut nodes.drag, &impulses), (&mut nodes.drag_moment, &moments)] {
+    by_node(nodes, node, &impulses, &moments);
+}
+
+/// Writes impulses and moments in the order of the controls to the rows of their nodes.
+pub(crate) fn by_node(nodes: &mut Nodes, order: &[u32], impulses: &[[f32; 4]], moments: &[[f32; 4]]) {
+    for (rows, sums) in [(&mut nodes.drag, impulses), (&mut nodes.drag_moment, moments)] {
         rows.clear();
         rows.resize(nodes.position.len(), [0.0; 4]);
-        for (node, sum) in node.iter().zip(sums) {
+        for (node, sum) in order.iter().zip(sums) {
             rows[*node as usize] = *sum;
         }
     }

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The tet is one of those around the nearest node: on the lattice at rest the tet of a point always has it. Where none of them contains
-//! the particle, at the face of the sponge or in a crushed lattice, it is the one whose smallest weight is largest. Weights then say how
-//! the lattice would go on.
+//! the particle, at the face of the sponge or in a crushed lattice, it is the one whose smallest weight is largest. Its weights are
+//! then extrapolated: some are negative.
 
 use super::rows::{CornerRows, Corners};
 use crate::{

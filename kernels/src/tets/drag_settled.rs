@@ -8,7 +8,7 @@ declare! {
     writes: [NodeDrag, NodeDragMoment],
     oracle: crate::oracle::tets::drag_settled,
     bound: 2e-5,
-    twin: [pass(NAME, Controls)],
+    twin: [pass("tets::drag_reaction", Controls).from("settled")],
 }
 
 fn cpu(cpu: &Cpu, _: &Params, columns: &mut Columns) {

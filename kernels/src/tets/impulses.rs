@@ -2,6 +2,7 @@
 
 use crate::{
     columns::{Columns, Controls},
+    couple::impulses::by_node,
     cpu::Cpu,
     lanes::{self, LANES, with_lanes},
     vector::{cross, minus, plus, splat, times},
@@ -39,11 +40,5 @@ pub(super) fn on_nodes(cpu: &Cpu, columns: &mut Columns, responds: bool) {
             }
         });
     });
-    for (rows, sums) in [(&mut nodes.drag, &impulses), (&mut nodes.drag_moment, &moments)] {
-        rows.clear();
-        rows.resize(nodes.position.len(), [0.0; 4]);
-        for (node, sum) in node.iter().zip(sums) {
-            rows[*node as usize] = *sum;
-        }
-    }
+    by_node(nodes, node, &impulses, &moments);
 }
