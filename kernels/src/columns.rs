@@ -52,8 +52,6 @@ columns! {
         /// Drag rate of the particle; y: its derivative by the speed relative to the sponge \[1/m\]; z: root of the
         /// compliance of the material to the pressure, over that of water, see `couple::solid_yield` \[1\].
         FluidDragRate = drag_rate: rows(; DRAG_RATE 0 "1/s", INERTIAL_DRAG_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
-        /// Acceleration of the particle by suction.
-        FluidSuction = suction: rows("m/s^2"), Scratch, needs Sponge;
         /// Impulse that the particle loses to the sponge, over its interior value.
         FluidDrag = drag: rows("kg m/s"; MASS 3 "kg"), Scratch, needs Sponge;
         /// Predicted position at the end of the step; w: change of the kinematic pressure \[m^2/s^2\]. With a pressure solve for

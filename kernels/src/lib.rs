@@ -100,7 +100,7 @@ kernels! {
     }
     /// Fluid and sponge as porous media: a particle in a sponge exchanges momentum with the corners of its tet.
     tets {
-        corners, moments, flux, mobility, suction, response, velocity, drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
+        corners, moments, flux, mobility, response, velocity, drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
     } shared {
         impulses, pub rows,
     }

@@ -10,7 +10,6 @@
 @group(0) @binding(4) var<storage, read> control_suction: array<f32>;
 @group(0) @binding(5) var<storage, read> fluid_controls: array<u32>;
 @group(0) @binding(6) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
-@group(0) @binding(7) var<storage, read_write> fluid_suction: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -36,8 +35,7 @@ fn main(
     let all = share_sum3(lane, sum);
     if (share.writes) {
         let before = fluid_acceleration[row];
-        let own = all * (params.coupling.gradient * (1.0 / params.rest_density));
-        fluid_acceleration[row] = vec4<f32>(before.xyz + own, before.w);
-        fluid_suction[row] = vec4<f32>(own, 0.0);
+        let scale = params.coupling.gradient * (1.0 / params.rest_density);
+        fluid_acceleration[row] = vec4<f32>(before.xyz + all * scale, before.w);
     }
 }

@@ -1,12 +1,11 @@
 //! Impulses of the drag between particles and nodes.
 
 use crate::{
-    columns::{Columns, Controls, Nodes, lane},
+    columns::{Columns, Controls, Nodes},
     cpu::Cpu,
     grid::neighbors::ChunkLists,
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     layout::constants,
-    params::Params,
     vector::{Vec3x8, cross, minus, plus, splat, times},
 };
 
@@ -118,15 +117,5 @@ pub(crate) fn by_node(nodes: &mut Nodes, order: &[u32], impulses: &[[f32; 4]], m
         for (node, sum) in order.iter().zip(sums) {
             rows[*node as usize] = *sum;
         }
-    }
-}
-
-/// Accelerates nodes by forces in the order of the controls, times the reaction of their sponge to suction.
-pub(crate) fn accelerate(params: &Params, nodes: &mut Nodes, order: &[u32], forces: &[[f32; 4]]) {
-    for (node, force) in order.iter().zip(forces) {
-        let node = *node as usize;
-        let scale = params.sponges[nodes.sponge[node] as usize].reaction
-            * nodes.position[node][lane::nodes::position::INVERSE_MASS];
-        (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * scale);
     }
 }

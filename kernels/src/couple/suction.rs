@@ -12,23 +12,21 @@ use crate::{
     kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
-    vector::times,
 };
 
 declare! {
     needs: [Fluid, Sponge],
     reads: [FluidPosition, FluidControls, FluidAcceleration, ControlPosition, ControlSuction],
-    writes: [FluidAcceleration, FluidSuction],
+    writes: [FluidAcceleration],
     oracle: crate::oracle::couple::suction,
     bound: 4e-6,
     twin: [pass(NAME, Fluid)],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid { position, controls: lists, acceleration, suction: own, .. } = &mut columns.fluid;
+    let Fluid { position, controls: lists, acceleration, .. } = &mut columns.fluid;
     let (controls, suction) = (&columns.controls.position, &columns.controls.suction);
-    own.resize(position.len(), [0.0; 4]);
-    cpu.for_chunks((&mut acceleration[..], &mut own[..]), |first, (acceleration, own)| {
+    cpu.for_chunks(&mut acceleration[..], |first, acceleration| {
         let lists = lists.chunk(first);
         with_lanes!(cpu, simd => {
             let kernel = params.coupling.lanes(simd);
@@ -44,9 +42,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     sum = [sum[0] + pull * dx, sum[1] + pull * dy, sum[2] + pull * dz];
                 }
                 let [ax, ay, az, aw] = lanes::load_rows(simd, acceleration, row);
-                let [sx, sy, sz] = times(sum, scale);
-                lanes::store_rows(acceleration, row, [ax + sx, ay + sy, az + sz, aw]);
-                lanes::store_rows(own, row, [sx, sy, sz, lanes::splat(simd, 0.0)]);
+                let total = [ax + sum[0] * scale, ay + sum[1] * scale, az + sum[2] * scale, aw];
+                lanes::store_rows(acceleration, row, total);
             }
         });
     });

@@ -8,8 +8,7 @@
 //! opposite to the suction of `couple::suction`. A sponge then does not propel itself off the water.
 
 use crate::{
-    columns::Columns,
-    couple::impulses::accelerate,
+    columns::{Columns, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
@@ -18,7 +17,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Sponge, Smoothed],
+    needs: [Fluid, Sponge],
     reads: [
         FluidPosition, ControlNode, ControlPosition, ControlFluid, ControlSuction, NodePosition, NodeSponge,
         NodeAcceleration,
@@ -56,5 +55,10 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             }
         });
     });
-    accelerate(params, nodes, &controls.node, &force);
+    for (node, force) in controls.node.iter().zip(&force) {
+        let node = *node as usize;
+        let scale = params.sponges[nodes.sponge[node] as usize].reaction
+            * nodes.position[node][lane::nodes::position::INVERSE_MASS];
+        (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * scale);
+    }
 }

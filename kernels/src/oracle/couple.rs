@@ -156,7 +156,6 @@ pub(crate) fn interior(params: &Params, columns: &mut Columns) {
 
 pub(crate) fn suction(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
-    columns.fluid.suction = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
         let mut force = DVec3::ZERO;
         for control in 0..columns.rows.nodes {
@@ -165,9 +164,8 @@ pub(crate) fn suction(params: &Params, columns: &mut Columns) {
             force -= rest_volume(params) * suction * pairs.gradient(particle, control);
         }
         let old = columns.fluid.acceleration[particle];
-        let own = force / f64::from(params.fluid.particle_mass);
-        columns.fluid.acceleration[particle] = keep(old, vector(old) + own);
-        columns.fluid.suction[particle] = row(own, 0.0);
+        let total = vector(old) + force / f64::from(params.fluid.particle_mass);
+        columns.fluid.acceleration[particle] = keep(old, total);
     }
 }
 

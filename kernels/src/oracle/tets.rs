@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{
-    couple::{Pairs, sponge},
+    couple::Pairs,
     divergence::renormalisation,
     keep, porous, row,
     solid::{self, around},
@@ -197,20 +197,6 @@ pub(crate) fn response(params: &Params, columns: &mut Columns) {
         controls.force[control] = row(force, 0.0);
         controls.impulse[control] = row(received, 0.0);
         controls.solved[control] = row(vector(controls.material[control]) + compliance * all, volume);
-    }
-}
-
-pub(crate) fn suction(params: &Params, columns: &mut Columns) {
-    for control in 0..columns.rows.nodes {
-        let of_particle = |(particle, _, weight): (usize, DVec3, f64)| {
-            f64::from(params.fluid.particle_mass) * weight * vector(columns.fluid.suction[particle])
-        };
-        let force: DVec3 = beside(columns, control).into_iter().map(of_particle).sum();
-        let node = columns.controls.node[control] as usize;
-        let reaction = f64::from(sponge(params, columns, control).reaction);
-        let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
-        let total = vector(columns.nodes.acceleration[node]) - force * reaction * inverse_mass;
-        columns.nodes.acceleration[node] = row(total, 0.0);
     }
 }
 

@@ -60,7 +60,6 @@ pub(super) static FORCES: Block = Block {
         Run(&sph::deficit::KERNEL),
         Run(&sph::cohesion::KERNEL),
         Run(&couple::suction::KERNEL),
-        Run(&tets::suction::KERNEL),
     ],
 };
 
