@@ -104,7 +104,7 @@ macro_rules! scenes {
         })+
     };
 }
-sorb::for_every_preset!(scenes ball_drop_paper dry_paper life_pbf ball_drop_barycentric ball_drop_divergence);
+sorb::for_every_preset!(scenes ball_drop_paper dry_paper life_pbf ball_drop_smoothed ball_drop_divergence);
 
 #[test]
 fn a_pool_of_the_host_changes_nothing() {

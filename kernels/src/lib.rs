@@ -102,7 +102,7 @@ kernels! {
     tets {
         corners, moments, flux, mobility, response, velocity, drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
     } shared {
-        impulses, pub rows,
+        corner_lists, impulses, pub rows,
     }
 }
 

@@ -45,8 +45,8 @@ pub struct Fluid {
     /// water, else `paper`.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub coupling: Option<Coupling>,
-    /// Nodes that a particle in a sponge exchanges momentum with; default `smoothed`. `barycentric` needs the coupling `porous`
-    /// and the solver `divergence`.
+    /// Nodes that a particle in a sponge exchanges momentum with. `barycentric` needs the coupling `porous` and the solver
+    /// `divergence`, and is then the default, unless the suction of a sponge can exceed its Young's modulus. Else `smoothed`.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub coupling_weights: Option<CouplingWeights>,
     /// Pressure as a function of density; default `tait`. For `wcsph`.
@@ -211,15 +211,15 @@ pub enum Coupling {
 }
 
 /// Nodes of a sponge that a particle in it exchanges momentum with, by drag and pressure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum CouplingWeights {
     /// All nodes within the suction radius, by the smoothing function: 28 nodes.
-    #[default]
     Smoothed,
-    /// The four corners of the tet around the particle, by its barycentric coordinates. Steps of soaked sponges take two thirds of the
-    /// time. Not for suctions of 1e5 Pa or moduli of 10 Pa: nodes without water in their tets have suction and no drag.
+    /// The four corners of the tet around the particle, by its barycentric coordinates. Frames with soaked sponges take three quarters
+    /// of the time. A suction beyond Young's modulus crushes a sponge, and throws nodes without water in their tets, which have no
+    /// drag.
     Barycentric,
 }
 
@@ -346,7 +346,11 @@ impl Scene {
     /// Nodes that particles in sponges exchange momentum with: [`Fluid::coupling_weights`], or the default.
     #[must_use]
     pub fn coupling_weights(&self) -> CouplingWeights {
-        self.fluid.as_ref().and_then(|fluid| fluid.coupling_weights).unwrap_or_default()
+        let chosen = self.fluid.as_ref().and_then(|fluid| fluid.coupling_weights);
+        let bears = |sponge: &super::Sponge| sponge.largest_suction() <= sponge.young_modulus;
+        let is_default = self.allows_barycentric() && self.sponges.iter().all(bears);
+        let default = if is_default { CouplingWeights::Barycentric } else { CouplingWeights::Smoothed };
+        chosen.unwrap_or(default)
     }
 
     /// Whether the coupling and the solver allow [`CouplingWeights::Barycentric`].

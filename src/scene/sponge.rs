@@ -219,6 +219,12 @@ impl Sponge {
             || self.receding_pressure > self.entry_pressure
     }
 
+    /// Suction of dry material \[Pa\].
+    #[must_use]
+    pub fn largest_suction(&self) -> f32 {
+        self.entry_pressure.max(self.receding_pressure) * (1.0 + self.saturation_gain)
+    }
+
     /// Highest corner of the lattice block \[m\].
     #[must_use]
     pub fn maximum(&self) -> Vec3 {

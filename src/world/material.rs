@@ -72,7 +72,12 @@ impl World {
     }
 
     /// Puts what commands have made of the scene in its place.
-    pub(super) fn change_scene(&mut self, scene: Scene) {
+    pub(super) fn change_scene(&mut self, mut scene: Scene) {
+        // By default they depend on the material. A world keeps those that it began with.
+        let weights = self.scene.coupling_weights();
+        if let Some(fluid) = &mut scene.fluid {
+            fluid.coupling_weights.get_or_insert(weights);
+        }
         self.origin_mut().present = digest_of(&scene);
         self.scene = Arc::new(scene);
         #[cfg(feature = "serde")]

@@ -45,11 +45,12 @@ fn without_sponges(scene: &mut Scene) {
 }
 
 /// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based
-/// fluids, `_divergence` the solve for the divergence: in `life` without sponges, `_barycentric` the coupling by tets.
+/// fluids, `_divergence` the solve for the divergence: in `life` without sponges, `_smoothed` the coupling by nodes within the
+/// suction radius.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));
     let (name, projected) = name.strip_suffix("_pbf").map_or((name, false), |name| (name, true));
-    let (name, barycentric) = name.strip_suffix("_barycentric").map_or((name, false), |name| (name, true));
+    let (name, smoothed) = name.strip_suffix("_smoothed").map_or((name, false), |name| (name, true));
     let (name, divergence) = name.strip_suffix("_divergence").map_or((name, false), |name| (name, true));
     let mut scene = scene::preset(name)
         .and_then(|scene| scene.scaled(resolution))
@@ -57,8 +58,8 @@ pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     if paper {
         as_in_the_paper(&mut scene);
     }
-    if let Some(fluid) = scene.fluid.as_mut().filter(|_| barycentric) {
-        fluid.coupling_weights = Some(CouplingWeights::Barycentric);
+    if let Some(fluid) = scene.fluid.as_mut().filter(|_| smoothed) {
+        fluid.coupling_weights = Some(CouplingWeights::Smoothed);
     }
     if let Some(fluid) = scene.fluid.as_mut().filter(|_| projected) {
         fluid.solver = Some(FluidSolver::Pbf);

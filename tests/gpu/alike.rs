@@ -10,7 +10,7 @@ use sorb::{
 };
 
 use super::{
-    BARYCENTRIC, DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, gpu, world, worst,
+    DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, busy, common, difference, gpu, world, worst,
 };
 
 /// Largest difference of quantities that do not depend on single particles: place of water and sponges, absorbed water, and
@@ -176,9 +176,9 @@ cases! {
     divergence_and_bodies: "water", 0.5, DIVERGENCE_AND_BODIES, 1, 1e-4;
     divergence_and_a_sponge: "standing", 0.5, DIVERGENCE, 1, 1e-4;
     divergence_and_a_ball_on_a_sponge: "ball_drop", 0.5, DIVERGENCE, 1, 1e-4;
-    barycentric_and_a_ball_on_a_sponge: "ball_drop", 0.5, BARYCENTRIC, 1, 1e-4;
-    barycentric_and_grips: "wring", 0.5, BARYCENTRIC, 1, 1e-4;
-    a_second_of_a_barycentric_sponge: "standing", 0.3, BARYCENTRIC, 60, 1e-2;
+    smoothed_and_a_ball_on_a_sponge: "ball_drop", 0.5, SMOOTHED, 1, 1e-4;
+    smoothed_and_grips: "wring", 0.5, SMOOTHED, 1, 1e-4;
+    a_second_of_a_smoothed_sponge: "standing", 0.3, SMOOTHED, 60, 1e-2;
     a_second_of_divergence_and_a_sponge: "standing", 0.3, DIVERGENCE, 60, 1e-2;
     a_second_of_solved_water: "water", 0.4, &[], 60, 1e-1;
     a_second_of_honey: "water", 0.4, HONEY, 60, 1e-2;

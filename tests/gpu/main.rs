@@ -32,8 +32,8 @@ const DIVERGENCE_AND_BODIES: &[&str] = &[
         {name=\"box\",kind=\"dynamic\",shape={kind=\"cuboid\",half_extents=[0.02,0.015,0.02]},position=[-0.09,0.016,0.0]}]",
 ];
 
-/// Water and sponges coupled by the tets of particles.
-const BARYCENTRIC: &[&str] = &["fluid.coupling_weights=\"barycentric\""];
+/// Water and sponges coupled by nodes within the suction radius.
+const SMOOTHED: &[&str] = &["fluid.coupling_weights=\"smoothed\""];
 
 /// Viscous fluid with no-slip everywhere, solved so precisely that one iteration more or less does not show.
 const HONEY: &[&str] = &[

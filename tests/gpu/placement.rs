@@ -10,7 +10,7 @@ use sorb::{
     scene::{Domain, Scene, Solver, Sponge},
 };
 
-use super::{BARYCENTRIC, DFSPH, DIVERGENCE_AND_BODIES, HONEY, busy, common, difference, gpu, world};
+use super::{DFSPH, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, busy, common, difference, gpu, world};
 
 #[test]
 fn every_kernel_can_be_the_first_on_the_gpu() {
@@ -123,8 +123,8 @@ fn every_kernel_of_porous_media_can_be_alone_on_either_side() {
 }
 
 #[test]
-fn every_kernel_of_barycentric_coupling_can_be_alone_on_either_side() {
-    assert_each_can_be_alone(&everything("ball_drop", BARYCENTRIC), 1e-4);
+fn every_kernel_of_smoothed_coupling_can_be_alone_on_either_side() {
+    assert_each_can_be_alone(&everything("ball_drop", SMOOTHED), 1e-4);
 }
 
 #[test]

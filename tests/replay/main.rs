@@ -3,7 +3,7 @@
 /// Hands all scenes of the library, busy, and others with other solvers to a macro.
 macro_rules! for_every_scene {
     ($macro:ident) => {
-        sorb::for_every_preset! { $macro ball_drop_paper dry_paper life_pbf life_divergence ball_drop_barycentric ball_drop_divergence }
+        sorb::for_every_preset! { $macro ball_drop_paper dry_paper life_pbf life_divergence ball_drop_smoothed ball_drop_divergence }
     };
 }
 

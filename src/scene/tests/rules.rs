@@ -309,6 +309,11 @@ fn sponges_do_not_repeat() {
 fn barycentric_weights_need_the_divergence_step() {
     let mut scene = full();
     scene.sponges.iter_mut().for_each(|sponge| sponge.solver = Solver::Vbd);
+    assert_eq!(scene.coupling_weights(), CouplingWeights::Barycentric);
+    let soft = scene.sponges[0].largest_suction() * 0.99;
+    let stiff = std::mem::replace(&mut scene.sponges[0].young_modulus, soft);
+    assert_eq!(scene.coupling_weights(), CouplingWeights::Smoothed, "suction crushes it");
+    scene.sponges[0].young_modulus = stiff;
     fluid(&mut scene).coupling_weights = Some(CouplingWeights::Barycentric);
     assert_eq!(scene.problems(), []);
     fluid(&mut scene).solver = Some(FluidSolver::Dfsph);

@@ -64,12 +64,7 @@ fn main() -> ExitCode {
 }
 
 /// Centres of cells from `first` up to `end`, where a condition holds.
-fn lattice(
-    first: [i32; 3],
-    end: [i32; 3],
-    spacing: f32,
-    has: impl Fn([i32; 3]) -> bool,
-) -> Vec<Vector<f32>> {
+fn lattice(first: [i32; 3], end: [i32; 3], spacing: f32, has: impl Fn([i32; 3]) -> bool) -> Vec<Vector<f32>> {
     let mut points = Vec::new();
     for x in first[0]..end[0] {
         for y in first[1]..end[1] {
