@@ -146,7 +146,7 @@ fn levels_and_rays_are_those_of_the_host() {
             assert!(device.normal.dot(host.normal) > 0.95, "{device:?} {host:?}");
             met[usize::from(host.surface == Surface::Water)] += 1;
         }
-        assert!(met[0] > 0 && met[1] > 50, "bodies and water were met: {met:?}");
+        assert!(met[0] > 0 && met[1] > 20, "bodies and water were met: {met:?}");
     }
 }
 

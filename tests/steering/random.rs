@@ -169,7 +169,8 @@ fn commands(world: &World, seed: u64, frame: u64) -> Vec<Command> {
 /// Takes a frame; returns how many commands were taken and how many refused.
 fn advance(world: &mut World, seed: u64, frame: u64) -> [u32; 2] {
     let mut counts = [0; 2];
-    for command in commands(world, seed, frame) {
+    let commands = commands(world, seed, frame);
+    for command in commands.clone() {
         let before = world.digest();
         let is_refused = world.push(command).is_err();
         counts[usize::from(is_refused)] += 1;
@@ -177,7 +178,7 @@ fn advance(world: &mut World, seed: u64, frame: u64) -> [u32; 2] {
     }
     world.advance_frame().unwrap_or_else(|error| panic!("seed {seed}, frame {frame}: {error}"));
     let is_sound = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| audit(world)));
-    assert!(is_sound.is_ok(), "seed {seed}, frame {frame}");
+    assert!(is_sound.is_ok(), "seed {seed}, frame {frame}, after {commands:?}");
     counts
 }
 
