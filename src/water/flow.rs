@@ -98,7 +98,7 @@ mod tests {
         let points = layer(&emitter, 0.005, gravity, 0.1);
         let area = points.len() as f32 * 0.005 * 0.005;
         assert!((area / (std::f32::consts::PI * 0.051 * 0.051) - 1.0).abs() < 0.05, "{area}");
-        let mut parts = [0; 4];
+        let mut parts = [0_usize; 4];
         for (place, velocity) in &points {
             // At a speed of 1 m/s along x, the time since it was at the disc.
             let time = place.x;

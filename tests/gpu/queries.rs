@@ -52,6 +52,7 @@ fn both<T>(world: &World, gpu: &Gpu, ask: impl Fn(&World) -> T) -> ([T; 2], [u64
     let rows = world.particle_positions().len();
     assert_eq!(rows, world.particle_count());
     let read = gpu.bytes_read() - bytes[1];
+    println!("{by_device} bytes for the answers, {read} for all columns");
     let of_host = ask(world);
     assert_eq!(gpu.bytes_read() - bytes[1], read, "the host answers from what it has");
     ([of_device, of_host], [by_device, read])
