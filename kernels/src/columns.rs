@@ -112,6 +112,8 @@ columns! {
         /// For every corner, before `tets::flux` the gradient and the value of its weight; after it the change of the rate of compression
         /// by its velocity \[1/m\], and its weight in means.
         FluidShares = shares: CornerRows("1/m"), Scratch;
+        /// Force of the suction of the particle on every corner of its tet, where the reaction is exact.
+        FluidCornerForces = corner_forces: CornerRows("N"), Scratch;
         /// Acceleration of the particle by the material of its sponge, over its kinematic pressure; w: change of its velocity over that
         /// without drag, with nodes at rest.
         FluidPushed = pushed: rows("1/m"; MOBILITY 3 "1"), Scratch, needs Barycentric;

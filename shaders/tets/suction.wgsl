@@ -1,16 +1,15 @@
 // #include sponges, control_group, corner_list
-// Reaction of the suction of particles on the corners of their tets; `suction.rs` has the formula.
+// Reaction of the suction of particles on the corners of their tets; `suction.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> sponges: Sponges;
-@group(0) @binding(3) var<storage, read> fluid_suction: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> fluid_shares: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> control_node: array<u32>;
-@group(0) @binding(6) var<storage, read> control_corners: array<u32>;
-@group(0) @binding(7) var<storage, read> node_position: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read> node_sponge: array<u32>;
-@group(0) @binding(9) var<storage, read_write> node_acceleration: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> fluid_corner_forces: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> control_node: array<u32>;
+@group(0) @binding(5) var<storage, read> control_corners: array<u32>;
+@group(0) @binding(6) var<storage, read> node_position: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> node_sponge: array<u32>;
+@group(0) @binding(8) var<storage, read_write> node_acceleration: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP_THREADS)
 fn main(
@@ -26,14 +25,12 @@ fn main(
     let list = corner_list(row, is_row);
     var part = vec3<f32>(0.0);
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
-        let place = control_corners[k];
-        part += fluid_shares[place].w * fluid_suction[place / 4u].xyz;
+        part += fluid_corner_forces[control_corners[k]].xyz;
     }
-    let sum = control_sum(lane, vec4<f32>(part, 0.0)).xyz;
+    let force = control_sum(lane, vec4<f32>(part, 0.0)).xyz;
     if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
-    let force = sum * -params.particle_mass;
     let node = control_node[row];
     let scale = sponges.all[node_sponge[node]].reaction * node_position[node].w;
     let before = node_acceleration[node];

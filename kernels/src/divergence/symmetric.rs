@@ -76,10 +76,17 @@ impl<S: Simd> Symmetric<S> {
     /// The inverse.
     #[inline(always)]
     pub(crate) fn inverse(self, simd: S) -> Self {
+        let (adjugate, determinant) = self.adjugate();
+        adjugate.scaled(lanes::splat(simd, 1.0) / determinant)
+    }
+
+    /// The inverse times the determinant, and the determinant.
+    #[inline(always)]
+    pub(crate) fn adjugate(self) -> (Self, f32x8<S>) {
         let ([xx, yy, zz], [yz, zx, xy]) = (self.along, self.between);
         let along = [yy * zz - yz * yz, zz * xx - zx * zx, xx * yy - xy * xy];
         let between = [zx * xy - xx * yz, xy * yz - yy * zx, yz * zx - zz * xy];
         let determinant = xx * along[0] + xy * between[2] + zx * between[1];
-        Self { along, between }.scaled(lanes::splat(simd, 1.0) / determinant)
+        (Self { along, between }, determinant)
     }
 }

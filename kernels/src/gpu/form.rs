@@ -64,7 +64,7 @@ impl Form {
             Column::ControlFluid => Self::Lists(2),
             Column::NodePairs => Self::Lists(3),
             Column::FluidCorners => Self::Wide(4),
-            Column::FluidShares => Self::Wide(16),
+            Column::FluidShares | Column::FluidCornerForces => Self::Wide(16),
             Column::ControlCorners => Self::Corners,
             Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
             Column::FluidPressureSolve => Self::PressureSolve,
@@ -158,10 +158,11 @@ fn take_corners(columns: &mut Columns, words: &[u32]) {
 /// Takes over rows of several words, and pads them with rows outside of sponges.
 fn take_wide(columns: &mut Columns, column: Column, words: &[u32]) {
     let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; 4]);
-    if column == Column::FluidCorners {
-        take_rows(&mut columns.fluid.corners.0, words, outside, rows);
-    } else {
-        take_rows(&mut columns.fluid.shares.0, words, [[0.0; 4]; 4], rows);
+    let fluid = &mut columns.fluid;
+    match column {
+        Column::FluidCorners => take_rows(&mut fluid.corners.0, words, outside, rows),
+        Column::FluidShares => take_rows(&mut fluid.shares.0, words, [[0.0; 4]; 4], rows),
+        _ => take_rows(&mut fluid.corner_forces.0, words, [[0.0; 4]; 4], rows),
     }
 }
 

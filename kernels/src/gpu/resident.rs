@@ -196,6 +196,7 @@ impl Resident {
             ("fluid_controls", list(inside, self.capacities[1]), plain),
             ("fluid_corners", cornered * 16, plain),
             ("fluid_shares", cornered * 64, plain),
+            ("fluid_corner_forces", cornered * 64, plain),
             ("control_corners", (corner_lists + 1 + 4 * cornered) * 4, plain),
             ("node_control", corner_lists * 4, plain),
             ("corner_counts", corner_lists * 4, plain),

@@ -1,6 +1,6 @@
 //! Exchange of momentum between particles in sponges and the corners of their tets.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::{
     couple::{Pairs, sponge},
@@ -201,15 +201,36 @@ pub(crate) fn response(params: &Params, columns: &mut Columns) {
 }
 
 pub(crate) fn suction(params: &Params, columns: &mut Columns) {
-    for control in 0..columns.rows.nodes {
-        let of_particle = |(particle, _, weight): (usize, DVec3, f64)| {
-            f64::from(params.fluid.particle_mass) * weight * vector(columns.fluid.suction[particle])
-        };
-        let force: DVec3 = beside(columns, control).into_iter().map(of_particle).sum();
+    let mass = f64::from(params.fluid.particle_mass);
+    columns.fluid.corner_forces.0 = vec![[[0.0; 4]; 4]; columns.fluid.position.len()];
+    let mut received = vec![DVec3::ZERO; columns.rows.nodes];
+    for particle in 0..columns.rows.fluid {
+        let corners = of(columns, particle);
+        let force = -mass * vector(columns.fluid.suction[particle]);
+        let place = |control: usize| vector(columns.controls.position[control]);
+        let centre: DVec3 = corners.iter().map(|(control, ..)| place(*control) / 4.0).sum();
+        let mean: DVec3 = corners.iter().map(|(control, _, weight)| *weight * place(*control)).sum();
+        let mut inertia = DMat3::ZERO;
+        for (control, ..) in &corners {
+            let arm = place(*control) - centre;
+            let outer = DMat3::from_cols(arm * arm.x, arm * arm.y, arm * arm.z);
+            inertia += DMat3::from_diagonal(DVec3::splat(arm.length_squared())) - outer;
+        }
+        let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
+        let moment = force.cross(mean - vector(columns.fluid.position[particle]));
+        let turns = inertia.determinant() > 1.0e-4 * trace.powi(3);
+        let turn = if turns { inertia.inverse() * moment } else { DVec3::ZERO };
+        for (corner, (control, _, weight)) in corners.iter().enumerate() {
+            let part = *weight * force + turn.cross(place(*control) - centre);
+            columns.fluid.corner_forces.0[particle][corner] = row(part, 0.0);
+            received[*control] += part;
+        }
+    }
+    for (control, force) in received.into_iter().enumerate() {
         let node = columns.controls.node[control] as usize;
         let reaction = f64::from(sponge(params, columns, control).reaction);
         let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
-        let total = vector(columns.nodes.acceleration[node]) - force * reaction * inverse_mass;
+        let total = vector(columns.nodes.acceleration[node]) + force * reaction * inverse_mass;
         columns.nodes.acceleration[node] = row(total, 0.0);
     }
 }

@@ -163,8 +163,9 @@ fn content(column: Column, params: &Params, columns: &Columns, brute: bool) -> C
             let node = |row: &u32| controls.node.get(*row as usize).copied().unwrap_or(u32::MAX);
             Content::Sets(by_id.iter().map(|row| fluid.corners.0[*row].iter().map(node).collect()).collect())
         }
-        Column::FluidShares => {
-            let rows = by_id.iter().flat_map(|row| fluid.shares.0[*row]);
+        Column::FluidShares | Column::FluidCornerForces => {
+            let all = if column == Column::FluidShares { &fluid.shares } else { &fluid.corner_forces };
+            let rows = by_id.iter().flat_map(|row| all.0[*row]);
             let (vectors, weights) =
                 rows.map(|row| row.map(f64::from)).map(|[x, y, z, w]| ([x, y, z], w)).unzip();
             let vectors: Vec<[f64; 3]> = vectors;

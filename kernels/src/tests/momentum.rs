@@ -124,6 +124,7 @@ fn suction_and_its_reaction_on_tets_balance() {
     let tets = ["couple::suction", "tets::suction"];
     let balance = suction_balance(BARYCENTRIC, tets, 1.0);
     assert!(balance.error() < 1e-6, "{:.1e}", balance.error());
+    assert!(balance.moment_error() < 1e-6, "{:.1e}", balance.moment_error());
     assert!(suction_balance(BARYCENTRIC, tets, 0.99).error() > 1e-5);
 }
 
