@@ -43,6 +43,7 @@ fn stepped(scene: &Scene, frames: u32) -> (World, Arc<Gpu>) {
 }
 
 /// Answers of the device and of the host, and the bytes that each read back.
+#[expect(clippy::print_stdout, reason = "figures of the documentation")]
 fn both<T>(world: &World, gpu: &Gpu, ask: impl Fn(&World) -> T) -> ([T; 2], [u64; 2]) {
     let mut bytes = [gpu.bytes_read(), 0];
     let of_device = ask(world);

@@ -315,6 +315,7 @@ fn tried(seed: u64) -> Option<[u32; 2]> {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "figures of the documentation")]
 fn any_commands_give_an_error_or_a_sound_world() {
     let (seeds, mut counts, mut failed) = (seeds(), [0; 2], Vec::new());
     for seed in &seeds {
