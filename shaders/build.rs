@@ -13,6 +13,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let root = env::var("CARGO_MANIFEST_DIR")?;
     let root = Path::new(&root);
     let (mut plain, mut subgroup, mut render) = (String::new(), String::new(), String::new());
+    // Folders that come or go.
+    println!("cargo::rerun-if-changed=.");
     for family in names(root, None)? {
         let is_source = ["common", "src"].contains(&family.as_str());
         println!("cargo::rerun-if-changed={family}");

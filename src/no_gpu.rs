@@ -3,11 +3,13 @@
 
 use std::fmt;
 
+use glam::Vec3;
 use sorb_kernels::{asleep::Asleep, columns::Columns, cpu::Cpu, params::Params};
 
 use crate::{
     Measures,
     clock::Steps,
+    query::{Probe, Ray},
     schedule::Awake,
     world::{FrameReport, StepError, StepReport, World, WorldError},
 };
@@ -57,7 +59,11 @@ impl Device {
         match *self {}
     }
 
-    pub(crate) fn set_gravity(&mut self, _: glam::Vec3) {
+    pub(crate) fn set_gravity(&mut self, _: Vec3) {
+        match *self {}
+    }
+
+    pub(crate) fn take_velocities(&mut self, _: &mut Columns) -> Result<(), GpuError> {
         match *self {}
     }
 
@@ -71,6 +77,18 @@ impl Device {
 }
 
 impl World {
+    pub(crate) fn probe_on_device(&self, _: &[Vec3]) -> Option<Vec<Probe>> {
+        None
+    }
+
+    pub(crate) fn water_on_device(&self, _: &[Ray]) -> Option<Vec<Option<(f32, Vec3)>>> {
+        None
+    }
+
+    pub(crate) fn levels_on_device(&self, _: &[Vec3]) -> Option<Vec<Option<f32>>> {
+        None
+    }
+
     /// The same for other contents.
     ///
     /// # Errors

@@ -36,6 +36,7 @@ mod sweep;
 mod testing;
 #[cfg(test)]
 mod tests;
+pub mod turn;
 mod vector;
 mod wrench;
 

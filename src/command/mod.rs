@@ -73,7 +73,7 @@ pub enum Command {
     /// Further motions of the container, after those that it has, in the frame in which it is at rest at time zero. What `ease` must
     /// be, and what is felt of it, is with [`Container`](crate::scene::Container).
     Container {
-        /// Motions that begin now or later. At least one. A container turns on the CPU only.
+        /// Motions that begin now or later. At least one.
         #[serde(with = "crate::text")]
         motions: Vec<Motion>,
     },

@@ -12,6 +12,7 @@ use sorb_kernels::{
     gpu::{Answer, Dispatches, Gpu, GpuError, Pending, Profile, Program, Resident, Start, make_room},
     params::Params,
     stage::Stage,
+    turn::Turn,
 };
 
 use super::shares::Shares;
@@ -277,6 +278,18 @@ impl Device {
         if let Some(on) = &mut self.resident {
             on.resident.set_gravity(gravity);
         }
+    }
+
+    /// Does to velocities what a turn of the container does in the next step.
+    pub(crate) fn turn(&mut self, turn: &Turn) -> Result<(), GpuError> {
+        self.resident.as_mut().map_or(Ok(()), |on| on.resident.turn(turn))
+    }
+
+    /// Takes over velocities that the host has changed between two steps that it shares.
+    pub(crate) fn take_velocities(&mut self, host: &mut Columns) -> Result<(), GpuError> {
+        let particles = [Column::FluidPosition, Column::FluidVelocity, Column::FluidId];
+        let columns = [&particles[..], &[Column::NodeVelocity]].concat();
+        self.resident.as_mut().map_or(Ok(()), |on| on.resident.upload(host, &columns, false))
     }
 
     /// Restricts the next steps to awake parts; the awake fluid may be outside of all sponges. The time has to be set anew.

@@ -3,6 +3,7 @@
 use std::{sync::Arc, time::Instant};
 
 use sorb_kernels::{
+    body::Wrench,
     clock::TIME_RESOLUTION,
     gpu::{Answer, Gpu, GpuError, Outcome, Start},
 };
@@ -10,13 +11,13 @@ use sorb_kernels::{
 use super::device::{Device, Kept};
 use crate::{
     Offload,
-    clock::{Bound, Dormant},
+    clock::{Bound, Clock, Dormant, within},
     rigid::BodyKind,
     schedule::{Runner, run::slot},
     stores::Stores,
     world::{
-        FrameReport, Options, Pushes, StepError, StepReport, World, WorldError, move_bodies, sleep::Kind,
-        take_masses,
+        FrameReport, Options, Pushes, StepError, StepReport, World, WorldError, fastest_body, move_bodies,
+        sleep::Kind, take_masses,
     },
 };
 
@@ -40,19 +41,52 @@ impl World {
     }
 
     fn take_step(&mut self) -> Result<StepReport, StepError> {
-        self.carry_on_device()?;
+        let longest = f64::from(self.stable_beside_bodies().0);
+        if self.is_carried(self.clock.time, self.clock.time + longest) {
+            return self.take_carried_step(f64::INFINITY);
+        }
+        self.carry(self.params.step)?;
         self.begin_on_device(f32::MAX)?;
+        self.take_one(&[], None)
+    }
+
+    /// One step of at most `left` \[s\] in which the container moves or gravity changes. The host says how long it is: what it gives is a
+    /// mean over the step.
+    fn take_carried_step(&mut self, left: f64) -> Result<StepReport, StepError> {
+        let stable = self.stable_beside_bodies();
+        let (minimum, step, time) = (self.steps.minimum(), self.clock.steps, self.clock.time);
+        if stable.0 < minimum {
+            let (needed, bound) = stable;
+            return Err(StepError::TooSmall { bound, needed, minimum, step, time });
+        }
+        let (step, bound) = within(stable, left);
+        let carried = self.carry(step)?;
+        self.begin_on_device(step)?;
+        if let (Some(carried), Some(device)) = (&carried, &mut self.stores.device) {
+            device.turn(&carried.turn)?;
+        }
+        self.take_one(&carried.map(|carried| carried.wrenches).unwrap_or_default(), Some(bound))
+    }
+
+    /// The bounds of the next step; the clock of a device does not have the speed of bodies.
+    fn stable_beside_bodies(&self) -> (f32, Bound) {
+        let body_speed = fastest_body(&self.stores.host.bodies.states.0);
+        self.steps.stable(&self.params, &Clock { body_speed, ..self.clock })
+    }
+
+    /// One step of the time that was set, in which a turn of the container gives something to the bodies; `bound` is what made the host
+    /// choose its length.
+    fn take_one(&mut self, carried: &[Wrench], bound: Option<Bound>) -> Result<StepReport, StepError> {
         let before = self.clock.steps;
         let answer = self.advance_on_device(1, 0)?;
-        let time = f64::from(answer.last_step);
         if answer.steps == 1 {
-            self.clock.time += time;
+            self.clock.time += f64::from(answer.last_step);
             self.clock.steps = before + 1;
         }
-        self.take_over(&answer, answer.steps)?;
+        self.take_over(&answer, answer.steps, carried)?;
         Ok(StepReport {
             step: answer.last_step,
-            bound: answer.last_bound,
+            bound: bound.unwrap_or(answer.last_bound),
             time: self.clock.time,
             maximum_speed: answer.maximum_speed,
         })
@@ -70,7 +104,16 @@ impl World {
         };
         let mut bounds = [0; Bound::ALL.len()];
         while end - self.clock.time > TIME_RESOLUTION && !self.sleep_until(end) {
-            self.fill_on_device(end, &mut report, &mut bounds)?;
+            if self.is_carried(self.clock.time, end) {
+                let taken = self.take_carried_step(end - self.clock.time)?;
+                report.steps += 1;
+                report.shortest_step = report.shortest_step.min(taken.step);
+                report.maximum_speed = report.maximum_speed.max(taken.maximum_speed);
+                bounds[taken.bound as usize] += 1;
+                self.watch();
+            } else {
+                self.fill_on_device(end, &mut report, &mut bounds)?;
+            }
             let maximum = (0..bounds.len()).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
             report.bound = Bound::ALL[maximum];
         }
@@ -87,10 +130,10 @@ impl World {
         report: &mut FrameReport,
         bounds: &mut [u32; Bound::ALL.len()],
     ) -> Result<(), StepError> {
+        self.carry(self.params.step)?;
         self.begin_on_device((end - self.clock.time) as f32)?;
         let (first, before) = (self.clock.steps, *bounds);
         loop {
-            self.carry_on_device()?;
             let taken_before = (self.clock.steps - first) as u32;
             let answer = self.advance_on_device(self.steps_to(end), taken_before)?;
             let taken = answer.steps - taken_before;
@@ -98,7 +141,7 @@ impl World {
             // The end is reached exactly: the last step is what is left.
             let is_over = answer.left <= TIME_RESOLUTION as f32;
             self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
-            self.take_over(&answer, taken)?;
+            self.take_over(&answer, taken, &[])?;
             report.steps += taken;
             report.shortest_step = report.shortest_step.min(answer.shortest);
             report.maximum_speed = report.maximum_speed.max(answer.maximum_speed);
@@ -115,22 +158,15 @@ impl World {
     fn steps_to(&self, end: f64) -> u32 {
         // Fixed bodies need no host.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
-        // Awake parts may come near sleeping ones in any step; gravity is set anew for every step. Where rounds do not suffice, the
-        // steps behind would leave at once, at the cost of all their barriers.
-        let is_carried = self.is_carried(self.clock.time, end);
+        // Awake parts may come near sleeping ones in any step. Where rounds do not suffice, the steps behind would leave at once, at the
+        // cost of all their barriers.
         let has_rounds = self.stores.device.as_ref().is_some_and(Device::has_rounds);
-        if is_moved || is_carried || has_rounds || self.sleep.dormant() != Dormant::default() {
+        if is_moved || has_rounds || self.sleep.dormant() != Dormant::default() {
             return 1;
         }
         let step = f64::from(self.steps.stable(&self.params, &self.clock).0);
         // The last whole step becomes two halves.
         (((end - self.clock.time) / step).ceil() as u32).saturating_add(1).min(BATCH)
-    }
-
-    /// Lets the container move. The device chooses the length of the step: accelerations are means over one of the last length.
-    fn carry_on_device(&mut self) -> Result<(), StepError> {
-        // A device takes no container that turns.
-        self.carry(self.params.step).map(|_| ())
     }
 
     fn begin_on_device(&mut self, left: f32) -> Result<(), StepError> {
@@ -221,7 +257,7 @@ impl World {
     }
 
     /// Takes the results of the device, moves the bodies, and refuses values that are not finite.
-    fn take_over(&mut self, answer: &Answer, taken: u32) -> Result<(), StepError> {
+    fn take_over(&mut self, answer: &Answer, taken: u32, carried: &[Wrench]) -> Result<(), StepError> {
         let (step, time) = (self.clock.steps, self.clock.time);
         // Sleeping parts keep their values.
         if !self.is_fluid_asleep() {
@@ -239,7 +275,7 @@ impl World {
                 self.engine.wait(f64::from(answer.last_step));
             } else if !answer.wrenches.is_empty() {
                 let bodies = &mut self.stores.host.bodies;
-                let given = Pushes { given: &answer.wrenches, forces: &self.commands.forces, carried: &[] };
+                let given = Pushes { given: &answer.wrenches, forces: &self.commands.forces, carried };
                 let step = (answer.last_step, &mut self.loads);
                 move_bodies(self.engine.as_mut(), &self.light, bodies, given, step)
                     .map_err(|error| StepError::Rigid(error.to_string()))?;

@@ -4,6 +4,7 @@ mod device;
 mod frame;
 mod measure;
 mod place;
+mod query;
 mod request;
 mod shares;
 

@@ -11,7 +11,7 @@ use sorb_kernels::{
 
 use super::{Device, device::looked_at};
 use crate::{
-    schedule::{Offload, Place, PlaceError, Placement, Plan, TURNS_ON_CPU, Transfer},
+    schedule::{Offload, Place, Placement, Plan, Transfer},
     world::{Options, World, WorldError},
 };
 
@@ -24,8 +24,6 @@ struct Request<'a> {
     rows: RowCounts,
     params: &'a Params,
     options: &'a Options,
-    /// Whether the container turns.
-    turns: bool,
 }
 
 impl World {
@@ -51,16 +49,15 @@ impl World {
     /// A GPU is asked for, and there is none; or kernels are asked for at places where they cannot be.
     pub(super) fn place_by(&mut self, options: &Options) -> Result<(), WorldError> {
         self.placed_by.clone_from(options);
-        let turns = self.turns();
         let (rows, params, plans) = (self.stores.host.rows, &self.params, &mut self.plans);
         if options.offload == Offload::Cpu {
             self.stores.device = None;
             plans.0.iter_mut().for_each(|plan| plan.placement = None);
             return Ok(());
         }
-        let (placement, gpu) = Request { plan: plans.whole(), rows, params, options, turns }.place()?;
+        let (placement, gpu) = Request { plan: plans.whole(), rows, params, options }.place()?;
         for plan in &mut plans.0 {
-            let transfers = Request { plan, rows, params, options, turns }.transfers(&placement.on_gpu);
+            let transfers = Request { plan, rows, params, options }.transfers(&placement.on_gpu);
             plan.placement = Some(Placement { transfers, ..placement.clone() });
         }
         let device = |gpu| Device::new(gpu, plans, self.steps.limits(), &options.observed, options.gpu_times);
@@ -83,12 +80,6 @@ impl Request<'_> {
                 _ => "nothing runs".to_owned(),
             };
             return Ok(self.on_cpu(why));
-        }
-        if self.turns {
-            return match offload {
-                Offload::Auto => Ok(self.on_cpu(TURNS_ON_CPU.to_owned())),
-                _ => Err(PlaceError::Turns.into()),
-            };
         }
         if *offload != Offload::Auto {
             return Ok(self.on_gpu(on_gpu, self.device()?));

@@ -8,13 +8,13 @@ use super::Ray;
 use crate::{scene::Domain, world::World};
 
 /// Radius around a point, over the spacing.
-const RADIUS: f32 = 2.0;
+pub(crate) const RADIUS: f32 = 2.0;
 
 /// Share of the space around a point that is water at the surface.
-const SURFACE: f64 = 0.5;
+pub(crate) const SURFACE: f64 = 0.5;
 
 /// Way along a ray between two looks, over the spacing.
-const STEP: f32 = 0.25;
+pub(crate) const STEP: f32 = 0.25;
 
 /// A particle, or its image.
 #[derive(Clone, Copy, Debug)]

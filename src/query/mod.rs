@@ -1,11 +1,12 @@
 //! Questions about the present state: what rays meet, how high the water stands, and what is at points.
 //!
-//! All of them take many questions at once, which share the preparation. On a GPU the state is read back once for every call.
+//! All of them take many questions at once, which share the preparation. Where a device has the state it answers, and 32 bytes a question
+//! come back (`gpu::query`); rays that may meet sponges, and probes with other solvers than `divergence`, read the state back once a call.
 //! The surface of the water is where it fills half of the space around a point ([`WaterField`]), so that a single drop of a particle
 //! has none.
 
 mod error;
-mod field;
+pub(crate) mod field;
 mod probe;
 mod rays;
 
@@ -51,6 +52,9 @@ impl World {
     pub fn water_levels(&self, places: &[[f32; 2]]) -> Result<Vec<Option<f32>>, QueryError> {
         let points: Vec<Vec3> = places.iter().map(|[x, z]| Vec3::new(*x, 0.0, *z)).collect();
         error::check_points(&points)?;
+        if let Some(levels) = self.levels_on_device(&points) {
+            return Ok(levels);
+        }
         let (low, high) = error::bounds(&points);
         let (low, high) = (low.with_y(f32::NEG_INFINITY), high.with_y(f32::INFINITY));
         let water = WaterField::new(self, (low, high));

@@ -43,6 +43,9 @@ pub struct SpongeProbe {
 
 pub(super) fn probe(world: &World, points: &[Vec3]) -> Result<Vec<Probe>, QueryError> {
     error::check_points(points)?;
+    if let Some(probes) = world.probe_on_device(points) {
+        return Ok(probes);
+    }
     let bounds = error::bounds(points);
     let water = WaterField::new(world, bounds);
     let (nodes, lattice) = (world.node_positions(), world.lattice());
@@ -70,15 +73,33 @@ fn around(world: &World, water: &WaterField, pressures: &[f32], point: Vec3) -> 
             pressure += f64::from(*own) * share;
         }
     });
-    if share_sum <= 0.0 {
-        return Probe::default();
+    Probe::of_water([filled, share_sum, pressure], velocity, world.params.fluid.rest_density)
+}
+
+impl Probe {
+    /// By the shares of particles with and without their images behind walls, and sums of share times pressure and velocity.
+    pub(crate) fn of_water([filled, share, pressure]: [f64; 3], velocity: DVec3, rest_density: f32) -> Self {
+        if share <= 0.0 {
+            return Self::default();
+        }
+        Self {
+            filled: filled as f32,
+            density: filled as f32 * rest_density,
+            velocity: (velocity / share).as_vec3(),
+            pressure: (pressure / share) as f32,
+            sponge: None,
+        }
     }
-    Probe {
-        filled: filled as f32,
-        density: filled as f32 * world.params.fluid.rest_density,
-        velocity: (velocity / share_sum).as_vec3(),
-        pressure: (pressure / share_sum) as f32,
-        sponge: None,
+}
+
+impl SpongeProbe {
+    /// Without saturation and velocity, in a tet of six times a volume \[m^3\], where the water has a pressure \[Pa\].
+    pub(crate) fn of(world: &World, sponge: usize, volume: f64, pressure: f32) -> Self {
+        let edge = f64::from(world.params.sponges[sponge].edge);
+        // A tet at rest is a twelfth of its cube.
+        let volume_ratio = (2.0 * volume / edge.powi(3)) as f32;
+        let pore_pressure = pressure * pore_share(&world.params, sponge, volume_ratio);
+        Self { sponge, saturation: 0.0, pore_pressure, velocity: Vec3::ZERO, volume_ratio }
     }
 }
 
@@ -98,11 +119,8 @@ fn in_sponge(world: &World, located: &Located, pressure: f32) -> SpongeProbe {
         Vec3::new(x, y, z).as_dvec3()
     });
     let [a, b, c, d] = corners;
-    let edge = f64::from(world.params.sponges[sponge as usize].edge);
-    // A tet at rest is a twelfth of its cube.
-    let volume_ratio = (2.0 * (b - a).cross(c - a).dot(d - a) / edge.powi(3)) as f32;
-    let pore_pressure = pressure * pore_share(&world.params, sponge as usize, volume_ratio);
-    SpongeProbe { sponge: sponge as usize, saturation, pore_pressure, velocity, volume_ratio }
+    let volume = (b - a).cross(c - a).dot(d - a);
+    SpongeProbe { saturation, velocity, ..SpongeProbe::of(world, sponge as usize, volume, pressure) }
 }
 
 /// Pressure in the pores over that of the particles there. With a pressure solve this is the porosity: neighbours fill the pores only,

@@ -74,9 +74,18 @@ pub(super) fn cast(world: &World, rays: &[Ray], targets: Targets) -> Result<Vec<
     let rays = checked_rays(rays)?;
     let ends: Vec<Vec3> =
         rays.iter().flat_map(|ray| [ray.origin, ray.origin + ray.direction * ray.length]).collect();
-    let water = targets.water.then(|| WaterField::new(world, bounds(&ends)));
-    let boxes = if targets.sponges { sponge_boxes(world) } else { Vec::new() };
-    let first = |ray: &Ray| {
+    let has_sponges = targets.sponges && !world.lattice().tets.is_empty();
+    // Sponges are met on the host, which then has the water as well.
+    let water = match (
+        targets.water,
+        if has_sponges || !targets.water { None } else { world.water_on_device(&rays) },
+    ) {
+        (false, _) => Water::Nothing,
+        (true, Some(hits)) => Water::Hits(hits),
+        (true, None) => Water::Field(WaterField::new(world, bounds(&ends))),
+    };
+    let boxes = if has_sponges { sponge_boxes(world) } else { Vec::new() };
+    let first = |(index, ray): (usize, &Ray)| {
         let mut nearest: Option<Hit> = None;
         // Of equal distances the first counts.
         let mut take = |found: Option<Hit>| {
@@ -88,18 +97,33 @@ pub(super) fn cast(world: &World, rays: &[Ray], targets: Targets) -> Result<Vec<
             let bodies = world.bodies().iter().enumerate();
             bodies.for_each(|(index, body)| take(meets_body(ray, index, body)));
         }
-        if targets.sponges {
+        if has_sponges {
             take(meets_sponges(world, ray, &boxes));
         }
-        if let Some(water) = &water {
-            take(water.meets(ray).map(|distance| {
-                let point = ray.origin + ray.direction * distance;
-                Hit { distance, point, normal: water.normal(point), surface: Surface::Water }
-            }));
-        }
+        take(water.meets(index, ray));
         nearest
     };
-    Ok(rays.iter().map(first).collect())
+    Ok(rays.iter().enumerate().map(first).collect())
+}
+
+/// The water that rays may meet.
+enum Water {
+    Nothing,
+    Field(WaterField),
+    /// Where each ray meets it, as a device said.
+    Hits(Vec<Option<(f32, Vec3)>>),
+}
+
+impl Water {
+    fn meets(&self, index: usize, ray: &Ray) -> Option<Hit> {
+        let at = |distance: f32| ray.origin + ray.direction * distance;
+        let (distance, normal) = match self {
+            Self::Nothing => None,
+            Self::Field(field) => field.meets(ray).map(|distance| (distance, field.normal(at(distance)))),
+            Self::Hits(hits) => hits.get(index).copied().flatten(),
+        }?;
+        Some(Hit { distance, point: at(distance), normal, surface: Surface::Water })
+    }
 }
 
 /// The distance from a body never exceeds the way to it.

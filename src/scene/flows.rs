@@ -16,7 +16,8 @@ const SLOWEST: f32 = 0.01;
 /// Latest end \[s\].
 const LATEST: f32 = 1e5;
 
-/// A stream out of a disc across its velocity. It brings `pi radius^2 |velocity|` \[m^3/s\], as layers of particles a spacing apart.
+/// A stream out of a disc across its velocity. It brings `pi radius^2 |velocity|` \[m^3/s\], as particles a spacing apart. Those of one
+/// layer come one after the other: a stream that falls stays whole.
 ///
 /// Particles are left out where there is no room: in bodies, sponges and water, and outside of the container.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,7 +7,6 @@ pub(crate) mod plan;
 pub(crate) mod run;
 
 pub(crate) use awake::{Awake, Plans};
-pub(crate) use offload::TURNS_ON_CPU;
 pub use offload::{Offload, OffloadError, Place, PlaceError, Placement, Transfer};
 pub use plan::{Plan, PlanError, PlanLine, Verdict};
 pub use run::PhaseTime;

@@ -174,10 +174,6 @@ impl Placement {
     }
 }
 
-/// Why a container does not turn on a device.
-pub(crate) const TURNS_ON_CPU: &str =
-    "a container turns on the CPU only: kernels of a GPU know no accelerations that depend on the place";
-
 /// Kernels are requested at places where they cannot run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaceError {
@@ -205,9 +201,6 @@ pub enum PlaceError {
         /// The kernel that it must be with.
         with: &'static str,
     },
-    /// The container turns.
-    #[error("backend: {TURNS_ON_CPU}")]
-    Turns,
     /// No kernel has this name.
     #[error("backend: there is no kernel `{0}`")]
     Unknown(&'static str),

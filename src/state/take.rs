@@ -49,7 +49,7 @@ impl World {
         if let Some(defect) = rest.defect(self) {
             return Err(invalid(REST, defect));
         }
-        let frame = self.frame_in(parts, rest.clock.time)?;
+        let frame = self.frame_in(parts)?;
         let Rest { clock, step, gravity, constant, sleep, commands, fluid_forces } = rest;
         let places = SLEEP.map(|name| places(parts.of(name)));
         let sleep = self.sleep_from(sleep, rows, places, &commands.targets);
@@ -86,15 +86,14 @@ impl World {
     }
 
     /// The motion of the container, and gravity over time.
-    fn frame_in(&self, parts: &Parts<'_>, time: f64) -> Result<Option<Frame>, StateError> {
+    fn frame_in(&self, parts: &Parts<'_>) -> Result<Option<Frame>, StateError> {
         let bytes = parts.of(CONTAINER);
         if bytes.is_empty() {
             return Ok(None);
         }
         let frame: Frame =
             postcard::from_bytes(bytes).map_err(|error| invalid(CONTAINER, error.to_string()))?;
-        let refused = frame.defect(&self.scene).or_else(|| self.turn_refusal(frame.motions(), time));
-        refused.map_or(Ok(Some(frame)), |defect| Err(invalid(CONTAINER, defect)))
+        frame.defect(&self.scene).map_or(Ok(Some(frame)), |defect| Err(invalid(CONTAINER, defect)))
     }
 
     /// Refuses identities that occur twice, or that were never given.

@@ -59,21 +59,32 @@ pub(super) fn of_scene(scene: &Scene) -> Vec<Flow> {
     (0..).zip(kinds).map(|(number, kind)| Flow::new(number, kind, 0.0)).collect()
 }
 
-/// A layer of an emitter: where, and with what velocity, after it has fallen freely for some time \[s\].
-pub(crate) fn layer(emitter: &Emitter, spacing: f32, gravity: Vec3, time: f32) -> (Vec<Vec3>, Vec3) {
+/// Part of an interval by which a place of the disc is ahead of its layer: evenly spread over places that are near each other (Roberts's
+/// sequence in two dimensions). Layers in which all places are equal fall apart into discs.
+fn phase(row: i32, column: i32) -> f32 {
+    let number = 0.754_877_7 * row as f32 + 0.569_840_3 * column as f32;
+    number - number.floor()
+}
+
+/// A layer of an emitter: places and velocities, some time \[s\] after it came. Places of the disc follow each other within the way to the
+/// next layer, and each has fallen freely since it was at the disc.
+pub(crate) fn layer(emitter: &Emitter, spacing: f32, gravity: Vec3, time: f32) -> Vec<(Vec3, Vec3)> {
     let (across, up) = emitter.velocity.normalize().any_orthonormal_pair();
-    let centre = emitter.position + (emitter.velocity + 0.5 * time * gravity) * time;
+    let interval = spacing / emitter.velocity.length();
     let most = (emitter.radius / spacing) as i32;
-    let mut points = Vec::new();
+    let mut layer = Vec::new();
     for row in -most..=most {
         for column in -most..=most {
             let offset = (across * column as f32 + up * row as f32) * spacing;
-            if offset.length_squared() <= emitter.radius * emitter.radius {
-                points.push(centre + offset);
+            if offset.length_squared() > emitter.radius * emitter.radius {
+                continue;
             }
+            let time = time + phase(row, column) * interval;
+            let way = (emitter.velocity + 0.5 * time * gravity) * time;
+            layer.push((emitter.position + offset + way, emitter.velocity + gravity * time));
         }
     }
-    (points, emitter.velocity + gravity * time)
+    layer
 }
 
 #[cfg(test)]
@@ -81,16 +92,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_layer_is_a_disc_that_falls() {
+    fn a_layer_is_a_disc_that_falls_and_has_no_gap_to_the_next() {
         let emitter = Emitter { velocity: Vec3::X, radius: 0.051, ..Emitter::default() };
-        let (points, velocity) = layer(&emitter, 0.005, Vec3::NEG_Y * 10.0, 0.1);
+        let gravity = Vec3::NEG_Y * 10.0;
+        let points = layer(&emitter, 0.005, gravity, 0.1);
         let area = points.len() as f32 * 0.005 * 0.005;
         assert!((area / (std::f32::consts::PI * 0.051 * 0.051) - 1.0).abs() < 0.05, "{area}");
-        let centre = points.iter().sum::<Vec3>() / points.len() as f32;
-        assert!(centre.distance(Vec3::new(0.1, -0.05, 0.0)) < 1e-4, "{centre}");
-        assert!(points.iter().all(|point| (point.x - 0.1).abs() < 1e-5), "across the stream");
-        assert_eq!(velocity, Vec3::new(1.0, -1.0, 0.0));
+        let mut parts = [0_usize; 4];
+        for (place, velocity) in &points {
+            // At a speed of 1 m/s along x, the time since it was at the disc.
+            let time = place.x;
+            assert!((0.1..0.105).contains(&time), "{place}");
+            parts[((time - 0.1) / 0.00125) as usize % 4] += 1;
+            assert!(velocity.distance(Vec3::X + gravity * time) < 1e-5, "{velocity} at {place}");
+            let in_disc = *place - Vec3::X * time - 0.5 * gravity * time * time;
+            assert!(in_disc.length() < 0.0511 && in_disc.x.abs() < 1e-6, "{place}");
+        }
+        // The control: a layer without phases has all in the first part.
+        let even = points.len() / 4;
+        assert!(parts.iter().all(|count| count.abs_diff(even) <= even / 5), "{parts:?}");
         let thin = Emitter { radius: 0.001, ..emitter };
-        assert_eq!(layer(&thin, 0.005, Vec3::ZERO, 0.0).0.len(), 1);
+        assert_eq!(layer(&thin, 0.005, Vec3::ZERO, 0.0).len(), 1);
     }
 }

@@ -16,6 +16,8 @@ pub(crate) const APART: f32 = 0.8;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Room {
     pub(crate) points: Vec<Vec3>,
+    /// Which of the points that were asked for these are.
+    pub(crate) places: Vec<usize>,
     outside: u64,
     in_bodies: u64,
     in_sponges: u64,
@@ -25,7 +27,7 @@ pub(crate) struct Room {
 impl Room {
     /// Room at all of some points.
     pub(crate) fn of(points: Vec<Vec3>) -> Self {
-        Self { points, ..Self::default() }
+        Self { places: (0..points.len()).collect(), points, ..Self::default() }
     }
 
     /// Places without room.
@@ -36,7 +38,7 @@ impl Room {
 
 impl fmt::Display for Room {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { points, outside, in_bodies, in_sponges, in_water } = self;
+        let Self { points, outside, in_bodies, in_sponges, in_water, .. } = self;
         write!(
             out,
             "room for {} particles; {outside} places are outside of the container, {in_bodies} in bodies, \
@@ -92,7 +94,7 @@ impl World {
         let tets = TetGrid::new((nodes, &self.lattice().tets), (low, high), edge.max(1e-4));
         let water = self.water_near((low - spacing, high + spacing), APART * spacing);
         let mut room = Room::default();
-        for point in points {
+        for (place, point) in points.enumerate() {
             let Some(point) = beside.outside(point) else {
                 room.in_bodies += 1;
                 continue;
@@ -105,6 +107,7 @@ impl World {
                 room.in_water += 1;
             } else {
                 room.points.push(point);
+                room.places.push(place);
             }
         }
         room

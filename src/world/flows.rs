@@ -76,14 +76,15 @@ impl World {
         let (spacing, gravity) = (self.params.fluid.spacing, self.params.gravity);
         let interval = f64::from(spacing / emitter.velocity.length());
         while *due <= time && *due < f64::from(emitter.end) {
-            let (points, velocity) = layer(emitter, spacing, gravity, (time - *due) as f32);
+            let layer = layer(emitter, spacing, gravity, (time - *due) as f32);
             *due += interval;
-            let room = self.room_for(points.into_iter(), around(emitter, spacing, gravity, time - *due));
+            let places = layer.iter().map(|(place, _)| *place);
+            let room = self.room_for(places, around(emitter, spacing, gravity, time - *due));
             if self.stores.host.rows.fluid as u64 + room.points.len() as u64 > MAXIMUM_PARTICLES {
                 self.water.left_out += room.points.len() as u64;
                 continue;
             }
-            self.add_water(&room, velocity)?;
+            self.add_water(&room, |place| layer[place].1)?;
         }
         Ok(())
     }

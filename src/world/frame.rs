@@ -16,14 +16,13 @@ use glam::{DMat3, DQuat, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 use sorb_kernels::{
     body::{Body, Wrench},
-    columns::{Columns, lane},
+    turn::Turn,
 };
 
 use super::{StepError, World, forces::inertia};
 use crate::{
     rigid::{BodyKind, Moved, RigidEngine, RigidError, moved},
     scene::{GravityKey, Motion, Scene},
-    schedule::TURNS_ON_CPU,
 };
 
 /// Gravity over time, and the motion of the container.
@@ -68,12 +67,6 @@ impl Frame {
         self.start = (position, rotation);
         self.motions.drain(..over);
         self.motions.extend_from_slice(motions);
-    }
-
-    /// Motions that are not dropped yet.
-    #[cfg(feature = "serde")]
-    pub(crate) fn motions(&self) -> &[Motion] {
-        &self.motions
     }
 
     /// Pose and velocity outside at a time \[s\].
@@ -154,16 +147,6 @@ impl Spin {
         Some(Self { coriolis: back * back, field, rates: [w, after] })
     }
 
-    /// Changes velocities of rows at positions.
-    fn turn(&self, positions: &[[f32; 4]], velocities: &mut [[f32; 4]]) {
-        let (coriolis, field) = (self.coriolis.as_mat3(), self.field.as_mat3());
-        for ([x, y, z, _], velocity) in positions.iter().zip(velocities) {
-            let own = Vec3::new(velocity[0], velocity[1], velocity[2]);
-            let new = coriolis * own + field * Vec3::new(*x, *y, *z);
-            *velocity = [new.x, new.y, new.z, velocity[3]];
-        }
-    }
-
     /// What it gives a dynamic body in a step \[s\].
     fn wrench(&self, engine: &dyn RigidEngine, index: usize, step: f32) -> Wrench {
         let (state, inverse_mass) = (engine.state(index), f64::from(engine.inverse_mass(index)));
@@ -183,11 +166,13 @@ impl Spin {
     }
 }
 
-/// Whether any motion turns after a time \[s\].
-fn turns(motions: &[Motion], time: f64) -> bool {
-    let turns =
-        |motion: &Motion| matches!(motion, Motion::Turn { .. }) && f64::from(motion.interval().1) >= time;
-    motions.iter().any(turns)
+/// What a turn of the container does in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Carried {
+    /// To particles and nodes.
+    pub(crate) turn: Turn,
+    /// To every body.
+    pub(crate) wrenches: Vec<Wrench>,
 }
 
 /// The matrix of a cross product.
@@ -237,18 +222,6 @@ impl World {
         self.follow_frame();
     }
 
-    /// Whether the container turns now or later.
-    #[cfg(feature = "gpu")]
-    pub(crate) fn turns(&self) -> bool {
-        self.frame.as_ref().is_some_and(|frame| turns(&frame.motions, self.clock.time))
-    }
-
-    /// Why motions of the container from a time \[s\] on are refused here: those that turn it, where a device takes steps.
-    pub(crate) fn turn_refusal(&self, motions: &[Motion], time: f64) -> Option<String> {
-        let is_refused = self.stores.device.is_some() && turns(motions, time);
-        is_refused.then(|| TURNS_ON_CPU.to_owned())
-    }
-
     /// Tells the parts that may sleep when the container moves or gravity changes.
     pub(crate) fn follow_frame(&mut self) {
         self.sleep.carried = self.frame.as_ref().map(Frame::intervals).unwrap_or_default();
@@ -259,11 +232,11 @@ impl World {
         self.sleep.is_carried(from, to)
     }
 
-    /// Lets the container move for a step \[s\]: sets the gravity that is felt in it, and gives velocities what its turn does to them.
-    /// Returns what it gives the bodies; nothing if it does not turn.
-    pub(crate) fn carry(&mut self, step: f32) -> Result<Vec<Wrench>, StepError> {
+    /// Lets the container move for a step \[s\]: sets the gravity that is felt in it. Returns what its turn does to velocities, which is to
+    /// be done before the step; nothing if it does not turn.
+    pub(crate) fn carry(&mut self, step: f32) -> Result<Option<Carried>, StepError> {
         let time = self.clock.time;
-        let Some(frame) = &self.frame else { return Ok(Vec::new()) };
+        let Some(frame) = &self.frame else { return Ok(None) };
         let h = f64::from(step);
         let (from, to) = (frame.pose(time), frame.pose(time + h));
         let gravity = frame.gravity(time + 0.5 * h).as_dvec3() - (to.linear - from.linear) / h;
@@ -274,20 +247,13 @@ impl World {
                 device.set_gravity(gravity);
             }
         }
-        let Some(spin) = Spin::between(&from, &to) else { return Ok(Vec::new()) };
-        let Columns { rows, fluid, nodes, .. } = &mut self.stores.host;
-        spin.turn(&fluid.position[..rows.fluid], &mut fluid.velocity[..rows.fluid]);
-        let free = |row: &[f32; 4]| row[lane::nodes::position::INVERSE_MASS] > 0.0;
-        for row in 0..rows.nodes {
-            if free(&nodes.position[row]) {
-                spin.turn(&nodes.position[row..=row], &mut nodes.velocity[row..=row]);
-            }
-        }
+        let Some(spin) = Spin::between(&from, &to) else { return Ok(None) };
         let engine = self.engine.as_ref();
         let wrench = |(index, body): (usize, &Body)| match body.kind {
             BodyKind::Dynamic => spin.wrench(engine, index, step),
             _ => Wrench::default(),
         };
-        Ok(self.stores.host.bodies.states.0.iter().enumerate().map(wrench).collect())
+        let wrenches = self.stores.host.bodies.states.0.iter().enumerate().map(wrench).collect();
+        Ok(Some(Carried { turn: Turn::new(spin.coriolis.as_mat3(), spin.field.as_mat3()), wrenches }))
     }
 }

@@ -236,6 +236,13 @@ impl World {
         let (step, bound) = within(stable, left);
         self.params.step = step;
         let carried = self.carry(step)?;
+        if let Some(carried) = &carried {
+            carried.turn.apply(&mut self.stores.host);
+            if let Some(device) = &mut self.stores.device {
+                device.take_velocities(&mut self.stores.host)?;
+            }
+        }
+        let carried = carried.map(|carried| carried.wrenches).unwrap_or_default();
         if let Err(error) = self.run_phases(step, &carried) {
             // A particle or node that is not finite invalidates the wrenches: the error names it instead of the body.
             if matches!(error, StepError::Rigid(_)) {

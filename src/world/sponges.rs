@@ -170,7 +170,7 @@ impl World {
                 self.hold_what_is_inside(body.index(), Some(sponge.index() as u32));
             }
         }
-        self.add_water(&Room::of(water), description.velocity)
+        self.add_water(&Room::of(water), |_| description.velocity)
     }
 
     /// Removes a sponge. The water in it stays where it is.

@@ -63,11 +63,15 @@ impl World {
     /// Pours water where there is room.
     pub(super) fn pour(&mut self, region: &Region, velocity: Vec3) -> Result<(), StepError> {
         let room = self.room(region);
-        self.add_water(&room, velocity)
+        self.add_water(&room, |_| velocity)
     }
 
-    /// Adds water where there is room.
-    pub(super) fn add_water(&mut self, room: &Room, velocity: Vec3) -> Result<(), StepError> {
+    /// Adds water where there is room, with the velocity of each of the places that were asked for.
+    pub(super) fn add_water(
+        &mut self,
+        room: &Room,
+        velocity: impl Fn(usize) -> Vec3,
+    ) -> Result<(), StepError> {
         self.water.left_out += room.left_out();
         let first = self.water.identities();
         // Identities are words, the last of which is that of padding.
@@ -81,10 +85,11 @@ impl World {
         let before = columns.rows.fluid;
         columns.set_fluid_rows(before + points.len());
         let new = before..before + points.len();
-        for (row, (point, id)) in new.clone().zip(points.iter().zip(first..)) {
+        let places = room.places.iter().zip(points);
+        for (row, ((asked, point), id)) in new.clone().zip(places.zip(first..)) {
             let place = *point + jitter(id, spacing);
             columns.fluid.position[row] = place.extend(0.0).to_array();
-            columns.fluid.velocity[row] = velocity.extend(0.0).to_array();
+            columns.fluid.velocity[row] = velocity(*asked).extend(0.0).to_array();
             columns.fluid.id[row] = id as u32;
         }
         self.water.poured += points.len() as u64;

@@ -1,11 +1,9 @@
-//! A container that moves on a device: what it feels is what the CPU says, and a turn is refused.
-
-use std::sync::Arc;
+//! A container that moves on a device: what is felt in it is as on the CPU.
 
 use sorb::{
     Command, Offload, Options, World,
-    glam::Vec3,
-    scene::{Body, Fluid, FluidBlock, GravityKey, Motion, Scene, ShapeKind},
+    glam::{Quat, Vec3},
+    scene::{Body, Fluid, FluidBlock, FluidSolver, GravityKey, Motion, Scene, ShapeKind, Sponge},
 };
 
 use super::{common, difference, gpu, world};
@@ -15,7 +13,8 @@ fn shake() -> Motion {
 }
 
 fn turn() -> Motion {
-    Motion::Turn { axis: Vec3::Z, pivot: Vec3::ZERO, rate: 1.0, start: 0.05, end: 0.3, ease: 0.1 }
+    let pivot = Vec3::new(0.0, -0.2, 0.0);
+    Motion::Turn { axis: Vec3::Z, pivot, rate: 8.0, start: 0.0, end: 0.15, ease: 0.05 }
 }
 
 fn tank(motions: Vec<Motion>) -> Scene {
@@ -28,21 +27,22 @@ fn tank(motions: Vec<Motion>) -> Scene {
     scene
 }
 
-#[test]
-fn a_shaken_tank_is_as_on_the_cpu() {
-    let scene = tank(vec![shake()]);
+/// Worlds on the CPU and on the device after some frames, which have the same measures within 5 %, and another with other motions, which has
+/// not.
+fn assert_as_on_the_cpu(motions: Vec<Motion>, others: Vec<Motion>) {
+    let scene = tank(motions);
     let (mut on_cpu, mut on_gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
-    let (mut twice, mut still) = (on_gpu.clone(), world(&tank(Vec::new()), Offload::Gpu));
+    let (mut twice, mut other) = (on_gpu.clone(), world(&tank(others), Offload::Gpu));
     for _ in 0..8 {
-        [&mut on_cpu, &mut on_gpu, &mut twice, &mut still].into_iter().for_each(common::frame);
+        [&mut on_cpu, &mut on_gpu, &mut twice, &mut other].into_iter().for_each(common::frame);
     }
     assert_eq!(on_gpu.digest(), twice.digest());
     let apart = difference(&on_cpu.measures(), &on_gpu.measures());
     assert!(apart.0 < 0.05, "{apart:?}");
     let gravities = (on_cpu.gravity(), on_gpu.gravity());
     assert!(gravities.0.distance(gravities.1) < 0.5, "{gravities:?}");
-    // The control: a tank that rests.
-    let apart = difference(&on_gpu.measures(), &still.measures());
+    // The control.
+    let apart = difference(&on_gpu.measures(), &other.measures());
     assert!(apart.0 > 0.2, "{apart:?}");
     let mut bytes = Vec::new();
     on_gpu.save(&mut bytes).unwrap_or_else(|error| panic!("{error}"));
@@ -53,29 +53,83 @@ fn a_shaken_tank_is_as_on_the_cpu() {
 }
 
 #[test]
-fn a_device_refuses_to_turn_and_says_why() {
-    let options =
-        |offload| Options { offload, gpu: Some(Arc::clone(&gpu())), threads: Some(1), ..Options::default() };
-    let refused = World::with_options(&tank(vec![turn()]), &options(Offload::Gpu));
-    let text = refused.err().map(|error| error.to_string()).unwrap_or_default();
-    assert!(text.contains("a container turns on the CPU only"), "{text}");
-    // Left to itself the world stays on the CPU, and turns.
-    let mut free = World::with_options(&tank(vec![turn()]), &options(Offload::Auto))
-        .unwrap_or_else(|error| panic!("{error}"));
-    common::frame(&mut free);
+fn a_shaken_tank_is_as_on_the_cpu() {
+    assert_as_on_the_cpu(vec![shake()], Vec::new());
+}
+
+#[test]
+fn a_tank_that_turns_is_as_on_the_cpu() {
+    assert_as_on_the_cpu(vec![turn(), shake()], vec![shake()]);
+}
+
+/// A ball, a particle and a sponge far from each other, without gravity.
+fn free() -> Scene {
+    let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.01 }, Vec3::new(0.3, 0.1, 0.0), 1000.0);
+    let water = FluidBlock::new(Vec3::new(-0.1, 0.0, 0.0), Vec3::new(-0.095, 0.005, 0.005));
+    let fluid = Fluid { blocks: vec![water], solver: Some(FluidSolver::Pbf), ..Fluid::default() };
+    let sponge =
+        Sponge { cells: [3, 3, 3].into(), edge: 0.01, ..Sponge::new("sponge", Vec3::new(0.0, 0.3, 0.0)) };
+    let mut scene = Scene::new("free").with_body(ball).with_fluid(fluid).with_sponge(sponge);
+    scene.gravity = Vec3::ZERO;
+    scene.time.maximum_step = 0.002;
+    let (axis, pivot) = (Vec3::new(0.2, 0.3, 1.0), Vec3::new(0.1, -0.2, 0.0));
+    scene.container.motions =
+        vec![Motion::Turn { axis, pivot, rate: 7.0, start: 0.01, end: 0.13, ease: 0.04 }];
+    scene
+}
+
+/// Where the ball, the particle and the middle of the sponge are.
+fn places(world: &World) -> [Vec3; 3] {
+    let place = |row: &[f32; 4]| Vec3::new(row[0], row[1], row[2]);
+    let nodes = world.node_positions();
+    let middle = nodes.iter().map(place).sum::<Vec3>() / nodes.len() as f32;
+    [world.bodies()[0].state.position, place(&world.particle_positions()[0]), middle]
+}
+
+/// The same as on the CPU (`tests/container.rs`), where the device takes all of the step, where it shares it with the CPU, and where steps
+/// are taken one by one.
+#[test]
+fn what_is_free_stays_where_it_is_outside() {
+    let shared = "each:all=gpu,sph::kick=cpu,pbd::velocity=cpu".parse().expect("two places");
+    for (offload, by_steps) in [(Offload::Gpu, false), (Offload::Gpu, true), (shared, false)] {
+        let mut world = world(&free(), offload.clone());
+        let before = places(&world);
+        while world.clock().time < 0.15 {
+            if by_steps {
+                common::steps(&mut world, 1)
+            } else {
+                common::frame(&mut world)
+            };
+        }
+        let (position, rotation) = world.container_pose();
+        for (before, now) in before.iter().zip(places(&world)) {
+            let outside = position + rotation * now;
+            assert!(outside.distance(*before) < 4e-3, "{offload}, {by_steps}: {before} is at {outside}");
+            // The control: in the container it is elsewhere.
+            assert!(now.distance(*before) > 0.05, "{offload}, {by_steps}: {now}");
+        }
+        let turned = rotation * world.bodies()[0].state.rotation;
+        assert!(turned.angle_between(Quat::IDENTITY) < 5e-3, "{offload}: the ball has turned by {turned}");
+        let speeds = world.particle_velocities().iter().chain(world.node_velocities());
+        let fastest = speeds.map(|row| Vec3::new(row[0], row[1], row[2]).length()).fold(0.0, f32::max);
+        assert!(fastest < 0.02, "{offload}: {fastest} m/s after a motion that is over");
+    }
+}
+
+#[test]
+fn a_container_turns_by_command_and_while_the_world_moves_between_places() {
     let mut world = world(&tank(Vec::new()), Offload::Gpu);
-    let error = world.push(Command::Container { motions: vec![turn()] });
-    assert!(error.is_err_and(|error| error.to_string().contains("a container turns on the CPU only")));
-    world.push(Command::Container { motions: vec![shake()] }).unwrap_or_else(|error| panic!("{error}"));
-    common::frame(&mut world);
-    // On the CPU it may, and then it cannot go back before that is over.
-    world.move_to(None).unwrap_or_else(|error| panic!("{error}"));
     world.push(Command::Container { motions: vec![turn()] }).unwrap_or_else(|error| panic!("{error}"));
     common::frame(&mut world);
-    assert!(world.move_to(Some(&gpu())).is_err());
-    while world.clock().time < 0.32 {
+    world.move_to(None).unwrap_or_else(|error| panic!("{error}"));
+    common::frame(&mut world);
+    world.move_to(Some(&gpu())).unwrap_or_else(|error| panic!("{error}"));
+    while world.clock().time < 0.17 {
         common::frame(&mut world);
     }
-    world.move_to(Some(&gpu())).unwrap_or_else(|error| panic!("{error}"));
-    common::frame(&mut world);
+    let (_, rotation) = world.container_pose();
+    let felt = rotation * world.gravity();
+    assert!(felt.distance(Vec3::NEG_Y * 8.0) < 1e-3, "{felt} outside");
+    // The control: in the container that is elsewhere.
+    assert!(world.gravity().distance(felt) > 1.0);
 }

@@ -8,6 +8,7 @@ mod asleep;
 mod container;
 mod pictures;
 mod placement;
+mod queries;
 mod replay;
 mod state;
 mod steering;

@@ -7,7 +7,7 @@ use sorb::{
     scene::{Body, Drain, Emitter, FluidSolver, GravityKey, Material, Motion, Scene, ShapeKind, Sponge},
 };
 
-use super::{audit, common::random::Random, pool};
+use super::{audit, common::random::Random, pool, push};
 
 const FRAMES: u64 = 8;
 
@@ -169,7 +169,8 @@ fn commands(world: &World, seed: u64, frame: u64) -> Vec<Command> {
 /// Takes a frame; returns how many commands were taken and how many refused.
 fn advance(world: &mut World, seed: u64, frame: u64) -> [u32; 2] {
     let mut counts = [0; 2];
-    for command in commands(world, seed, frame) {
+    let commands = commands(world, seed, frame);
+    for command in commands.clone() {
         let before = world.digest();
         let is_refused = world.push(command).is_err();
         counts[usize::from(is_refused)] += 1;
@@ -177,15 +178,19 @@ fn advance(world: &mut World, seed: u64, frame: u64) -> [u32; 2] {
     }
     world.advance_frame().unwrap_or_else(|error| panic!("seed {seed}, frame {frame}: {error}"));
     let is_sound = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| audit(world)));
-    assert!(is_sound.is_ok(), "seed {seed}, frame {frame}");
+    assert!(is_sound.is_ok(), "seed {seed}, frame {frame}, after {commands:?}");
     counts
 }
 
+/// A pool; from the seed 10000 on seven of eight are coarse, so that many can be tried.
 fn scene(seed: u64) -> Scene {
     let solvers = [FluidSolver::Divergence, FluidSolver::Dfsph, FluidSolver::Pbf];
     let mut scene = pool();
     if let Some(fluid) = &mut scene.fluid {
         fluid.solver = Some(solvers[(seed % 3) as usize]);
+        if seed >= 10_000 && !seed.is_multiple_of(8) {
+            fluid.spacing = 0.01;
+        }
     }
     if seed % 2 == 1 {
         (scene.time.sleep_after, scene.time.sleep_speed) = (0.03, 0.5);
@@ -284,22 +289,74 @@ matrix! {
     one_digest_with_projections: 3008;
 }
 
-/// Seeds that are tried; `SORB_STRESS=1` tries many more, and `SORB_SEED=4000` that one.
-fn seeds() -> std::ops::Range<u64> {
-    if let Some(seed) = std::env::var("SORB_SEED").ok().and_then(|seed| seed.parse().ok()) {
-        return seed..seed + 1;
-    }
-    4000..if std::env::var_os("SORB_STRESS").is_some() { 6000 } else { 4024 }
+/// Sequences that have failed once, by their seeds.
+const FAILED_ONCE: &[u64] = &[];
+
+/// Sequences that still fail: with water as coarse as the sponges something reaches 20 to 73 m/s (docs/stress.md).
+const KNOWN_FAULTS: &[u64] = &[11_468, 13_007, 16_721, 17_252, 19_538, 21_006];
+
+/// Seeds that are tried: 24 and those that have failed once; with `SORB_STRESS=1` many more. `SORB_SEEDS=4000..104000` tries those, and
+/// goes on after failures to name all of them.
+fn seeds() -> Vec<u64> {
+    let Ok(asked) = std::env::var("SORB_SEEDS") else {
+        let last = if std::env::var_os("SORB_STRESS").is_some() { 6000 } else { 4024 };
+        return (4000..last).chain(FAILED_ONCE.iter().copied()).collect();
+    };
+    let number =
+        |text: &str| text.trim().parse().unwrap_or_else(|error| panic!("SORB_SEEDS = {asked}: {error}"));
+    let (first, end) = asked.split_once("..").unwrap_or_else(|| panic!("SORB_SEEDS = {asked}: FIRST..END"));
+    let asked = number(first)..number(end);
+    let is_one = asked.end == asked.start + 1;
+    asked.filter(|seed| is_one || !KNOWN_FAULTS.contains(seed)).collect()
+}
+
+/// Counts of commands taken and refused in a sequence; none if it failed, with what has been printed.
+fn tried(seed: u64) -> Option<[u32; 2]> {
+    let result = std::panic::catch_unwind(|| straight(seed, 1, SimdLevel::best()));
+    result.ok().map(|(_, counts)| counts)
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "figures of the documentation")]
 fn any_commands_give_an_error_or_a_sound_world() {
-    let mut counts = [0; 2];
-    for seed in seeds() {
-        let (_, [taken, refused]) = straight(seed, 2, SimdLevel::best());
-        counts = [counts[0] + taken, counts[1] + refused];
+    let (seeds, mut counts, mut failed) = (seeds(), [0; 2], Vec::new());
+    for seed in &seeds {
+        match tried(*seed) {
+            Some([taken, refused]) => counts = [counts[0] + taken, counts[1] + refused],
+            None => failed.push(*seed),
+        }
     }
+    println!("{} sequences, {counts:?} commands taken and refused, failed: {failed:?}", seeds.len());
+    assert_eq!(failed, Vec::<u64>::new(), "SORB_SEEDS={}..{}", failed[0], failed[0] + 1);
     // Both happen often.
-    let is_one = seeds().count() == 1;
-    assert!(is_one || counts[0] > 40 && counts[1] > 40, "{counts:?} commands taken and refused");
+    assert!(seeds.len() < 10 || counts.iter().all(|count| *count as usize > seeds.len()), "{counts:?}");
+}
+
+/// Whoever corrects them takes them over into those that have failed once.
+#[test]
+fn known_faults_are_still_there() {
+    for seed in KNOWN_FAULTS {
+        assert_eq!(tried(*seed), None, "seed {seed} is sound");
+    }
+}
+
+/// Negative control: a sequence after which the world is not sound is noticed.
+#[test]
+fn a_world_that_is_not_sound_is_noticed() {
+    let mut own = world(3006, 1, SimdLevel::best());
+    audit(&own);
+    let body = own.body_handles().next().unwrap_or_else(|| panic!("a ball"));
+    push(&mut own, Command::Velocity { body, linear_velocity: Vec3::Y * 90.0, angular_velocity: Vec3::ZERO });
+    push(
+        &mut own,
+        Command::Pour {
+            region: Region::Sphere { centre: Vec3::Y * 0.08, radius: 0.01 },
+            velocity: Vec3::Y * 40.0,
+        },
+    );
+    let is_sound = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+        own.step().unwrap_or_else(|error| panic!("{error}"));
+        audit(&own);
+    }));
+    assert!(is_sound.is_err());
 }

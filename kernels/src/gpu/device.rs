@@ -4,7 +4,7 @@ use std::{
     borrow::Cow,
     collections::BTreeMap,
     fmt,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, PoisonError, atomic::AtomicU64},
 };
 
 use wgpu::{Adapter, AdapterInfo, Backends, Device, DeviceType, Features, Instance, Limits, Queue};
@@ -109,6 +109,7 @@ pub struct Gpu {
     /// What the device reported outside any call.
     lost: Arc<Mutex<Option<String>>>,
     pub(super) pipelines: Mutex<Pipelines>,
+    pub(super) bytes_read: AtomicU64,
 }
 
 impl fmt::Debug for Gpu {
@@ -177,6 +178,7 @@ impl Gpu {
             queue,
             lost,
             pipelines: Mutex::default(),
+            bytes_read: AtomicU64::new(0),
         }
     }
 

@@ -32,6 +32,7 @@ mod pack;
 mod pipeline;
 mod profile;
 mod program;
+mod query;
 mod read;
 mod renew;
 mod resident;
@@ -42,6 +43,7 @@ mod stars;
 mod subgroups;
 mod sums;
 mod transfer;
+mod turn;
 pub(crate) mod twins;
 mod wgsl;
 
@@ -53,6 +55,7 @@ pub use error::GpuError;
 pub use pipeline::{Binding, Pipeline};
 pub use profile::Profile;
 pub use program::Program;
+pub use query::{SURFACE_SHARE, SpongeValues, WaterHit, WaterShares, WaterSums};
 pub use read::Pending;
 pub use resident::Resident;
 pub use sorb_shaders as shaders;
@@ -92,11 +95,16 @@ mod tests {
             twins::BODY_WRENCHES,
             twins::END_ROUNDS,
             twins::FINISH,
+            twins::QUERY_POINTS,
+            twins::QUERY_RAYS,
+            twins::QUERY_SPONGES,
             twins::RESUME,
             twins::SUMS[0],
             twins::SUMS[1],
             twins::SUMS[2],
             twins::TOTAL,
+            twins::TURN_NODES,
+            twins::TURN_PARTICLES,
         ];
         let passes: Vec<_> = KERNELS.iter().flat_map(|kernel| kernel.twin).chain(&helpers).collect();
         for shader in sorb_shaders::SHADERS.iter().chain(sorb_shaders::SUBGROUP_SHADERS) {

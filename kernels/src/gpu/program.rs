@@ -158,9 +158,9 @@ impl Resident {
                 }
             });
         }
-        let begin = self.bind_all(&self.jobs("clock", &BEGIN), None)?;
-        let resume = self.bind_all(&self.jobs("clock", &RESUME), None)?;
-        let finish = self.bind_all(&self.last_jobs(), None)?;
+        let begin = self.bind_all(&self.jobs("clock", &BEGIN), &[])?;
+        let resume = self.bind_all(&self.jobs("clock", &RESUME), &[])?;
+        let finish = self.bind_all(&self.last_jobs(), &[])?;
         Ok(Program { stages, begin, resume, step, finish, prepared: None, bound: self.replaced })
     }
 
@@ -177,7 +177,7 @@ impl Resident {
         }
         let maximum = maximum.max(1);
         let repetition = self.uniform("repetition", &Repetition { maximum, index: index as u32 })?;
-        let end = self.bind_all(&self.jobs("clock", &END_ROUNDS), Some(("repetition", &repetition)))?;
+        let end = self.bind_all(&self.jobs("clock", &END_ROUNDS), &[("repetition", &repetition)])?;
         Ok(Rounds { maximum, planned: maximum.min(FIRST_ROUNDS), round, end })
     }
 
@@ -200,15 +200,11 @@ impl Resident {
         Ok(())
     }
 
-    pub(super) fn bind_all(
-        &self,
-        jobs: &[Job],
-        own: Option<(&str, &Buffer)>,
-    ) -> Result<Vec<Dispatch>, GpuError> {
+    pub(super) fn bind_all(&self, jobs: &[Job], own: &[(&str, &Buffer)]) -> Result<Vec<Dispatch>, GpuError> {
         jobs.iter().map(|job| self.bind(job, own)).collect()
     }
 
-    fn bind(&self, job: &Job, own: Option<(&str, &Buffer)>) -> Result<Dispatch, GpuError> {
+    fn bind(&self, job: &Job, own: &[(&str, &Buffer)]) -> Result<Dispatch, GpuError> {
         let Job { kernel, pass, color, threads, groups, .. } = *job;
         let pipeline = self.gpu.pipeline(pass.shader, pass.entry, threads)?;
         let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, color, own))?;
@@ -218,12 +214,12 @@ impl Resident {
     /// Passes of one dispatch.
     fn bind_fused(&self, all: &Dispatched) -> Result<Dispatch, GpuError> {
         if let Some(job) = all.single() {
-            return self.bind(job, None);
+            return self.bind(job, &[]);
         }
         let kernel = all.jobs().next().map_or("", |job| job.kernel);
         let pipeline = self.gpu.fused_pipeline(all)?;
         let pass = Pass { shader: "fused", entry: "fused", rows: Rows::One, names: &[] };
-        let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, 0, None))?;
+        let bind = self.gpu.guarded(None, || self.bind_group(&pass, &pipeline, 0, &[]))?;
         let (count, beside) = all.groups();
         let [x, y, _] = self.lines(count);
         Ok(Dispatch { kernel, pipeline, bind, groups: [x, y, beside] })
@@ -234,14 +230,14 @@ impl Resident {
         pass: &Pass,
         pipeline: &Pipeline,
         color: usize,
-        own: Option<(&str, &Buffer)>,
+        own: &[(&str, &Buffer)],
     ) -> BindGroup {
         let entries: Vec<_> = pipeline
             .bindings
             .iter()
             .map(|binding| {
                 let name = pass.buffer(binding.name);
-                let own = own.filter(|(own, _)| *own == name).map(|(_, buffer)| buffer);
+                let own = own.iter().find(|(own, _)| *own == name).map(|(_, buffer)| *buffer);
                 let mut part = own.unwrap_or_else(|| self.buffer(name)).as_entire_buffer_binding();
                 if name == "batch" {
                     part.offset = color as u64 * BATCH_STRIDE;

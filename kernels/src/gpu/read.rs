@@ -2,7 +2,7 @@
 
 use std::{
     fmt,
-    sync::{Arc, mpsc},
+    sync::{Arc, atomic::Ordering, mpsc},
     time::{Duration, Instant},
 };
 
@@ -18,6 +18,12 @@ impl Resident {
         if total == 0 {
             return Ok(wanted.iter().map(|_| Vec::new()).collect());
         }
+        let buffers: Vec<_> = wanted.iter().map(|(name, size)| (self.buffer(name), *size)).collect();
+        self.read_buffers(&buffers)
+    }
+
+    /// The same of buffers that need not be those of columns.
+    pub(super) fn read_buffers(&self, wanted: &[(&wgpu::Buffer, u64)]) -> Result<Vec<Vec<u32>>, GpuError> {
         let staging = self.copied(wanted)?;
         let bytes = self.gpu.map(&staging)?;
         let mut rest = &bytes[..];
@@ -35,7 +41,7 @@ impl Resident {
 impl Resident {
     /// The beginnings of buffers one after the other, in a buffer that the host can map, after everything that was
     /// submitted.
-    fn copied(&self, wanted: &[(&'static str, u64)]) -> Result<wgpu::Buffer, GpuError> {
+    fn copied(&self, wanted: &[(&wgpu::Buffer, u64)]) -> Result<wgpu::Buffer, GpuError> {
         let total: u64 = wanted.iter().map(|(_, size)| size).sum();
         self.gpu.guarded(Some(("columns that are read back", total)), || {
             let staging = self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -47,8 +53,8 @@ impl Resident {
             });
             let mut encoder = self.encoder();
             let mut offset = 0;
-            for (name, size) in wanted.iter().filter(|(_, size)| *size > 0) {
-                encoder.copy_buffer_to_buffer(self.buffer(name), 0, &staging, offset, *size);
+            for (buffer, size) in wanted.iter().filter(|(_, size)| *size > 0) {
+                encoder.copy_buffer_to_buffer(buffer, 0, &staging, offset, *size);
                 offset += size;
             }
             self.gpu.queue.submit([encoder.finish()]);
@@ -83,7 +89,8 @@ impl Resident {
     /// The device was lost, or there is no memory to copy to.
     pub fn ask(&self, columns: &[Column]) -> Result<Pending, GpuError> {
         let wanted: Vec<_> = columns.iter().filter_map(|column| self.plain_buffer(*column)).collect();
-        let parts: Vec<_> = wanted.iter().map(|(_, name, bytes)| (*name, *bytes as u64)).collect();
+        let parts: Vec<_> =
+            wanted.iter().map(|(_, name, bytes)| (self.buffer(name), *bytes as u64)).collect();
         let staging = self.copied(&parts)?;
         let (sender, mapped) = mpsc::channel();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -147,6 +154,7 @@ impl Gpu {
     /// # Errors
     /// The device was lost.
     pub fn map(&self, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+        self.bytes_read.fetch_add(buffer.size(), Ordering::Relaxed);
         let (sender, receiver) = mpsc::channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
             // Nobody listens if waiting has failed already.
@@ -170,6 +178,14 @@ impl Gpu {
             Err(_) => Err(refused("a buffer was not mapped")),
         }
     }
+
+    /// Bytes that the host has waited for and read from the device so far, by all worlds on it: answers of steps, columns, answers to
+    /// questions. Those of [`Resident::ask`] do not count.
+    #[must_use]
+    pub fn bytes_read(&self) -> u64 {
+        self.bytes_read.load(Ordering::Relaxed)
+    }
+
     /// What a mapping came to, if it comes soon: being woken takes longer than a small step.
     fn soon(&self, mapped: &mpsc::Receiver<Mapped>) -> Option<Mapped> {
         let start = Instant::now();

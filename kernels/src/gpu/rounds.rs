@@ -57,7 +57,7 @@ const NEEDED: u32 = 7;
 fn dispatch(resident: &Resident, entry: &'static str) -> Vec<Dispatch> {
     let pass = Pass { shader: "test::halving", entry, rows: Rows::One, names: &[] };
     let pipeline = Arc::new(resident.gpu.compile(&HALVING, entry, Threads { group: 1, shares: 1 }));
-    let bind = resident.bind_group(&pass, &pipeline, 0, None);
+    let bind = resident.bind_group(&pass, &pipeline, 0, &[]);
     vec![Dispatch { kernel: "test::halving", pipeline, bind, groups: [1, 1, 1] }]
 }
 

@@ -114,11 +114,11 @@ impl Resident {
         let mut parts = Vec::new();
         for (place, pass) in SUMS.iter().enumerate() {
             let mut dispatches = Vec::new();
-            dispatches.extend(self.bind_all(&self.jobs("measure", pass), None)?);
+            dispatches.extend(self.bind_all(&self.jobs("measure", pass), &[])?);
             let groups = groups_of(self.rows_of_sums(place)) as u32;
             let summands = self.uniform("summands", &Summands { groups, place: place as u32 })?;
-            let own = Some(("summands", &summands));
-            dispatches.extend(self.bind_all(&self.jobs("measure", &TOTAL), own)?);
+            let own = [("summands", &summands)];
+            dispatches.extend(self.bind_all(&self.jobs("measure", &TOTAL), &own)?);
             parts.push(dispatches);
         }
         self.write("node_mass", bytemuck::cast_slice(node_mass));

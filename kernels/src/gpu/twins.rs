@@ -151,6 +151,29 @@ pub(crate) const SUMS: [Pass; 3] = [
 /// The sums of all groups of one of [`SUMS`].
 pub(crate) const TOTAL: Pass = pass("measure::total", Rows::One);
 
+/// What a turn of the container does to the velocities of the particles between two steps.
+pub(crate) const TURN_PARTICLES: Pass = Pass {
+    shader: "frame::turn",
+    entry: "particles",
+    rows: Rows::Fluid,
+    names: &[("positions", "fluid_position_next"), ("velocities", "fluid_velocity_next")],
+};
+/// The same to those of the nodes.
+pub(crate) const TURN_NODES: Pass = Pass {
+    shader: "frame::turn",
+    entry: "nodes",
+    rows: Rows::Nodes,
+    names: &[("positions", "node_position"), ("velocities", "node_velocity")],
+};
+
+/// Particles where a step leaves them.
+const PARTICLES: Names =
+    &[("fluid_position", "fluid_position_next"), ("fluid_velocity", "fluid_velocity_next")];
+/// The water around points, the sponges that they lie in, and where rays meet water: a group for each.
+pub(crate) const QUERY_POINTS: Pass = pass("query::points", Rows::One).on(PARTICLES);
+pub(crate) const QUERY_SPONGES: Pass = pass("query::sponges", Rows::One);
+pub(crate) const QUERY_RAYS: Pass = pass("query::rays", Rows::One).on(PARTICLES);
+
 impl Pass {
     /// The same pass on other buffers.
     pub(crate) const fn on(self, names: Names) -> Self {

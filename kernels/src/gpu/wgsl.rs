@@ -10,6 +10,7 @@ use super::{
     images::DeviceImage,
     layout::{Constant, Enumeration, Shape, Struct},
     pack::{self, Batch, NodeTraits, Repetition, StepParams, Summands},
+    query::{self, QueryAnswer, Question},
     stars,
     sums::{self, GroupSums},
 };
@@ -22,6 +23,7 @@ use crate::{
     smoothing::{self, Wendland},
     sph::{self, pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
     surface, sweep,
+    turn::Turn,
 };
 
 /// Constants of modules that are no kernels.
@@ -46,6 +48,7 @@ const CONSTANTS: &[&[Constant]] = &[
     pbd::meeting::CONSTANTS,
     pbd::obstacles::CONSTANTS,
     pbd::stars::CONSTANTS,
+    query::CONSTANTS,
     smoothing::CONSTANTS,
     sph::container::CONSTANTS,
     sph::friction::CONSTANTS,
@@ -86,11 +89,14 @@ const STRUCTS: &[Shape] = &[
     Grid::SHAPE,
     GroupSums::SHAPE,
     NodeTraits::SHAPE,
+    QueryAnswer::SHAPE,
+    Question::SHAPE,
     Repetition::SHAPE,
     Solve::SHAPE,
     SpongeParams::SHAPE,
     StepParams::SHAPE,
     Summands::SHAPE,
+    Turn::SHAPE,
     ViscositySolve::SHAPE,
     Wendland::SHAPE,
     WettingParams::SHAPE,

@@ -21,9 +21,6 @@ impl Check<'_> {
         for (index, motion) in motions.iter().enumerate() {
             self.not_past(&format!("container.motions[{index}].start"), motion.interval().0);
         }
-        if let Some(rule) = world.turn_refusal(motions, world.clock().time) {
-            self.rule("container.motions", format!("({} motions)", motions.len()), rule);
-        }
     }
 
     pub(super) fn not_empty(&mut self, key: &str, count: usize) {

@@ -5,6 +5,7 @@ mod declarations;
 mod device;
 mod faults;
 mod parity;
+mod turn;
 
 use std::sync::{Arc, OnceLock};
 
