@@ -49,7 +49,7 @@ def sorb_fronts(folder, across):
 
     with open(folder / "measures.csv", encoding="utf-8") as file:
         times = {int(row["frame"]): float(row["time_s"]) for row in csv.DictReader(file)}
-    for path in sorted((folder / "export").glob("water_positions_*.npy")):
+    for path in sorted((folder / "export").glob("particle_positions_*.npy")):
         frame = int("".join(letter for letter in path.stem if letter.isdigit()))
         along = numpy.sort(numpy.load(path)[:, 0])
         yield times[frame], float(along[-across]) + 0.5 * BASE / across

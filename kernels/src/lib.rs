@@ -103,7 +103,7 @@ kernels! {
     tets {
         corners, moments, flux, mobility, response, velocity, drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
     } shared {
-        corner_lists, impulses, pub rows,
+        impulses, pub rows,
     }
 }
 

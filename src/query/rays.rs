@@ -75,14 +75,12 @@ pub(super) fn cast(world: &World, rays: &[Ray], targets: Targets) -> Result<Vec<
     let ends: Vec<Vec3> =
         rays.iter().flat_map(|ray| [ray.origin, ray.origin + ray.direction * ray.length]).collect();
     let has_sponges = targets.sponges && !world.lattice().tets.is_empty();
-    // Sponges are met on the host, which then has the water as well.
-    let water = match (
-        targets.water,
-        if has_sponges || !targets.water { None } else { world.water_on_device(&rays) },
-    ) {
-        (false, _) => Water::Nothing,
-        (true, Some(hits)) => Water::Hits(hits),
-        (true, None) => Water::Field(WaterField::new(world, bounds(&ends))),
+    let water = if targets.water {
+        // Sponges are met on the host, which then has the water as well.
+        let hits = if has_sponges { None } else { world.water_on_device(&rays) };
+        hits.map_or_else(|| Water::Field(WaterField::new(world, bounds(&ends))), Water::Hits)
+    } else {
+        Water::Nothing
     };
     let boxes = if has_sponges { sponge_boxes(world) } else { Vec::new() };
     let first = |(index, ray): (usize, &Ray)| {

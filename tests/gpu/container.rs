@@ -27,8 +27,8 @@ fn tank(motions: Vec<Motion>) -> Scene {
     scene
 }
 
-/// Worlds on the CPU and on the device after some frames, which have the same measures within 5 %, and another with other motions, which has
-/// not.
+/// Worlds on the CPU and on the device after some frames, which have the same measures within 5 %, and another with other motions,
+/// which has not.
 fn assert_as_on_the_cpu(motions: Vec<Motion>, others: Vec<Motion>) {
     let scene = tank(motions);
     let (mut on_cpu, mut on_gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));

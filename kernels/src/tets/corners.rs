@@ -8,17 +8,16 @@
 //! the particle, at the face of the sponge or in a crushed lattice, it is the one whose smallest weight is largest. Its weights are
 //! then extrapolated: some are negative.
 
-use super::{
-    corner_lists::list,
-    rows::{CornerRows, Corners},
-};
+use super::rows::{CornerRows, Corners};
 use crate::{
+    column::padded,
     columns::{Columns, Controls, Nodes},
     cpu::Cpu,
+    grid::neighbors::Neighbors,
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::Params,
-    pbd::stars::{CORNERS, DIRECTIONS, RINGS, StarGroup, TETS},
+    pbd::stars::{CORNERS, DIRECTIONS, RINGS, StarGroup},
     vector::{Vec3x8, choose, cross, dot, minus, negative, plus, times},
 };
 
@@ -92,8 +91,6 @@ struct Search<'a> {
 
 /// The tets around the nearest nodes of eight particles.
 struct Around<'a, S: Simd> {
-    /// Whether there is a node near the particle.
-    is_near: [bool; LANES],
     /// Where the nearest nodes are in the stars.
     place: [(&'a StarGroup, usize); LANES],
     own: Vec3x8<S>,
@@ -132,7 +129,6 @@ impl Search<'_> {
             MINIMUM_TET * 0.5 * (edge * edge * edge)
         });
         let around = Around {
-            is_near: nearest.map(|row| (row as usize) < count),
             place: node.map(|node| self.nodes.stars.place(node as usize)),
             own,
             offset: minus([x, y, z], own),
@@ -153,7 +149,7 @@ impl Search<'_> {
             let [x, y, z] = gradients[corner];
             let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
             let weight = (weights[corner] + missing).to_array();
-            for lane in (0..LANES).filter(|lane| around.is_near[*lane]) {
+            for lane in (0..LANES).filter(|lane| (nearest[*lane] as usize) < count) {
                 let (stars, place) = around.place[lane];
                 let node = match corner {
                     0 => node[lane],
@@ -209,34 +205,12 @@ impl Search<'_> {
             gradients: [[zero; 3]; 3],
         };
         self.compare(simd, around, first, &mut best);
-        let least = best.least.to_array();
-        for lane in (0..LANES).filter(|lane| around.is_near[*lane] && least[*lane] < INSIDE_TET) {
-            self.search(simd, around, lane, &mut best);
-        }
-        best
-    }
-
-    /// Compares all tets around the nearest node of one particle with its best so far, eight at a time. Those behind a direction in which
-    /// one contains the particle count no more.
-    #[inline(always)]
-    fn search<S: Simd>(&self, simd: S, around: &Around<'_, S>, lane: usize, best: &mut Best<S>) {
-        let alone = around.of(simd, lane);
-        let mut rows = best.rows().map(|row| row.to_array());
-        for first in (0..TETS).step_by(LANES) {
-            let tets: [usize; LANES] = std::array::from_fn(|place| first + place);
-            let [p, q, r] =
-                [0, 1, 2].map(|corner| self.way(simd, &alone, tets.map(|tet| tet_places(tet)[corner])));
-            let all = alone.tets(simd, tets, [p, q, r]).rows().map(|row| row.to_array());
-            for place in 0..LANES {
-                if place % 4 == 0 && rows[LEAST][lane] >= INSIDE_TET {
-                    return best.set(simd, &rows);
-                }
-                if all[LEAST][place] > rows[LEAST][lane] {
-                    rows.iter_mut().zip(&all).for_each(|(row, all)| row[lane] = all[place]);
-                }
+        if best.least.to_array().iter().any(|least| *least < INSIDE_TET) {
+            for direction in 0..DIRECTIONS {
+                self.compare(simd, around, [direction; LANES], &mut best);
             }
         }
-        best.set(simd, &rows);
+        best
     }
 
     /// The ways from the nodes to these of their neighbours.
@@ -250,7 +224,7 @@ impl Search<'_> {
         minus([x, y, z], around.own)
     }
 
-    /// Compares the tets around a direction, of every lane, with the best so far.
+    /// Compares the tets around a direction, of every lane, with the best so far. Those of particles that have one already stay.
     #[inline(always)]
     fn compare<S: Simd>(
         &self,
@@ -259,86 +233,45 @@ impl Search<'_> {
         direction: [usize; LANES],
         best: &mut Best<S>,
     ) {
+        let one = lanes::splat(simd, 1.0);
         let partner = self.way(simd, around, direction.map(|direction| CORNERS + direction));
         let ring = |k: usize| direction.map(|direction| RINGS[direction][k % 4]);
         let mut r = self.way(simd, around, ring(0));
+        let searches = best.least.simd_lt(lanes::splat(simd, INSIDE_TET));
         for k in 0..4 {
             let q = self.way(simd, around, ring(k + 1));
-            let tets = around.tets(simd, direction.map(|direction| 4 * direction + k), [partner, q, r]);
-            best.improve(&tets);
+            let exists: [f32; LANES] = std::array::from_fn(|lane| {
+                let (group, own) = around.place[lane];
+                group.tets[4 * direction[lane] + k][own]
+            });
+            let area = cross(q, r);
+            let six = dot(partner, area);
+            let six = select(six.abs().simd_lt(around.minimum), around.minimum, six);
+            let inverse = one / six;
+            let gradients =
+                [times(area, inverse), times(cross(r, partner), inverse), times(cross(partner, q), inverse)];
+            let mut weights = [one; 4];
+            for (corner, gradient) in gradients.into_iter().enumerate() {
+                weights[corner + 1] = dot(gradient, around.offset);
+                weights[0] -= weights[corner + 1];
+            }
+            let smallest = weights[0].min(weights[1]).min(weights[2].min(weights[3]));
+            let smallest = select(
+                lanes::load_array(simd, &exists).simd_gt(lanes::splat(simd, 0.0)),
+                smallest,
+                lanes::splat(simd, f32::NEG_INFINITY),
+            );
+            let is_better = searches & smallest.simd_gt(best.least);
+            best.least = select(is_better, smallest, best.least);
+            let tet = direction.map(|direction| (4 * direction + k) as f32);
+            best.tet = select(is_better, lanes::load_array(simd, &tet), best.tet);
+            for (own, weight) in best.weights.iter_mut().zip(weights) {
+                *own = select(is_better, weight, *own);
+            }
+            for (own, gradient) in best.gradients.iter_mut().zip(gradients) {
+                *own = choose(is_better, gradient, *own);
+            }
             r = q;
-        }
-    }
-}
-
-impl<'a, S: Simd> Around<'a, S> {
-    /// One of them in all lanes.
-    #[inline(always)]
-    fn of(&self, simd: S, lane: usize) -> Self {
-        let same = |value: f32x8<S>| lanes::splat(simd, value.to_array()[lane]);
-        Self {
-            is_near: [true; LANES],
-            place: [self.place[lane]; LANES],
-            own: self.own.map(same),
-            offset: self.offset.map(same),
-            minimum: same(self.minimum),
-        }
-    }
-
-    /// Weights in a tet of every lane, whose other corners are at `p`, `q` and `r` from the node. Those that are none have no least weight.
-    #[inline(always)]
-    fn tets(&self, simd: S, tet: [usize; LANES], [p, q, r]: [Vec3x8<S>; 3]) -> Best<S> {
-        let (zero, one) = (lanes::splat(simd, 0.0), lanes::splat(simd, 1.0));
-        let exists: [f32; LANES] = std::array::from_fn(|lane| {
-            let (group, own) = self.place[lane];
-            group.tets[tet[lane]][own]
-        });
-        let area = cross(q, r);
-        let six = dot(p, area);
-        let six = select(six.abs().simd_lt(self.minimum), self.minimum, six);
-        let inverse = one / six;
-        let gradients = [times(area, inverse), times(cross(r, p), inverse), times(cross(p, q), inverse)];
-        let mut weights = [one; 4];
-        for (corner, gradient) in gradients.into_iter().enumerate() {
-            weights[corner + 1] = dot(gradient, self.offset);
-            weights[0] -= weights[corner + 1];
-        }
-        let least = weights[0].min(weights[1]).min(weights[2].min(weights[3]));
-        let exists = lanes::load_array(simd, &exists).simd_gt(zero);
-        let least = select(exists, least, lanes::splat(simd, f32::NEG_INFINITY));
-        Best { least, tet: lanes::load_array(simd, &tet.map(|tet| tet as f32)), weights, gradients }
-    }
-}
-
-/// Place of the smallest weight among the rows of [`Best`].
-const LEAST: usize = 0;
-
-impl<S: Simd> Best<S> {
-    #[inline(always)]
-    fn rows(&self) -> [f32x8<S>; 15] {
-        let [[a, b, c], [d, e, f], [g, h, i]] = self.gradients;
-        let [s, t, u, v] = self.weights;
-        [self.least, self.tet, s, t, u, v, a, b, c, d, e, f, g, h, i]
-    }
-
-    #[inline(always)]
-    fn set(&mut self, simd: S, rows: &[[f32; LANES]; 15]) {
-        let [least, tet, s, t, u, v, a, b, c, d, e, f, g, h, i] =
-            rows.map(|row| lanes::load_array(simd, &row));
-        *self = Self { least, tet, weights: [s, t, u, v], gradients: [[a, b, c], [d, e, f], [g, h, i]] };
-    }
-
-    /// Takes what has a larger least weight.
-    #[inline(always)]
-    fn improve(&mut self, other: &Self) {
-        let is_better = other.least.simd_gt(self.least);
-        self.least = select(is_better, other.least, self.least);
-        self.tet = select(is_better, other.tet, self.tet);
-        for (own, weight) in self.weights.iter_mut().zip(other.weights) {
-            *own = select(is_better, weight, *own);
-        }
-        for (own, gradient) in self.gradients.iter_mut().zip(other.gradients) {
-            *own = choose(is_better, gradient, *own);
         }
     }
 }
@@ -370,4 +303,23 @@ fn nearest<S: Simd>(
         nearest = select(is_nearer, lanes::load_array(simd, &entry.map(f32::from_bits)), nearest);
     }
     nearest.to_array().map(f32::to_bits)
+}
+
+/// For every control the corners that it is of the tets of particles: four times the row of the particle, and the corner.
+fn list(cpu: &Cpu, corners: &[[u32; 4]], particles: usize, controls: usize, lists: &mut Neighbors) {
+    let mut start = vec![0_u32; controls + 2];
+    let all = || (0_u32..).zip(corners.as_flattened()).filter(|(_, control)| (**control as usize) < controls);
+    all().for_each(|(_, control)| start[*control as usize + 2] += 1);
+    (2..start.len()).for_each(|row| start[row] += start[row - 1]);
+    let mut order = vec![0_u32; start[controls + 1] as usize];
+    for (place, control) in all() {
+        let next = &mut start[*control as usize + 1];
+        order[*next as usize] = place;
+        *next += 1;
+    }
+    lists.fill(cpu, padded(controls), 4 * particles as u32, |(): &mut (), control, list| {
+        if control < controls {
+            list.extend(&order[start[control] as usize..start[control + 1] as usize]);
+        }
+    });
 }
