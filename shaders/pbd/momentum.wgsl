@@ -31,8 +31,8 @@ fn main(
     let x = node_position[row].xyz;
     var y = start.xyz;
     if (node_reaction[row].w > 0.0) {
-        let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, x - sponge_motions[sponge * 3u].xyz);
-        y += (sponge_motions[sponge * 3u + 1u].xyz + turn) * clock.step;
+        let turn = cross(sponge_motions[sponge * MOTION_ROWS + 2u].xyz, x - sponge_motions[sponge * MOTION_ROWS].xyz);
+        y += (sponge_motions[sponge * MOTION_ROWS + 1u].xyz + turn) * clock.step;
         if (params.has_walls != 0u) {
             // What is not a number stays so.
             y = select(y, params.wall_low, y < params.wall_low);

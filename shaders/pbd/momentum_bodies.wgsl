@@ -48,8 +48,8 @@ fn main(
         let before = node_reaction[row];
         if (before.w < 0.0 && sponges.all[sponge].solver == SOLVER_VBD) {
             old = node_position[row].xyz;
-            let turn = cross(sponge_motions[sponge * 3u + 2u].xyz, old - sponge_motions[sponge * 3u].xyz);
-            impulse = (sponge_motions[sponge * 3u + 1u].xyz + turn) * -before.w;
+            let turn = cross(sponge_motions[sponge * MOTION_ROWS + 2u].xyz, old - sponge_motions[sponge * MOTION_ROWS].xyz);
+            impulse = (sponge_motions[sponge * MOTION_ROWS + 1u].xyz + turn) * -before.w;
             node_reaction[row] = vec4<f32>(before.xyz - impulse, before.w);
             if (node_predicted[row].w > 0.0) {
                 body = touched(node_predicted[row].xyz, sponges.all[sponge].edge * OBSTACLE_MARGIN);

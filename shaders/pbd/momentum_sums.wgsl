@@ -1,6 +1,6 @@
-// #include sponges
-// The rigid motion that restores the momentum of a sponge, together with those in contact with it, one workgroup per sponge;
-// `momentum.rs` has the formulas. Moments are about the first node of the first of them.
+// #include sponges, sponge_sums
+// Sums over the nodes of a sponge, a workgroup for each of its parts. Where all of it is one part the workgroup adds up those of the
+// sponges in contact with it as well, and has the motion.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;
@@ -12,27 +12,6 @@
 @group(0) @binding(7) var<storage, read> node_drag: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> node_drag_moment: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> sponge_motions: array<vec4<f32>>;
-
-struct Sums {
-    // First moment, and mass.
-    first: vec4<f32>,
-    // Second moments xx, yy, zz, and the mass of free nodes.
-    squares: vec4<f32>,
-    // Second moments xy, xz, yz.
-    products: vec3<f32>,
-    momentum: vec3<f32>,
-    angular: vec3<f32>,
-}
-
-// Half of the threads add their own to those of the others: all of them would not fit.
-var<workgroup> sums: array<Sums, SPONGE_THREADS / 2u>;
-
-// Whether a sponge is corrected together with another.
-fn is_joined(own: u32, other: u32) -> bool {
-    let pair = sponge_ranges[own * RANGES + VERTEX_COLORS + other / 64u];
-    let word = select(pair.x, pair.y, (other / 32u) % 2u == 1u);
-    return ((word >> (other % 32u)) & 1u) != 0u;
-}
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
     let x = node_position[row].xyz - origin;
@@ -57,82 +36,32 @@ fn term(row: u32, origin: vec3<f32>) -> Sums {
     );
 }
 
-fn join(a: Sums, b: Sums) -> Sums {
-    return Sums(
-        a.first + b.first,
-        a.squares + b.squares,
-        a.products + b.products,
-        a.momentum + b.momentum,
-        a.angular + b.angular,
-    );
-}
-
 @compute @workgroup_size(SPONGE_THREADS)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    if (clock.running == 0u || sponges.all[group.x].solver != SOLVER_VBD) {
+    let parts = part_count();
+    let own = group.x / parts;
+    let part = group.x % parts;
+    if (clock.running == 0u || sponges.all[own].solver != SOLVER_VBD) {
         return;
     }
-    let none = vec3<f32>(0.0);
-    var first = 0u;
-    while (first < group.x && !is_joined(group.x, first)) {
-        first += 1u;
-    }
-    let origin = node_position[sponge_ranges[first * RANGES].x].xyz;
-    var own = Sums(vec4<f32>(0.0), vec4<f32>(0.0), none, none, none);
-    let end = arrayLength(&sponge_ranges) / RANGES * VERTEX_COLORS;
-    for (var index = first * VERTEX_COLORS; index < end; index += 1u) {
+    let first = first_joined(own);
+    let origin = origin_of(first);
+    var found = no_sums();
+    let begin = select(own, first, parts == 1u);
+    let end = select(own + 1u, sponge_count(), parts == 1u);
+    for (var index = begin * VERTEX_COLORS; index < end * VERTEX_COLORS; index += 1u) {
         let sponge = index / VERTEX_COLORS;
-        if (sponge == group.x || is_joined(group.x, sponge)) {
+        if (is_joined(own, sponge)) {
             let range = sponge_ranges[sponge * RANGES + index % VERTEX_COLORS];
-            for (var row = range.x + lane; row < range.y; row += SPONGE_THREADS) {
-                own = join(own, term(row, origin));
+            for (var row = range.x + part * SPONGE_THREADS + lane; row < range.y; row += parts * SPONGE_THREADS) {
+                found = join(found, term(row, origin));
             }
         }
     }
-    let middle = SPONGE_THREADS / 2u;
-    if (lane >= middle) {
-        sums[lane - middle] = own;
+    let all = sum_of_group(lane, found);
+    if (lane == 0u && parts == 1u) {
+        store_motion(own, origin, all);
+    } else if (lane == 0u) {
+        store_part(own, part, all);
     }
-    workgroupBarrier();
-    if (lane < middle) {
-        sums[lane] = join(own, sums[lane]);
-    }
-    for (var half = middle / 2u; half > 0u; half = half / 2u) {
-        workgroupBarrier();
-        if (lane < half) {
-            sums[lane] = join(sums[lane], sums[lane + half]);
-        }
-    }
-    if (lane != 0u) {
-        return;
-    }
-    let all = sums[0];
-    var centre = none;
-    var velocity = none;
-    var turn = none;
-    if (all.squares.w > 0.0) {
-        let moment = all.first.xyz;
-        centre = moment / all.first.w;
-        let squares = all.squares.xyz - moment * centre;
-        let products = all.products - vec3<f32>(moment.x * centre.y, moment.x * centre.z, moment.y * centre.z);
-        let trace = squares.x + squares.y + squares.z;
-        let inertia = mat3x3<f32>(
-            vec3<f32>(trace - squares.x, -products.x, -products.y),
-            vec3<f32>(-products.x, trace - squares.y, -products.z),
-            vec3<f32>(-products.y, -products.z, trace - squares.z),
-        );
-        velocity = all.momentum / all.first.w;
-        let scaled = inertia * (1.0 / trace);
-        let a = cross(scaled[1], scaled[2]);
-        let b = cross(scaled[2], scaled[0]);
-        let c = cross(scaled[0], scaled[1]);
-        let determinant = dot(scaled[0], a);
-        let angular = (all.angular - cross(centre, all.momentum)) / trace;
-        if (determinant > MINIMUM_DETERMINANT) {
-            turn = vec3<f32>(dot(a, angular), dot(b, angular), dot(c, angular)) / determinant;
-        }
-    }
-    sponge_motions[group.x * 3u] = vec4<f32>(centre + origin, 0.0);
-    sponge_motions[group.x * 3u + 1u] = vec4<f32>(velocity, 0.0);
-    sponge_motions[group.x * 3u + 2u] = vec4<f32>(turn, 0.0);
 }

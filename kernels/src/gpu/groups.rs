@@ -11,6 +11,29 @@ constants! {
     pub(super) const CONTROLS_PER_GROUP: u32 = GROUP_THREADS / CONTROL_THREADS;
     /// Threads of a group for each sponge.
     pub(super) const SPONGE_THREADS: u32 = 256;
+    /// Rows of the motion of a sponge: centre, velocity and angular velocity.
+    pub(super) const MOTION_ROWS: u32 = 3;
+    /// Rows of the sums over a part of a sponge.
+    pub(super) const SUM_ROWS: u32 = 5;
+}
+
+/// Nodes of a part of a sponge: eight for every thread.
+const PART_NODES: usize = 8 * SPONGE_THREADS as usize;
+
+/// Parts into which the nodes of every sponge are divided, in a scene with this many nodes. One where a second pass, which adds up the
+/// parts, would take longer than it saves.
+pub(crate) const fn sponge_parts(nodes: usize) -> usize {
+    let parts = nodes.div_ceil(PART_NODES);
+    if parts > 1 { parts } else { 1 }
+}
+
+/// Bytes of the motions of sponges, and of the sums over their parts if there are several.
+pub(super) const fn motion_bytes(sponges: usize, nodes: usize) -> usize {
+    /// Four floats.
+    const BYTES: usize = 16;
+    let parts = sponge_parts(nodes);
+    let sums = if parts > 1 { parts * SUM_ROWS as usize } else { 0 };
+    sponges * (MOTION_ROWS as usize + sums) * BYTES
 }
 
 /// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP_THREADS`].

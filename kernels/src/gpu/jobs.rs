@@ -3,7 +3,7 @@
 use super::{
     cells::ONE_GROUP_PAGES,
     fusion::{Dispatched, dispatched},
-    groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of},
+    groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of, sponge_parts},
     lists::IMAGES,
     pack::BATCHES,
     pipeline::{Threads, has_any_group, has_shares},
@@ -131,6 +131,10 @@ impl Resident {
             Rows::FluidOrNodes => threads(fluid.max(nodes)),
             Rows::Colors | Rows::VertexColors => threads(self.batches[color].count as usize),
             Rows::Sponges => groups(self.params.sponges.len() as u64),
+            Rows::SpongeParts => groups((self.params.sponges.len() * sponge_parts(nodes)) as u64),
+            Rows::DividedSponges => {
+                groups(if sponge_parts(nodes) > 1 { self.params.sponges.len() as u64 } else { 0 })
+            }
             Rows::Controls => groups(nodes.div_ceil(CONTROLS_PER_GROUP as usize) as u64),
             Rows::FluidScan => groups(u64::from(self.grids[0].pages() > u64::from(ONE_GROUP_PAGES))),
             Rows::ControlScan => groups(u64::from(self.grids[1].pages() > u64::from(ONE_GROUP_PAGES))),

@@ -47,6 +47,8 @@ mod turn;
 pub(crate) mod twins;
 mod wgsl;
 
+#[cfg(test)]
+pub(crate) use groups::sponge_parts;
 pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
 pub use bodies::BODY_BYTES;
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};

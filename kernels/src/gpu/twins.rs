@@ -49,6 +49,10 @@ pub(crate) enum Rows {
     VertexColors,
     /// A group per sponge.
     Sponges,
+    /// A group per part of a sponge.
+    SpongeParts,
+    /// A group per sponge where sponges have several parts, else none.
+    DividedSponges,
 }
 
 /// One pass of a twin.

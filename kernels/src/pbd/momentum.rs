@@ -50,7 +50,8 @@ declare! {
     oracle: crate::oracle::descent::momentum,
     bound: 5e-4,
     twin: [
-        pass("pbd::momentum_sums", Sponges),
+        pass("pbd::momentum_sums", SpongeParts),
+        pass("pbd::momentum_motions", DividedSponges),
         pass(NAME, Nodes),
         pass("pbd::momentum_bodies", Nodes),
     ],

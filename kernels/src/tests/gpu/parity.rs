@@ -14,6 +14,7 @@ use super::{
 use crate::{
     KERNELS,
     columns::{Column, Columns},
+    gpu::sponge_parts,
     grid::neighbors::Neighbors,
     kernel::Kernel,
     kernel_named,
@@ -131,6 +132,27 @@ fn twins_agree_with_the_cpu() {
         println!("{:26} {worst:.1e} of {:.0e}", kernel.name, kernel.twin_bound);
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Nodes of large sponges are summed up in parts.
+#[test]
+fn momenta_of_large_sponges_agree_with_the_cpu() {
+    let kernel = kernel_named("pbd::momentum").expect("there is one");
+    let before = Scene::new(Options { fine: true, ..FULL }.suiting(kernel)).before(kernel.name, &best());
+    assert!(sponge_parts(before.columns.rows.nodes) > 1, "{} nodes", before.columns.rows.nodes);
+    let expected = on_cpu(kernel, &before);
+    let worst = |before: &Scene| {
+        let found = after_on(gpu(), kernel, before);
+        let errors = gpu_errors(kernel, before, &found, &expected);
+        errors.into_iter().map(|(_, error)| error).fold(0.0, f64::max)
+    };
+    let error = worst(&before);
+    assert!(error <= kernel.twin_bound, "{error:.1e}");
+    // Negative control: drag on the last nodes alone, which are in the last part.
+    let mut altered = before.clone();
+    let drag = &mut altered.columns.nodes.drag[..before.columns.rows.nodes];
+    drag.iter_mut().rev().take(200).for_each(|row| row[0] += 1e-3);
+    assert!(worst(&altered) > kernel.twin_bound);
 }
 
 /// Columns that a kernel reads and that its twin computes beside what it sums up.

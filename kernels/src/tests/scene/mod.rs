@@ -192,6 +192,9 @@ pub(super) fn blocks() -> Vec<Block> {
 /// The blocks of a scene: where they touch, the second is pressed into the first, and a thin one is close above it.
 fn blocks_of(options: Options) -> Vec<Block> {
     let mut blocks = blocks();
+    if options.fine {
+        blocks[0] = Block { cells: [12; 3], edge: blocks[0].edge / 3.0, ..blocks[0] };
+    }
     if options.touch {
         blocks[1].origin[0] = 0.0497;
         blocks.push(Block { cells: [3, 1, 3], edge: 0.01, origin: [0.012, 0.0445, 0.008] });

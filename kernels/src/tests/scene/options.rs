@@ -34,6 +34,8 @@ pub(crate) struct Options {
     pub(crate) touch: bool,
     /// Whether one of the bodies is a compound.
     pub(crate) compound: bool,
+    /// Whether the first sponge has a finer lattice, with thousands of nodes.
+    pub(crate) fine: bool,
 }
 
 /// Everything at once: all ingredients touch each other.
@@ -54,6 +56,7 @@ pub(crate) const FULL: Options = Options {
     periodic: [false; 3],
     touch: false,
     compound: false,
+    fine: false,
 };
 
 /// What repeats along two axes, as a channel does, and along all of them.
