@@ -72,8 +72,8 @@ columns! {
             padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`. With a solve for the divergence the velocity \[m/s\] by the pressure
-        /// of the present round.
-        FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
+        /// of the present round; w: the rate at which the material of sponges compresses the particle \[1/s\].
+        FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2", COMPRESSION_RATE 3 "1/s"), Scratch, needs Incompressible;
         /// Images of the particles in walls and bodies.
         FluidImages = images: Images("m"), Scratch;
         /// For every image, that of a vector of its particle.

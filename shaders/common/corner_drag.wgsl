@@ -11,9 +11,9 @@ fn corner_drag(row: u32, list: vec2<u32>, lane: u32) -> CornerDrag {
     var turning = vec3<f32>(0.0);
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let place = control_corners[k];
-        let impulse = fluid_shares[place].w * fluid_drag[place / 4u];
+        let impulse = fluid_shares[place][CORNER_WEIGHT] * fluid_drag[place / CORNERS];
         part += impulse;
-        turning += cross(fluid_position[place / 4u].xyz - own, impulse.xyz);
+        turning += cross(fluid_position[place / CORNERS].xyz - own, impulse.xyz);
     }
     let sum = control_sum(lane, part);
     // The memory of the sum is used again.

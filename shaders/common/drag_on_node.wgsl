@@ -6,7 +6,7 @@ struct DragOnNode {
 
 // All threads of the control take part.
 fn drag_on_node(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> DragOnNode {
-    let scale = own.w * params.coupling.value;
+    let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {

@@ -30,7 +30,7 @@ fn main(
     var pressure = 0.0;
     if (is_row) {
         own = fluid_position[row];
-        pressure = own.w * params.rest_density;
+        pressure = own[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY] * params.rest_density;
         sum = fluid_acceleration[row].xyz - pressure * wall_share(own.xyz).xyz;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
@@ -38,7 +38,7 @@ fn main(
         let gradient = body_share(body, own.xyz).xyz;
         let push = pressure * gradient;
         sum -= push;
-        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+        let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
         let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
@@ -51,6 +51,6 @@ fn main(
         }
     }
     if (is_row) {
-        fluid_acceleration[row] = vec4<f32>(sum, fluid_acceleration[row].w);
+        fluid_acceleration[row] = with_vector(fluid_acceleration[row], sum);
     }
 }

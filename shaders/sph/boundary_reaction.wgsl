@@ -26,8 +26,8 @@ fn main(
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = at_end(body_states[index]);
-        let push = own.w * body_share(body, own.xyz).xyz;
-        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+        let push = own[FLUID_PREDICTED_PRESSURE_CHANGE] * body_share(body, own.xyz).xyz;
+        let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
         let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
         if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
             let impulse = push * (clock.step * params.particle_mass);

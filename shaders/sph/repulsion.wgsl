@@ -62,7 +62,7 @@ fn main(
             push = push_of(surface.distance, dot(speed - body_velocity(body, point), surface.normal));
         }
         sum += surface.normal * push;
-        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+        let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
         let is_slot = group_of(group, groups) * GROUP_THREADS < params.fluid_rows;
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, push > 0.0)) {
@@ -76,6 +76,6 @@ fn main(
         }
     }
     if (is_row) {
-        fluid_acceleration[row] = vec4<f32>(sum, fluid_acceleration[row].w);
+        fluid_acceleration[row] = with_vector(fluid_acceleration[row], sum);
     }
 }

@@ -9,12 +9,12 @@
 
 fn take_round(lane: u32) {
     // Sums of missing groups stay zero.
-    let groups = arrayLength(&solve_sums) / 2u;
+    let groups = arrayLength(&solve_sums) / SOLVE_SUM_ROWS;
     var own = vec4<f32>(0.0);
     var rest = vec4<f32>(0.0);
     for (var k = lane; k < groups; k += GROUP_THREADS) {
-        own += solve_sums[k * 2u];
-        rest += solve_sums[k * 2u + 1u];
+        own += solve_sums[k * SOLVE_SUM_ROWS];
+        rest += solve_sums[k * SOLVE_SUM_ROWS + 1u];
     }
     let sums = group_row(lane, own, false);
     let others = group_row(lane, rest, false);

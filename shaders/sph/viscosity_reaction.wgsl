@@ -40,7 +40,7 @@ fn main(
         if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
             let impulse = slowed * (clock.step * params.particle_mass);
             let all = group_sum(lane, Wrench(impulse, cross(point - body.position, impulse)));
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
             if (lane == 0u) {
                 body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
                 body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);

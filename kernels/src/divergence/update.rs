@@ -50,8 +50,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let next = pressure + length * compression / diagonal;
             let next = if next > 0.0 { next } else { 0.0 };
             let next = if next < maximum { next } else { maximum };
-            row[0] = next;
-            row[1] = next - pressure;
+            row[lane::fluid::pressure_rows::PRESSURE] = next;
+            row[lane::fluid::pressure_rows::CHANGE] = next - pressure;
             *predicted = *position;
             predicted[lane::fluid::predicted::PRESSURE] = next;
         }

@@ -1,9 +1,10 @@
 //! What is said to the device before steps, and what it says after them: its clock, and what bodies were given.
 
 use super::{
-    form::vector,
-    layout::{Value, place_of, zero},
-    pack::Capacities,
+    form::wrench,
+    groups::{WRENCH_FLOATS, WRENCH_ROWS, rows_bytes},
+    layout::{Value, WORD_BYTES, place_of, zero},
+    lists::Capacities,
     program::REPETITIONS,
 };
 use crate::{
@@ -14,9 +15,10 @@ use crate::{
 
 /// Bytes that come back after steps, beside 64 a body.
 pub const CLOCK_BYTES: u64 = Clock::BYTES;
-pub(super) const WRENCH_BYTES: u64 = 64;
+/// Bytes of the wrenches of fluid and sponges on a body: one after the other.
+pub(super) const WRENCH_BYTES: u64 = 2 * rows_bytes(WRENCH_ROWS);
 /// Bytes of the clock before the largest speed of a body's surface, which the host finds.
-pub(super) const BODY_SPEED_AT: u64 = 4 * place_of::<Clock>("body_speed") as u64;
+pub(super) const BODY_SPEED_AT: u64 = WORD_BYTES * place_of::<Clock>("body_speed") as u64;
 
 /// What happened to the last step of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,7 +164,7 @@ layout! {
         last_bound: Bound,
         /// The step that stability asks for, where it is too small.
         needed: f32,
-        /// Longest lists that did not fit, in the order of [`Capacities`].
+        /// Longest lists that did not fit, in the order of [`List`](super::lists::List).
         longest: Capacities,
         /// How many steps every bound limited, in the order of [`Bound::ALL`].
         bounds: [[u32; 4]; 3],
@@ -201,8 +203,6 @@ impl Clock {
 
 impl Answer {
     pub(super) fn new(clock: &Clock, wrenches: &[f32]) -> Self {
-        let wrench =
-            |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
         let has_status = |status| clock.status == status;
         Self {
             outcome: match clock.status {
@@ -223,8 +223,9 @@ impl Answer {
             fluid_pressure: clock.fluid_pressure,
             bounds: std::array::from_fn(|bound| clock.bounds[bound / 4][bound % 4]),
             wrenches: wrenches
-                .chunks_exact(16)
-                .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
+                .chunks_exact(2 * WRENCH_FLOATS)
+                .map(|body| body.split_at(WRENCH_FLOATS))
+                .map(|(by_fluid, by_sponges)| (wrench(by_fluid), wrench(by_sponges)))
                 .collect(),
             rounds: clock.all_rounds,
             maximum_rounds: clock.maximum_rounds,

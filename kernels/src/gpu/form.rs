@@ -3,10 +3,10 @@
 use super::{
     answer::Extreme as Word,
     bodies::DeviceBody,
-    groups::wrench_bytes,
+    groups::{WRENCH_FLOATS, wrench_bytes},
     images,
-    layout::Value,
-    pack::Capacities,
+    layout::{ROW, Value, WORD_BYTES},
+    lists::{Capacities, List},
     transfer::{take_plain, take_rows},
 };
 use crate::{
@@ -17,6 +17,7 @@ use crate::{
     grid::neighbors::Neighbors,
     reduce::{Extreme, Extremes, Wrenches},
     sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
+    tets::rows::CORNERS,
 };
 
 /// Particles as `sph::advect` leaves them, which the next step sorts.
@@ -31,8 +32,8 @@ pub(super) const NEXT: [(Column, &str); 3] = [
 pub(super) enum Form {
     /// The rows of a plain array.
     Plain,
-    /// Lists of rows, by the index of their capacity.
-    Lists(usize),
+    /// Lists of rows.
+    Lists(List),
     /// Rows of this many words.
     Wide(usize),
     /// The lists of the corners that controls are.
@@ -59,12 +60,12 @@ impl Form {
         match column {
             _ if column.is_on_host_only() => Self::Nowhere,
             _ if column.element().bytes() > 0 => Self::Plain,
-            Column::FluidNeighbors => Self::Lists(0),
-            Column::FluidControls => Self::Lists(1),
-            Column::ControlFluid => Self::Lists(2),
-            Column::NodePairs => Self::Lists(3),
-            Column::FluidCorners => Self::Wide(4),
-            Column::FluidShares => Self::Wide(16),
+            Column::FluidNeighbors => Self::Lists(List::Neighbors),
+            Column::FluidControls => Self::Lists(List::Controls),
+            Column::ControlFluid => Self::Lists(List::ControlFluid),
+            Column::NodePairs => Self::Lists(List::Pairs),
+            Column::FluidCorners => Self::Wide(CORNERS),
+            Column::FluidShares => Self::Wide(CORNERS * ROW),
             Column::ControlCorners => Self::Corners,
             Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
             Column::FluidPressureSolve => Self::PressureSolve,
@@ -98,10 +99,10 @@ impl Form {
         let count = rows.of(column.store());
         match self {
             Self::Plain => count * column.element().bytes(),
-            Self::Lists(which) => count * (capacities[which] as usize + 1) * 4,
-            Self::Wide(words) => count * words * 4,
-            Self::Corners => corner_words(rows) * 4,
-            Self::Extremes => 4 * Word::ALL.len(),
+            Self::Lists(which) => which.bytes(rows, capacities) as usize,
+            Self::Wide(words) => count * words * WORD_BYTES as usize,
+            Self::Corners => corner_words(rows) * WORD_BYTES as usize,
+            Self::Extremes => Word::ALL.len() * WORD_BYTES as usize,
             Self::PressureSolve => Solve::BYTES as usize,
             Self::ViscositySolve => ViscositySolve::BYTES as usize,
             Self::Wrenches => wrench_bytes(pushing(column, rows), rows.bodies),
@@ -129,7 +130,7 @@ impl Form {
 
 /// Words of the lists of the corners that controls are: where each begins, the end of the last, and an entry for every corner.
 fn corner_words(rows: RowCounts) -> usize {
-    rows.nodes + 1 + 4 * rows.fluid
+    rows.nodes + 1 + CORNERS * rows.fluid
 }
 
 /// The words of those lists.
@@ -138,7 +139,7 @@ pub(super) fn corners(columns: &Columns) -> Vec<u32> {
     let (mut words, mut entries) = (vec![0], Vec::new());
     for control in 0..rows.nodes {
         if control < columns.controls.node.len() {
-            entries.extend(columns.controls.corners.of(control, 4 * rows.fluid));
+            entries.extend(columns.controls.corners.of(control, CORNERS * rows.fluid));
         }
         words.push(entries.len() as u32);
     }
@@ -152,16 +153,16 @@ fn take_corners(columns: &mut Columns, words: &[u32]) {
     let list = |ends: &[u32]| entries[ends[0] as usize..ends[1] as usize].to_vec();
     let mut lists: Vec<Vec<u32>> = starts.windows(2).map(list).collect();
     lists.resize_with(padded(rows.nodes), Vec::new);
-    columns.controls.corners = Neighbors::from_lists(&lists, 4 * rows.fluid as u32);
+    columns.controls.corners = Neighbors::from_lists(&lists, (CORNERS * rows.fluid) as u32);
 }
 
 /// Takes over rows of several words, and pads them with rows outside of sponges.
 fn take_wide(columns: &mut Columns, column: Column, words: &[u32]) {
-    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; 4]);
+    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; CORNERS]);
     if column == Column::FluidCorners {
         take_rows(&mut columns.fluid.corners.0, words, outside, rows);
     } else {
-        take_rows(&mut columns.fluid.shares.0, words, [[0.0; 4]; 4], rows);
+        take_rows(&mut columns.fluid.shares.0, words, [[0.0; ROW]; CORNERS], rows);
     }
 }
 
@@ -188,12 +189,12 @@ pub(super) fn plain_bytes(columns: &Columns, column: Column, rows: usize) -> &[u
 }
 
 /// Lists, their number, and the number of rows that they are of.
-pub(super) fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usize, usize) {
+pub(super) fn lists(columns: &mut Columns, which: List) -> (&mut Neighbors, usize, usize) {
     let rows = columns.rows;
     match which {
-        0 => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
-        1 => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
-        2 => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
+        List::Neighbors => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
+        List::Controls => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
+        List::ControlFluid => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
         _ => (&mut columns.nodes.pairs, rows.nodes, rows.nodes),
     }
 }
@@ -201,15 +202,15 @@ pub(super) fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usi
 /// Where a list has its length (0) and its entries (from 1): one line for all k-th entries, but a line a list for controls,
 /// whose threads share a list.
 pub(super) fn list_layout(
-    which: usize,
+    which: List,
     rows: usize,
     capacities: Capacities,
 ) -> impl Fn(usize, usize) -> usize {
-    let length = capacities[which] as usize + 1;
-    move |k, row| if which == 2 { row * length + k } else { k * rows + row }
+    let length = which.capacity(capacities) + 1;
+    move |k, row| if which == List::ControlFluid { row * length + k } else { k * rows + row }
 }
 
-fn take_lists(columns: &mut Columns, which: usize, words: &[u32], capacities: Capacities) {
+fn take_lists(columns: &mut Columns, which: List, words: &[u32], capacities: Capacities) {
     let (lists, rows, targets) = lists(columns, which);
     let place = list_layout(which, rows, capacities);
     let length = |row: usize| words[place(0, row)] as usize;
@@ -221,9 +222,7 @@ fn take_lists(columns: &mut Columns, which: usize, words: &[u32], capacities: Ca
 
 fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
     let words: &[f32] = bytemuck::cast_slice(words);
-    let wrench =
-        |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
-    let mut wrenches: Vec<Wrench> = words.chunks_exact(8).map(wrench).collect();
+    let mut wrenches: Vec<Wrench> = words.chunks_exact(WRENCH_FLOATS).map(wrench).collect();
     // Chunks of the CPU, which may go on with them, are smaller than groups.
     let chunks = padded(pushing(column, columns.rows)).div_ceil(CHUNK);
     wrenches.resize(chunks * columns.rows.bodies, Wrench::default());
@@ -234,6 +233,11 @@ fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
         _ => &mut all.node_wrenches,
     };
     *to = Wrenches(wrenches);
+}
+
+/// A wrench: impulse and angular impulse, a row each.
+pub(super) fn wrench(words: &[f32]) -> Wrench {
+    Wrench { impulse: vector(words), angular_impulse: vector(&words[ROW..]) }
 }
 
 pub(super) fn vector(words: &[f32]) -> glam::DVec3 {

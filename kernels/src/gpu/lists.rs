@@ -2,40 +2,91 @@
 
 use wgpu::BufferUsages;
 
-use super::{error::GpuError, pack::Capacities, resident::Resident};
-use crate::{columns::RowCounts, params::Params};
+use super::{error::GpuError, layout::WORD_BYTES, resident::Resident};
+use crate::{
+    columns::{Column, RowCounts},
+    layout::enumeration,
+    params::Params,
+};
 
-/// Where [`Capacities`] have the lists from particles to images, those from images to particles, and the number of images.
-pub(super) const NEAR_IMAGES: usize = 4;
-pub(super) const IMAGE_PARTICLES: usize = 5;
-pub(super) const IMAGES: usize = 6;
+enumeration! {
+    /// What has a length on a device that the host chooses: the order of [`Capacities`], and of their part of
+    /// [`Extreme`](super::answer::Extreme).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(super) enum List {
+        /// Lists fluid to fluid.
+        Neighbors,
+        /// Lists fluid to controls.
+        Controls,
+        /// Lists controls to fluid.
+        ControlFluid,
+        /// Lists of nodes to nodes that they may touch.
+        Pairs,
+        /// Lists fluid to images.
+        NearImages,
+        /// Lists images to fluid.
+        ImageParticles,
+        /// No lists: the images that there is room for.
+        Images,
+    }
+}
+
+/// Longest lists that fit, in the order of [`List`], and a word that is unused.
+pub(super) type Capacities = [u32; 8];
+
+impl List {
+    /// Number of entries that fit.
+    pub(super) fn capacity(self, capacities: Capacities) -> usize {
+        capacities[self as usize] as usize
+    }
+
+    /// Its buffer; images have several.
+    fn buffer(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Neighbors => Column::FluidNeighbors.buffer(),
+            Self::Controls => Column::FluidControls.buffer(),
+            Self::ControlFluid => Column::ControlFluid.buffer(),
+            Self::Pairs => Column::NodePairs.buffer(),
+            Self::NearImages => "fluid_near_images",
+            Self::ImageParticles => "image_particles",
+            Self::Images => return None,
+        })
+    }
+
+    /// Rows that have a list.
+    fn rows(self, rows: RowCounts, capacities: Capacities) -> usize {
+        match self {
+            Self::Neighbors | Self::Controls | Self::NearImages => rows.fluid,
+            Self::ControlFluid | Self::Pairs => rows.nodes,
+            Self::ImageParticles | Self::Images => Self::Images.capacity(capacities),
+        }
+    }
+
+    /// Words of all lists: every list has its length before its entries.
+    pub(super) fn words(self, rows: RowCounts, capacities: Capacities) -> usize {
+        self.rows(rows, capacities) * (self.capacity(capacities) + 1)
+    }
+
+    /// Bytes of all lists.
+    pub(super) fn bytes(self, rows: RowCounts, capacities: Capacities) -> u64 {
+        self.words(rows, capacities) as u64 * WORD_BYTES
+    }
+}
 
 impl Resident {
     /// Makes lists longer, with a quarter to spare; `longest` is 0 for those that fit.
     pub(super) fn lengthen(&mut self, longest: Capacities) -> Result<(), GpuError> {
-        let names = [
-            "fluid_neighbors",
-            "fluid_controls",
-            "control_fluid",
-            "node_pairs",
-            "fluid_near_images",
-            "image_particles",
-        ];
-        if longest[IMAGES] > 0 {
-            self.capacities[IMAGES] = grown(longest[IMAGES], self.capacities[IMAGES]);
+        for (capacity, needed) in self.capacities.iter_mut().zip(longest).filter(|(_, needed)| *needed > 0) {
+            *capacity = grown(needed, *capacity);
+        }
+        if longest[List::Images as usize] > 0 {
             self.renew_image_rows()?;
         }
-        let images = self.capacities[IMAGES] as usize;
-        let RowCounts { fluid, nodes, .. } = self.rows;
-        let rows = [fluid, fluid, nodes, nodes, fluid, images];
-        let of_lists = longest.into_iter().take(names.len());
-        for (which, needed) in of_lists.enumerate().filter(|(_, needed)| *needed > 0) {
-            let capacity = grown(needed, self.capacities[which]);
-            self.capacities[which] = capacity;
+        for list in List::ALL.iter().filter(|list| longest[**list as usize] > 0) {
+            let Some(name) = list.buffer() else { continue };
             // The old one first: both may not fit.
-            self.buffers.remove(names[which]);
-            let size = rows[which] as u64 * (u64::from(capacity) + 1) * 4;
-            self.allocate(names[which], size, BufferUsages::STORAGE)?;
+            self.buffers.remove(name);
+            self.allocate(name, list.bytes(self.rows, self.capacities), BufferUsages::STORAGE)?;
         }
         self.replaced += 1;
         self.fill_params();
@@ -74,28 +125,40 @@ pub(super) fn capacities(params: &Params, rows: RowCounts) -> Capacities {
     // Beside a plane there are as many images as there are particles elsewhere.
     let seen =
         if mirrors { entries(params.fluid.smoothing.support_radius, spacing, usize::MAX >> 8) } else { 0 };
-    [
-        if rows.fluid > 0 { entries(params.fluid.list_radius(), spacing, rows.fluid) } else { 0 },
-        if rows.fluid > 0 { entries(radius, pitch, rows.nodes) } else { 0 },
-        if rows.fluid > 0 { entries(radius, spacing, rows.fluid) } else { 0 },
-        if params.has_touch() { PAIRS } else { 0 },
-        seen,
-        if rows.bodies > 0 { seen } else { 0 },
-        if mirrors { images_of(rows.fluid) } else { 0 },
-        0,
-    ]
+    let of_list = |list: List| match list {
+        List::Neighbors if rows.fluid > 0 => entries(params.fluid.list_radius(), spacing, rows.fluid),
+        List::Controls if rows.fluid > 0 => entries(radius, pitch, rows.nodes),
+        List::ControlFluid if rows.fluid > 0 => entries(radius, spacing, rows.fluid),
+        List::Pairs if params.has_touch() => PAIRS,
+        List::NearImages => seen,
+        List::ImageParticles if rows.bodies > 0 => seen,
+        List::Images if mirrors => images_of(rows.fluid),
+        _ => 0,
+    };
+    std::array::from_fn(|index| List::ALL.get(index).copied().map_or(0, of_list))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::scene::{FULL, Scene};
+    use crate::{
+        gpu::{answer::Extreme, layout::Enumeration},
+        tests::scene::{FULL, Scene},
+    };
+
+    /// `clock.wgsl` takes lengths that did not fit over in this order.
+    #[test]
+    fn lists_are_in_the_order_of_their_extremes() {
+        let first = Extreme::Neighbors as usize;
+        let own = &Extreme::VARIANTS[first..][..List::ALL.len()];
+        assert_eq!(own, List::VARIANTS);
+    }
 
     #[test]
     fn lists_of_fine_particles_have_as_many_entries_as_there_are() {
         let mut params = Scene::new(FULL).params;
         let rows = RowCounts { fluid: 1_000_001, nodes: 0, tets: 0, bodies: 0 };
-        let entries = |params: &Params| capacities(params, rows)[2];
+        let entries = |params: &Params| List::ControlFluid.capacity(capacities(params, rows));
         assert!(entries(&params) < 2000);
         params.fluid.spacing = 1e-7;
         assert_eq!(entries(&params), 1_000_008);

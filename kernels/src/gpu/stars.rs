@@ -2,7 +2,7 @@
 
 use super::pack::SPONGES;
 use crate::{
-    columns::Nodes,
+    columns::{Nodes, lane},
     layout::constants,
     pbd::{
         lattice::VERTEX_COLORS,
@@ -58,7 +58,7 @@ pub(super) fn stars(nodes: &Nodes, rows: usize, has_touch: bool) -> Vec<u32> {
     }
     words.resize(row_words(has_touch) * rows, 0);
     for (node, neighbors, weights) in nodes.stars.each() {
-        let wetness = nodes.wetting.get(node as usize).map_or(0.0, |row| row[0]);
+        let wetness = nodes.wetting.get(node as usize).map_or(0.0, |row| row[lane::nodes::wetting::WETNESS]);
         let tets = (0..TETS).map(|tet| u32::from(weights[tet] > 0.0) << tet).sum();
         let table = if is_weighted(&weights) { words.len() as u32 } else { 0 };
         let star = &mut words[node as usize * STAR_WORDS..][..STAR_WORDS];

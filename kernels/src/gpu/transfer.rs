@@ -6,8 +6,9 @@ use super::{
     answer::Extreme as Word,
     error::GpuError,
     form::{Form, NEXT, corners, list_layout, lists, plain_bytes, wide_words},
-    layout::Value,
-    lists::capacities,
+    groups::WRENCH_FLOATS,
+    layout::{ROW, Value, WORD_BYTES},
+    lists::{Capacities, List, capacities},
     resident::Resident,
     stars,
 };
@@ -93,18 +94,18 @@ impl Resident {
         &mut self,
         columns: &mut Columns,
         name: &'static str,
-        which: usize,
+        which: List,
     ) -> Result<(), GpuError> {
         let (lists, rows, targets) = lists(columns, which);
         let lists: Vec<Vec<u32>> = (0..rows).map(|query| lists.of(query, targets).collect()).collect();
         let longest = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
-        if longest > self.capacities[which] {
-            let mut needed = [0; 8];
-            needed[which] = longest;
+        if longest as usize > which.capacity(self.capacities) {
+            let mut needed = Capacities::default();
+            needed[which as usize] = longest;
             self.lengthen(needed)?;
         }
         let place = list_layout(which, rows, self.capacities);
-        let mut words = vec![0_u32; rows * (self.capacities[which] as usize + 1)];
+        let mut words = vec![0_u32; which.words(self.rows, self.capacities)];
         for (row, list) in lists.iter().enumerate() {
             words[place(0, row)] = list.len() as u32;
             list.iter().enumerate().for_each(|(k, target)| words[place(k + 1, row)] = *target);
@@ -137,12 +138,12 @@ impl Resident {
             Column::BodyPressureWrenches => &store.pressure_wrenches,
             _ => &store.node_wrenches,
         };
-        let mut words = vec![0.0_f32; self.buffer(name).size() as usize / 4];
+        let mut words = vec![0.0_f32; (self.buffer(name).size() / WORD_BYTES) as usize];
         for body in 0..bodies {
             let total = wrenches.total(body, bodies);
             let rows = [total.impulse, total.angular_impulse].map(glam::DVec3::as_vec3);
             for (half, vector) in rows.into_iter().enumerate() {
-                let first = (body * 2 + half) * 4;
+                let first = body * WRENCH_FLOATS + half * ROW;
                 if let Some(slot) = words.get_mut(first..first + 3) {
                     slot.copy_from_slice(&vector.to_array());
                 }

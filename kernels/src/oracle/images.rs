@@ -7,7 +7,7 @@ use crate::{
     body::{Body, Part, Shape},
     columns::{Columns, Fluid},
     divergence::{
-        image_rows::{Image, Images, NO_BODY},
+        image_rows::{IMAGE_RATIO, Image, Images, NO_BODY},
         mirror::Mirrored,
     },
     grid::neighbors::Neighbors,
@@ -217,7 +217,7 @@ pub(crate) fn images(params: &Params, columns: &mut Columns) {
     let at: Vec<DVec3> = images.position[..used].iter().map(|row| vector(*row)).collect();
     let radius = params.fluid.smoothing.support_radius;
     images.near = super::grid::lists(params, &x, &at, rows, radius);
-    let volume = |image: usize| f64::from(images.position[image][3]);
+    let volume = |image: usize| f64::from(images.position[image][IMAGE_RATIO]);
     let c = |row: usize, image: usize| volume(image) * factor(params, apart(params, x[row], at[image]));
     images.pairs.fill(
         &images.near,
@@ -271,7 +271,7 @@ pub(super) fn seen(images: &Images) -> Vec<Seen> {
             foot,
             source: images.source[image] as usize,
             body: (images.body[image] != NO_BODY).then_some(images.body[image] as usize),
-            volume: f64::from(images.position[image][3]),
+            volume: f64::from(images.position[image][IMAGE_RATIO]),
             map: DMat3::from_diagonal(signs) * along,
             signs,
         }
