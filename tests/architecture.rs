@@ -11,7 +11,7 @@ use sorb::internal::{
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/ARCHITECTURE.md");
 
 /// Widths of the columns of a figure: names, what is read, what is written, what is needed.
-const WIDTHS: [usize; 4] = [32, 42, 37, 26];
+const WIDTHS: [usize; 4] = [33, 42, 37, 26];
 
 /// A figure in the making.
 #[derive(Debug, Default)]

@@ -88,7 +88,7 @@ kernels! {
         pairs, gravity, predict, guess, touch, strain, xpbd_neo_hookean, vbd, contact, reaction, momentum,
         velocity,
     } shared {
-        pub(crate) descent, pub flatness, pub lattice, pub meeting, pub(crate) obstacles, pub stars, tets, pub wetted,
+        pub(crate) descent, pub flatness, pub lattice, pub meeting, pub(crate) obstacles, pub stars, sweep, tets, pub wetted,
     }
     /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
     couple {

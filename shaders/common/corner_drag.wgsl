@@ -1,11 +1,5 @@
-// Drag impulses on a node by the particles in its tets, with the mass of fluid that moves with it, and their moments.
-struct CornerDrag {
-    impulse: vec4<f32>,
-    moment: vec4<f32>,
-}
-
-// All threads of the control take part.
-fn corner_drag(row: u32, list: vec2<u32>, lane: u32) -> CornerDrag {
+// Drag of the particles in the tets of a node on it. All threads of the control take part.
+fn corner_drag(row: u32, list: vec2<u32>, lane: u32) -> NodeDrag {
     let own = control_position[min(row, params.node_rows - 1u)].xyz;
     var part = vec4<f32>(0.0);
     var turning = vec3<f32>(0.0);
@@ -18,5 +12,5 @@ fn corner_drag(row: u32, list: vec2<u32>, lane: u32) -> CornerDrag {
     let sum = control_sum(lane, part);
     // The memory of the sum is used again.
     workgroupBarrier();
-    return CornerDrag(sum, control_sum(lane, vec4<f32>(turning, 0.0)));
+    return NodeDrag(sum, control_sum(lane, vec4<f32>(turning, 0.0)));
 }

@@ -1,4 +1,4 @@
-// #include body, surface, wrench, profile
+// #include body, surface, wrench, fluid_wrench, profile
 // Pressure of the particles against walls and bodies, at the beginning of the step.
 //
 //     a_i -= P_i grad lambda_i,   impulse of a body = m h sum_i P_i grad lambda_ik
@@ -38,17 +38,9 @@ fn main(
         let gradient = body_share(body, own.xyz).xyz;
         let push = pressure * gradient;
         sum -= push;
-        let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
-        let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
-        var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
-        if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
-            let impulse = push * (clock.step * params.particle_mass);
-            all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position, impulse)));
-        }
-        if (lane == 0u && is_slot) {
-            body_fluid_wrenches[slot] = vec4<f32>(all.impulse, 0.0);
-            body_fluid_wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
-        }
+        let impulse = push * (clock.step * params.particle_mass);
+        let touches = is_row && any(push != vec3<f32>(0.0));
+        begin_wrench(lane, group_of(group, groups), index, touches, own.xyz - body.position, impulse);
     }
     if (is_row) {
         fluid_acceleration[row] = with_vector(fluid_acceleration[row], sum);

@@ -1,4 +1,4 @@
-// #include control_group, corner_list, corner_drag
+// #include control_group, corner_list, node_drag, corner_drag
 // Drag impulses on the nodes, and their moments; `drag_reaction.rs` and `drag_settled.rs` have the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -23,9 +23,7 @@ fn on_node(group: vec3<u32>, groups: vec3<u32>, lane: u32, responds: bool) {
     if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
-    let node = control_node[row];
-    node_drag[node] = vec4<f32>(drag.impulse.xyz, select(0.0, drag.impulse.w, responds));
-    node_drag_moment[node] = drag.moment;
+    store_drag(control_node[row], drag, responds);
 }
 
 @compute @workgroup_size(GROUP_THREADS)

@@ -18,9 +18,9 @@ constants! {
 pub const BODY_BYTES: u64 = DeviceBody::BYTES;
 
 enumeration! {
-    /// Shapes of bodies.
+    /// Shapes of bodies, by the numbers that shaders have for them.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub(super) enum ShapeKind {
+    pub enum ShapeKind {
         /// Solid half-space.
         Plane,
         /// Ball.

@@ -48,7 +48,7 @@ pub(crate) mod twins;
 mod wgsl;
 
 pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
-pub use bodies::BODY_BYTES;
+pub use bodies::{BODY_BYTES, ShapeKind};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
 pub use dispatches::{Dispatches, KernelDispatches};
 pub use error::GpuError;

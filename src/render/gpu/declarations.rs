@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use super::mesh::ShapeKind;
+use sorb_kernels::gpu::ShapeKind;
+
 use super::scene::{FAR_AWAY, Scene};
 use crate::render::{
     View, colour, rays,
