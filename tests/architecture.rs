@@ -65,10 +65,10 @@ impl Figure {
                 Phase::Host(HostPhase { name, needs, reads, writes }) => {
                     self.phase(indent, name, [reads, writes], needs);
                 }
-                Phase::Part(block) if self.blocks.contains(&block.name) => {
+                Phase::Named(block) if self.blocks.contains(&block.name) => {
                     self.note(indent, &format!("{}, as above", block.name.to_uppercase()));
                 }
-                Phase::Part(block) => {
+                Phase::Named(block) => {
                     self.note(indent, &block.name.to_uppercase());
                     self.phases(indent + 2, block.phases);
                     self.blocks.push(block.name);

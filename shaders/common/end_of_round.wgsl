@@ -1,4 +1,4 @@
-// After a round of a repetition that ends when it has converged: then all passes of the rounds that are left leave at once, as they
+// After a round of a repetition that ends when it has converged: then all passes of the rounds that are left return at once, as they
 // do when the time is filled. `clock/rounds.wgsl` has the rest. The pass binds the clock to be written.
 
 fn end_of_round(is_over: bool) {

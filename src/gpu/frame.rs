@@ -74,7 +74,7 @@ impl World {
         self.steps.stable(&self.params, &Clock { body_speed, ..self.clock })
     }
 
-    /// One step of the time that was set, in which a turn of the container gives something to the bodies; `bound` is what made the host
+    /// One step of the time that was set, in which a turn of the container gives something to the bodies. `bound` is what made the host
     /// choose its length.
     fn take_one(&mut self, carried: &[Wrench], bound: Option<Bound>) -> Result<StepReport, StepError> {
         let before = self.clock.steps;
@@ -136,7 +136,7 @@ impl World {
     fn steps_to(&self, end: f64) -> u32 {
         // Fixed bodies need no host.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
-        // Awake parts may come near sleeping ones in any step. Where rounds do not suffice, the steps behind would leave at once, at the
+        // Awake parts may come near sleeping ones in any step. Where rounds do not suffice, the steps behind would return at once, at the
         // cost of all their barriers.
         let has_rounds = self.stores.device.as_ref().is_some_and(Device::has_rounds);
         if is_moved || has_rounds || self.sleep.dormant() != Dormant::default() {
@@ -182,7 +182,7 @@ impl World {
 
     /// Stores clock and bodies of the state of the host, before the device continues from it.
     fn keep_state(&mut self) {
-        if let Some(device) = self.stores.device.as_mut().filter(|device| device.is_looked_at()) {
+        if let Some(device) = self.stores.device.as_mut().filter(|device| device.is_host_current()) {
             let (clock, engine) = (self.clock, self.engine.clone());
             device.keep(Kept { clock, engine, step: self.params.step });
         }
@@ -203,7 +203,7 @@ impl World {
         // Reads back what the host does not have yet, if it can.
         self.stores.view();
         if let Some(device) = &mut self.stores.device
-            && let Some(kept) = device.give_up(&mut self.stores.host)
+            && let Some(kept) = device.release(&mut self.stores.host)
         {
             let bodies = &mut self.stores.host.bodies.states.0;
             for (index, body) in bodies.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! States that no host can write, put into the columns: values that are not finite, nodes and particles at one place,
+//! States that no host can write, put into the columns. These are values that are not finite, nodes and particles at one place,
 //! inverted tets, and steps far beyond stability.
 
 use super::*;
@@ -192,8 +192,8 @@ const DEFORMATIONS: &[(&str, Deformation)] = &[
 /// Deformations from which sponges do not recover; known faults.
 ///
 /// Nodes at one place have no preferred direction; a ball and water provide one. A sponge with every tet inverted would have
-/// to pass through itself, and ends tangled. Of ten scrambled sponges under a ball in water all come back to 0.90 to 0.97 of their
-/// volume with smoothed coupling weights, and to 0.87 to 0.96 with barycentric ones: some tets stay inverted.
+/// to pass through itself, and ends tangled. Ten scrambled sponges under a ball in water come back to 0.90 to 0.97 of their volume with
+/// smoothed coupling weights. With barycentric ones it is 0.87 to 0.96. Some tets stay inverted.
 const NOT_RECOVERED: &[(&str, &str)] = &[
     ("dry", "all nodes at one place"),
     ("dry", "mirrored: every tet is inside out"),

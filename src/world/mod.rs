@@ -11,8 +11,9 @@ pub(crate) mod forces;
 pub(crate) mod frame;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
-mod look;
+
 mod material;
+mod measured;
 mod moving;
 mod placing;
 #[cfg(test)]
@@ -53,6 +54,7 @@ pub use forces::{BodyLoads, Load};
 pub(crate) use material::{Origin, digest_of};
 pub(crate) use moving::{Pushes, fastest_body, move_bodies, take_masses};
 use moving::{column_pressure, fastest, wrenches};
+use tally::FrameTally;
 
 /// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]
@@ -61,9 +63,6 @@ pub struct Options {
     pub threads: Option<usize>,
     /// SIMD level; default: the best of the machine. Has no effect on results.
     pub simd: Option<SimdLevel>,
-    /// Columns to keep up to date although no phase reads them: of `internal`, without any promise.
-    #[doc(hidden)]
-    pub observed: Vec<Column>,
     /// Kernels that run on a GPU; by default none.
     pub offload: Offload,
     /// The GPU; default: the best of the machine. Worlds can share one, and it can use a device of the host. There is none
@@ -132,6 +131,8 @@ pub struct World {
     pub(crate) loads: forces::Loads,
     pub(crate) failed: Option<StepError>,
     pub(crate) options: Options,
+    /// Columns to keep up to date although no phase reads them, for tests.
+    pub(crate) observed: Vec<Column>,
     /// The options by which the step is placed, after [`Self::move_to`] as well.
     #[cfg(feature = "gpu")]
     pub(crate) placed_by: Options,

@@ -6,7 +6,7 @@
 //!
 //! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. chi is 1 deep inside and 0 outside; beta and gamma are those
 //! of `couple::pores`. In partly filled pores the permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i`
-//! (`couple::wetting`): the rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of parallel conductors, so
+//! (`couple::wetting`). The rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of parallel conductors, so
 //! that dry pores ahead of a front do not hold the water behind it.
 
 use super::compliance::following;

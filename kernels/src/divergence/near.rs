@@ -1,6 +1,6 @@
 //! Lists of the images that particles see.
 //!
-//! The image of j in walls is nowhere nearer to i than j itself: along a mirrored axis they are apart by the sum of both distances from
+//! The image of j in walls is nowhere nearer to i than j itself. Along a mirrored axis they are apart by the sum of both distances from
 //! the wall instead of by their difference. Images in walls are therefore found among the neighbours, without a search. Images in
 //! bodies can be nearer than their particle, and are searched for.
 

@@ -6,7 +6,7 @@
 //!
 //! with `alpha` from `divergence::residual`. Images have the pressure of their particle. Enclosed water yields at a pressure of `rho_0
 //! c^2`, with c ten times the fastest
-//! expected speed: the pressure that keeps its volume would be infinite. The pressure is written beside the position, where
+//! expected speed. The pressure that keeps its volume would be infinite. The pressure is written beside the position, where
 //! neighbours read both at once.
 
 use super::image_rows::OfParticles;

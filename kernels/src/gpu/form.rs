@@ -3,15 +3,15 @@
 use super::{
     answer::Extreme as Word,
     bodies::DeviceBody,
+    capacities::{Capacities, List},
     groups::{WRENCH_FLOATS, wrench_bytes},
-    images,
+    image_layout,
     layout::{ROW, Value, WORD_BYTES},
-    lists::{Capacities, List},
-    transfer::{take_plain, take_rows},
+    vectors::wrench,
 };
 use crate::{
     body::Wrench,
-    column::{Plain, padded},
+    column::{Plain, PlainMut, padded},
     columns::{Column, Columns, RowCounts},
     cpu::CHUNK,
     grid::neighbors::Neighbors,
@@ -106,7 +106,7 @@ impl Form {
             Self::PressureSolve => Solve::BYTES as usize,
             Self::ViscositySolve => ViscositySolve::BYTES as usize,
             Self::Wrenches => wrench_bytes(pushing(column, rows), rows.bodies),
-            Self::Images => images::bytes(rows, capacities) as usize,
+            Self::Images => image_layout::bytes(rows, capacities) as usize,
             Self::Bodies => count * DeviceBody::BYTES as usize,
             Self::Nowhere => 0,
         }
@@ -199,7 +199,7 @@ pub(super) fn lists(columns: &mut Columns, which: List) -> (&mut Neighbors, usiz
     }
 }
 
-/// Where a list has its length (0) and its entries (from 1): one line for all k-th entries, but a line a list for controls,
+/// Where a list has its length (0) and its entries (from 1). There is one line for all k-th entries, but a line a list for controls,
 /// whose threads share a list.
 pub(super) fn list_layout(
     which: List,
@@ -235,13 +235,29 @@ fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
     *to = Wrenches(wrenches);
 }
 
-/// A wrench: impulse and angular impulse, a row each.
-pub(super) fn wrench(words: &[f32]) -> Wrench {
-    Wrench { impulse: vector(words), angular_impulse: vector(&words[ROW..]) }
+/// Takes over the words of rows, and pads them.
+fn take_rows<T: bytemuck::Pod>(data: &mut Vec<T>, words: &[u32], padding: T, to: usize) {
+    data.resize(size_of_val(words) / size_of::<T>(), padding);
+    bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
+    data.resize(to, padding);
 }
 
-pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
-    glam::DVec3::new(f64::from(words[0]), f64::from(words[1]), f64::from(words[2]))
+/// Takes over a column that is a plain array.
+pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) {
+    if words.is_empty() && column.need().is_some() {
+        // The scene does without.
+        return;
+    }
+    let rows = columns.rows.of(column.store());
+    // The one column that the CPU does not pad.
+    let to = if column == Column::ControlNode { rows } else { padded(rows) };
+    let padding = column.padding();
+    match columns.data_mut(column).plain_mut() {
+        Some(PlainMut::Rows(data)) => take_rows(data, words, padding.row(), to),
+        Some(PlainMut::Values(data)) => take_rows(data, words, 0.0, to),
+        Some(PlainMut::Words(data)) => take_rows(data, words, padding.word(), to),
+        None => {}
+    }
 }
 
 fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {

@@ -1,10 +1,10 @@
 //! The passes of a step before they are bound: which, over how many rows, by how many threads.
 
 use super::{
+    capacities::List,
     cells::ONE_GROUP_PAGES,
     fusion::{Dispatched, dispatched},
     groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of},
-    lists::List,
     pack::BATCHES,
     pipeline::{Threads, has_any_group, has_shares},
     resident::Resident,

@@ -1,8 +1,8 @@
 //! Parameters, sponges, bodies and batches as shaders have them.
 
 use super::{
+    capacities::{Capacities, List},
     layout::{Value, WORD_BYTES, place_of, zero},
-    lists::{Capacities, List},
 };
 use crate::{
     clock::{Bound, StepLimits},

@@ -7,6 +7,7 @@ use wgpu::{Buffer, BufferUsages};
 use super::{
     answer::{BODY_SPEED_AT, CLOCK_BYTES, WRENCH_BYTES},
     bodies::{self, DeviceBody},
+    capacities::{Capacities, capacities},
     cells::{Grid, PAGE_CELLS},
     device::Gpu,
     error::GpuError,
@@ -14,7 +15,6 @@ use super::{
     groups::{BOX_ROWS, MOTION_ROWS, SOLVE_SUM_ROWS, maximum_groups, rows_bytes},
     images,
     layout::{ROW_BYTES, Value, WORD_BYTES},
-    lists::{Capacities, capacities},
     pack::{self, BATCH_STRIDE, BATCHES, Batch, NodeTraits, SPONGES, StepParams},
     stars::{self, RANGES},
     sums::{GroupSums, sum_groups},
@@ -56,7 +56,7 @@ pub struct Resident {
     pub(super) replaced: u32,
     /// Whether passes that can be are one dispatch.
     pub(super) is_fused: bool,
-    /// Where the host reads what the device says after a batch.
+    /// Where the host reads clock and wrenches after a batch.
     pub(super) answer: Buffer,
 }
 
@@ -356,7 +356,7 @@ impl Resident {
         self.has_begun = false;
         self.write("sponges", bytemuck::cast_slice(&pack::sponges(&self.params, &self.first_nodes)));
         self.fill_params();
-        // Nobody renews what was given by those whose phases are left out.
+        // Phases that are left out do not clear what they wrote before.
         let mut stale = vec!["body_fluid_wrenches", "body_node_wrenches"];
         if is_outside {
             stale.extend(["fluid_interior", "fluid_solid_yield"]);

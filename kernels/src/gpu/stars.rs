@@ -74,8 +74,8 @@ pub(super) fn stars(nodes: &Nodes, rows: usize, has_touch: bool) -> Vec<u32> {
     words
 }
 
-/// First node and end of the nodes of every sponge in each vertex colour; then which others it touches, directly or through others,
-/// a bit each.
+/// First node and end of the nodes of every sponge in each vertex colour. Behind them is which others it touches, directly or through
+/// others, a bit each.
 pub(super) fn sponge_ranges(nodes: &Nodes, sponges: usize) -> Vec<[u32; 2]> {
     let mut ranges = vec![[0, 0]; sponges * RANGES];
     let stars = &nodes.stars;

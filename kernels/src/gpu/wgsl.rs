@@ -1,15 +1,15 @@
-//! What shaders know without saying it: the constants, enumerations and structs that Rust declares.
+//! Constants, enumerations and structs that Rust declares, as WGSL text that is appended to every shader.
 
 use std::sync::LazyLock;
 
 use super::{
     answer::{Clock, Extreme, Status},
     bodies::{self, DeviceBody, ShapeKind},
+    capacities::List,
     cells::{self, Grid},
     groups,
-    images::{self, DeviceImage},
+    image_layout::{self, DeviceImage},
     layout::{Constant, Enumeration, Shape, Struct},
-    lists::List,
     pack::{self, Batch, NodeTraits, Repetition, StepParams, Summands},
     query::{self, QueryAnswer, Question},
     stars,
@@ -44,7 +44,7 @@ const CONSTANTS: &[&[Constant]] = &[
     divergence::rate::CONSTANTS,
     divergence::walls::CONSTANTS,
     groups::CONSTANTS,
-    images::CONSTANTS,
+    image_layout::CONSTANTS,
     pack::CONSTANTS,
     params::CONSTANTS,
     pbd::descent::CONSTANTS,

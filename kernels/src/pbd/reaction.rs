@@ -1,8 +1,8 @@
 //! Impulses of walls, bodies and grips on the nodes of vertex block descent.
 //!
-//! After few sweeps the forces in a sponge do not balance, but the external ones are known. They are the force that keeps a
-//! node out of an obstacle (`obstacles.rs`), and that of a grip against the elastic force on a held node. Bodies receive the
-//! opposite. The fourth lane is the mass of the node in `pbd::momentum`.
+//! After few sweeps the forces in a sponge do not balance, but the external ones are known. One is the force that keeps a node out of an
+//! obstacle (`obstacles.rs`). The other is that of a grip against the elastic force on a held node. Bodies receive the opposite. The fourth
+//! lane is the mass of the node in `pbd::momentum`.
 
 use crate::{
     body::{Wrench, by_chunk},

@@ -45,12 +45,12 @@ declare! {
         const FULL_RELAXATION_STRAIN: f32 = 0.2;
         /// The same from which on it goes no further than to its least energy \[1\].
         const NO_RELAXATION_STRAIN: f32 = 0.5;
-        /// Way, in edges, from which on a node goes no further than to its least energy; it goes all the way
+        /// Way, in edges, from which on a node goes no further than to its least energy. It goes all the way
         /// further up to half of that \[1\].
         const NO_RELAXATION_WAY: f32 = 0.1;
-        /// Parts of the last digit of a place that chance is taken from, see [`moved`] \[1\].
+        /// Parts of the last digit of a position from which the random number is taken, see [`moved`] \[1\].
         const ROUNDING_PARTS: f32 = 4096.0;
-        /// Smallest place that chance is scaled by, so that a way over its last digit is a number \[m\].
+        /// Least absolute coordinate in the unit of stochastic rounding: the unit of a coordinate of zero would be zero \[m\].
         const MINIMUM_COORDINATE: f32 = 1.0e-6;
         const EPSILON: f32 = f32::EPSILON;
     },

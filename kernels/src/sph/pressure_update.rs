@@ -4,7 +4,7 @@
 //! P_i <- min(max(0, P_i + alpha r_i / M_i), c^2)
 //! ```
 //!
-//! Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest expected speed: the pressure that keeps
+//! Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest expected speed. The pressure that keeps
 //! its density would be infinite.
 //!
 //! with `alpha` from `sph::pressure_residual`. Writes the change since the beginning of the step beside the predicted

@@ -1,4 +1,4 @@
-//! What shaders know without saying it: the constants and structs that Rust declares.
+//! Constants and structs that Rust declares, as WGSL text that is appended to every shader of the renderer.
 
 use std::sync::LazyLock;
 
