@@ -1,5 +1,6 @@
 // Drag of the particles in the tets of a node on it. All threads of the control take part.
-fn corner_drag(row: u32, list: vec2<u32>, lane: u32) -> NodeDrag {
+fn drag_on_control(row: u32, is_row: bool, lane: u32) -> NodeDrag {
+    let list = corner_list(row, is_row);
     let own = control_position[min(row, params.node_rows - 1u)].xyz;
     var part = vec4<f32>(0.0);
     var turning = vec3<f32>(0.0);

@@ -1,5 +1,6 @@
 // Drag of the particles within the coupling radius on a node. All threads of the control take part.
-fn drag_on_node(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> NodeDrag {
+fn drag_on_control(row: u32, is_row: bool, lane: u32) -> NodeDrag {
+    let own = control_position[min(row, params.node_rows - 1u)];
     let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;

@@ -11,20 +11,6 @@
 @group(0) @binding(7) var<storage, read_write> node_drag: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
-fn on_node(group: vec3<u32>, groups: vec3<u32>, lane: u32, responds: bool) {
-    if (clock.running == 0u) {
-        return;
-    }
-    let row = control_row(group, groups, lane);
-    let is_row = row < params.node_rows;
-    let own = control_position[min(row, params.node_rows - 1u)];
-    let drag = drag_on_node(own, row, is_row, lane);
-    if (!is_row || lane % CONTROL_THREADS != 0u) {
-        return;
-    }
-    store_drag(control_node[row], drag, responds);
-}
-
 @compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,

@@ -12,20 +12,6 @@
 @group(0) @binding(8) var<storage, read_write> node_drag: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
 
-fn on_node(group: vec3<u32>, groups: vec3<u32>, lane: u32, responds: bool) {
-    if (clock.running == 0u) {
-        return;
-    }
-    let row = control_row(group, groups, lane);
-    let is_row = row < params.node_rows;
-    let list = corner_list(row, is_row);
-    let drag = corner_drag(row, list, lane);
-    if (!is_row || lane % CONTROL_THREADS != 0u) {
-        return;
-    }
-    store_drag(control_node[row], drag, responds);
-}
-
 @compute @workgroup_size(GROUP_THREADS)
 fn main(
     @builtin(workgroup_id) group: vec3<u32>,
