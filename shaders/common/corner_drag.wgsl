@@ -6,9 +6,9 @@ fn drag_on_control(row: u32, is_row: bool, lane: u32) -> NodeDrag {
     var turning = vec3<f32>(0.0);
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let place = control_corners[k];
-        let impulse = fluid_shares[place][CORNER_WEIGHT] * fluid_drag[place / CORNERS];
+        let impulse = fluid_shares[place][CORNER_WEIGHT] * fluid_drag[place / TET_CORNERS];
         part += impulse;
-        turning += cross(fluid_position[place / CORNERS].xyz - own, impulse.xyz);
+        turning += cross(fluid_position[place / TET_CORNERS].xyz - own, impulse.xyz);
     }
     let sum = control_sum(lane, part);
     // The memory of the sum is used again.

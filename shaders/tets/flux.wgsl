@@ -67,12 +67,12 @@ fn main(
         return;
     }
     var sum = 0.0;
-    for (var corner = 0u; corner < CORNERS; corner += 1u) {
-        sum += max(fluid_shares[CORNERS * row + corner][CORNER_WEIGHT], 0.0);
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
+        sum += max(fluid_shares[TET_CORNERS * row + corner][CORNER_WEIGHT], 0.0);
     }
-    for (var corner = 0u; corner < CORNERS; corner += 1u) {
-        let linear = fluid_shares[CORNERS * row + corner];
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
+        let linear = fluid_shares[TET_CORNERS * row + corner];
         let own = turned * linear[CORNER_WEIGHT] + by_x * linear.x + by_y * linear.y + by_z * linear.z;
-        fluid_shares[CORNERS * row + corner] = vec4<f32>(own * scale, max(linear[CORNER_WEIGHT], 0.0) / sum);
+        fluid_shares[TET_CORNERS * row + corner] = vec4<f32>(own * scale, max(linear[CORNER_WEIGHT], 0.0) / sum);
     }
 }

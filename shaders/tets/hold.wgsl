@@ -21,8 +21,8 @@ fn main(
     }
     let corners = fluid_corners[row];
     var mean = vec3<f32>(0.0);
-    for (var corner = 0u; corner < CORNERS && corners.x != corners.y; corner += 1u) {
-        mean += fluid_shares[CORNERS * row + corner][CORNER_WEIGHT] * control_material[corners[corner]].xyz;
+    for (var corner = 0u; corner < TET_CORNERS && corners.x != corners.y; corner += 1u) {
+        mean += fluid_shares[TET_CORNERS * row + corner][CORNER_WEIGHT] * control_material[corners[corner]].xyz;
     }
     let relative = fluid_velocity[row].xyz - mean;
     let drag = fluid_drag_rate[row].xy;

@@ -24,9 +24,9 @@ fn main(
     }
     var follows = 0.0;
     var direct = 0.0;
-    for (var corner = 0u; corner < CORNERS; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         let response = control_compliance[corners[corner]];
-        let own = fluid_shares[CORNERS * row + corner];
+        let own = fluid_shares[TET_CORNERS * row + corner];
         follows += own[CORNER_WEIGHT] * response[CONTROL_COMPLIANCE_DRAWN];
         direct += dot(own.xyz, own.xyz) * response[CONTROL_COMPLIANCE_COMPLIANCE];
     }

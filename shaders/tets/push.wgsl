@@ -26,7 +26,7 @@ fn main(
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let place = control_corners[k];
         let own = fluid_shares[place];
-        let carried = fluid_carried[place / CORNERS];
+        let carried = fluid_carried[place / TET_CORNERS];
         push += own.xyz * carried[FLUID_CARRIED_ENERGY];
         drawn += carried.xyz * own[CORNER_WEIGHT];
     }

@@ -24,9 +24,9 @@ fn main(
     }
     var mean = vec3<f32>(0.0);
     var rate = 0.0;
-    for (var corner = 0u; corner < CORNERS; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         let node = control_solved[corners[corner]].xyz;
-        let own = fluid_shares[CORNERS * row + corner];
+        let own = fluid_shares[TET_CORNERS * row + corner];
         mean += own[CORNER_WEIGHT] * node;
         rate -= dot(node, own.xyz);
     }

@@ -17,7 +17,7 @@ use crate::{
     grid::neighbors::Neighbors,
     reduce::{Extreme, Extremes, Wrenches},
     sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
-    tets::rows::CORNERS,
+    tets::rows::TET_CORNERS,
 };
 
 /// Particles as `sph::advect` leaves them, which the next step sorts.
@@ -64,8 +64,8 @@ impl Form {
             Column::FluidControls => Self::Lists(List::Controls),
             Column::ControlFluid => Self::Lists(List::ControlFluid),
             Column::NodePairs => Self::Lists(List::Pairs),
-            Column::FluidCorners => Self::Wide(CORNERS),
-            Column::FluidShares => Self::Wide(CORNERS * ROW),
+            Column::FluidCorners => Self::Wide(TET_CORNERS),
+            Column::FluidShares => Self::Wide(TET_CORNERS * ROW),
             Column::ControlCorners => Self::Corners,
             Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
             Column::FluidPressureSolve => Self::PressureSolve,
@@ -130,7 +130,7 @@ impl Form {
 
 /// Words of the lists of the corners that controls are: where each begins, the end of the last, and an entry for every corner.
 fn corner_words(rows: RowCounts) -> usize {
-    rows.nodes + 1 + CORNERS * rows.fluid
+    rows.nodes + 1 + TET_CORNERS * rows.fluid
 }
 
 /// The words of those lists.
@@ -139,7 +139,7 @@ pub(super) fn corners(columns: &Columns) -> Vec<u32> {
     let (mut words, mut entries) = (vec![0], Vec::new());
     for control in 0..rows.nodes {
         if control < columns.controls.node.len() {
-            entries.extend(columns.controls.corners.of(control, CORNERS * rows.fluid));
+            entries.extend(columns.controls.corners.of(control, TET_CORNERS * rows.fluid));
         }
         words.push(entries.len() as u32);
     }
@@ -153,16 +153,16 @@ fn take_corners(columns: &mut Columns, words: &[u32]) {
     let list = |ends: &[u32]| entries[ends[0] as usize..ends[1] as usize].to_vec();
     let mut lists: Vec<Vec<u32>> = starts.windows(2).map(list).collect();
     lists.resize_with(padded(rows.nodes), Vec::new);
-    columns.controls.corners = Neighbors::from_lists(&lists, (CORNERS * rows.fluid) as u32);
+    columns.controls.corners = Neighbors::from_lists(&lists, (TET_CORNERS * rows.fluid) as u32);
 }
 
 /// Takes over rows of several words, and pads them with rows outside of sponges.
 fn take_wide(columns: &mut Columns, column: Column, words: &[u32]) {
-    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; CORNERS]);
+    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; TET_CORNERS]);
     if column == Column::FluidCorners {
         take_rows(&mut columns.fluid.corners.0, words, outside, rows);
     } else {
-        take_rows(&mut columns.fluid.shares.0, words, [[0.0; ROW]; CORNERS], rows);
+        take_rows(&mut columns.fluid.shares.0, words, [[0.0; ROW]; TET_CORNERS], rows);
     }
 }
 

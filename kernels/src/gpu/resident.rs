@@ -26,7 +26,7 @@ use crate::{
     columns::{Column, Columns, RowCounts},
     params::{Params, SpongeParams},
     pbd::meeting::pair_radius,
-    tets::rows::CORNERS,
+    tets::rows::TET_CORNERS,
 };
 
 /// Most cells of a grid: their counts and starts are one binding each.
@@ -207,7 +207,7 @@ impl Resident {
             column(Column::ControlCorners, is_barycentric),
             words("node_control", corner_lists),
             words("corner_counts", corner_lists),
-            words("corner_places", cornered * CORNERS as u64),
+            words("corner_places", cornered * TET_CORNERS as u64),
             words("node_stars", stars as u64),
             rows("node_rest", touching),
             column(Column::NodePairs, self.params.has_touch()),
