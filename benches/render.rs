@@ -1,7 +1,7 @@
 //! Time of a picture: by view, by size, by number of particles.
 //!
 //! `cargo bench --bench render --features render,serde`. The particles are those of `water` at time zero, two thirds of the way through a
-//! splash for the smaller counts: a million is never stepped.
+//! splash for the smaller counts. A million is never stepped.
 
 use std::hint::black_box;
 

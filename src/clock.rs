@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::{rigid::RigidEngine, scene::Scene};
 
 /// Part of the time in which an elastic wave crosses a cell that a step of `sbd` may take. The solver is stable beyond, but one sweep a
-/// step is then far from converged: a ball that falls on a dry sponge gains energy, and turns tets inside out.
+/// step is then far from converged. A ball that falls on a dry sponge gains energy, and turns tets inside out.
 const STRAIN: f32 = 0.25;
 
 /// The same of `xpbd_neo_hookean`: a cantilever without
@@ -28,8 +28,8 @@ const NEO_HOOKEAN: f32 = 0.25;
 /// cent; at twice the step they need ten (docs/performance.md).
 const DESCENT: f32 = 2.0;
 
-/// The same in water, where a sponge is twenty times as heavy and its waves are four and a half times as slow, beside a solve for the
-/// divergence.
+/// The same in water, beside a solve for the divergence. There a sponge is twenty times as heavy, and its waves are four and a half times
+/// as slow.
 const WET_DESCENT: f32 = 9.0;
 
 /// The same beside other solves: in longer steps `dfsph` gains energy.

@@ -9,7 +9,7 @@ use crate::{
     world::fastest_body,
 };
 
-/// A world whose bodies the host moves with a physics engine of its own, which it keeps: shapes go in with the scene, and every sub-step
+/// A world whose bodies the host moves with a physics engine of its own, which it keeps. Shapes go in with the scene, and every sub-step
 /// comes out, with its length and what it gives the bodies.
 ///
 /// ```
@@ -49,7 +49,7 @@ pub struct SubStep<'a> {
 }
 
 impl Coupler {
-    /// Builds a scene whose bodies are those of the host: their shapes, kinds and densities are of the scene, and
+    /// Builds a scene whose bodies are those of the host. Their shapes, kinds and densities are of the scene, and
     /// [`rigid::body_setups`](crate::rigid::body_setups) lists them about their centres of mass. Contacts between bodies and with the walls
     /// of the container are up to the host.
     ///
@@ -115,8 +115,8 @@ impl Coupler {
         })
     }
 
-    /// Lets the host say where its bodies are and how heavy they are, outside of sub-steps: before the first, and when it has moved them by
-    /// itself. Without it they begin with the masses of their shapes.
+    /// Lets the host say where its bodies are and how heavy they are, outside of sub-steps. That is before the first, and when it has moved
+    /// them by itself. Without it they begin with the masses of their shapes.
     ///
     /// # Errors
     /// A state or a mass that no body has; the bodies are as before.

@@ -12,13 +12,13 @@ use sorb_kernels::{
     params::Params,
 };
 
-use crate::World;
-pub use crate::schedule::{Place, Placement, Plan, PlanError, PlanLine, Transfer, Verdict, run::Runner};
+pub use crate::schedule::{Place, Placement, Plan, PlanError, PlannedPhase, Transfer, Verdict, run::Runner};
+use crate::{World, WorldError};
 
 /// All columns of a world. Rows of the fluid change their order from step to step.
 ///
 /// On a GPU this reads back the state and the columns of measures (density, interior, saturation), at most once after every
-/// step or frame; other scratch columns are not stored.
+/// step or frame. Other scratch columns are not stored.
 #[must_use]
 pub fn columns(world: &World) -> &Columns {
     world.columns()
@@ -28,6 +28,15 @@ pub fn columns(world: &World) -> &Columns {
 #[must_use]
 pub fn params(world: &World) -> &Params {
     &world.params
+}
+
+/// Keeps columns of a world up to date although no phase reads them.
+///
+/// # Errors
+/// A phase reads a scratch column that no phase before it has written, or the device has not enough memory.
+pub fn observe(world: &mut World, columns: &[Column]) -> Result<(), WorldError> {
+    world.observed = columns.to_vec();
+    world.plan_anew()
 }
 
 /// Overwrites a column of a world on the CPU with values that are noticed when something reads them.

@@ -1,6 +1,6 @@
 //! An absorbent sponge, the water it drinks and the bodies that squeeze it.
 //!
-//! Build a [`Scene`](scene::Scene), make a [`World`] of it, step that and look at it: [`World`] has the views that a host needs, with unit
+//! Build a [`Scene`](scene::Scene), make a [`World`] of it, step that and look at it. [`World`] has the views that a host needs, with unit
 //! and shape. How the state is kept and which kernels a step has is no part of this face.
 
 mod clock;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use sorb_kernels::{
+    columns::lane::nodes::wetting::WETNESS,
     params::{INSIDE, POLYNOMIAL_RATIO, Solver, SpongeParams, WET},
     pbd::wetted::of_tet,
 };
@@ -123,7 +124,7 @@ impl Measures {
             let position = vector(position);
             self.add_point(node_mass, position, vector(&world.node_velocities()[node]), gravity);
             self.sponge_centre += position * node_mass;
-            let wetness = world.columns().nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[0]));
+            let wetness = world.columns().nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[WETNESS]));
             let swollen = (1.0 + f64::from(sponge.swelling) * wetness).powi(3);
             pores += node_volume * (swollen - 1.0 + f64::from(sponge.porosity));
             mass += node_mass;
@@ -195,5 +196,5 @@ fn energy_density(sponge: &SpongeParams, columns: [DVec3; 3], ratio: f64) -> f64
 }
 
 fn vector(row: &[f32; 4]) -> DVec3 {
-    DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]))
+    DVec3::new(f64::from(row[WETNESS]), f64::from(row[1]), f64::from(row[2]))
 }

@@ -35,15 +35,15 @@ impl std::error::Error for GpuError {}
 pub(crate) enum Device {}
 
 impl Device {
-    pub(crate) fn another(&self) -> Self {
+    pub(crate) fn without_data(&self) -> Self {
         match *self {}
     }
 
-    pub(crate) fn bring_home(&mut self, _: &mut Columns) -> bool {
+    pub(crate) fn move_to_host(&mut self, _: &mut Columns) -> bool {
         match *self {}
     }
 
-    pub(crate) fn leave_behind(&mut self) {
+    pub(crate) fn discard_state(&mut self) {
         match *self {}
     }
 

@@ -22,15 +22,15 @@ impl Stores {
 
 impl Stores {
     /// Makes the present state that of the host, which a device takes over anew. False if the device is lost.
-    pub(crate) fn bring_home(&mut self) -> bool {
+    pub(crate) fn move_to_host(&mut self) -> bool {
         let Self { host, device } = self;
-        device.as_mut().is_none_or(|device| device.bring_home(host))
+        device.as_mut().is_none_or(|device| device.move_to_host(host))
     }
 }
 
 impl Clone for Stores {
     /// The copy holds the state on the host, and uploads it when it steps: it survives the device of the original.
     fn clone(&self) -> Self {
-        Self { host: self.view().clone(), device: self.device.as_ref().map(Device::another) }
+        Self { host: self.view().clone(), device: self.device.as_ref().map(Device::without_data) }
     }
 }

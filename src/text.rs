@@ -1,5 +1,5 @@
-//! Parts of scenes in commands and states: as text where the format is binary, because that has no place for the keys that tables of
-//! scenes are told apart by. For `#[serde(with = "crate::text")]`.
+//! Parts of scenes in commands and states. In binary formats they are text, because binary has no keys by which to tell tables of scenes
+//! apart. For `#[serde(with = "crate::text")]`.
 
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwned, de::Error as _, ser::Error as _,

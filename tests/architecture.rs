@@ -11,7 +11,7 @@ use sorb::internal::{
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/ARCHITECTURE.md");
 
 /// Widths of the columns of a figure: names, what is read, what is written, what is needed.
-const WIDTHS: [usize; 4] = [32, 42, 37, 26];
+const WIDTHS: [usize; 4] = [33, 42, 37, 26];
 
 /// A figure in the making.
 #[derive(Debug, Default)]
@@ -65,10 +65,10 @@ impl Figure {
                 Phase::Host(HostPhase { name, needs, reads, writes }) => {
                     self.phase(indent, name, [reads, writes], needs);
                 }
-                Phase::Part(block) if self.blocks.contains(&block.name) => {
+                Phase::Named(block) if self.blocks.contains(&block.name) => {
                     self.note(indent, &format!("{}, as above", block.name.to_uppercase()));
                 }
-                Phase::Part(block) => {
+                Phase::Named(block) => {
                     self.note(indent, &block.name.to_uppercase());
                     self.phases(indent + 2, block.phases);
                     self.blocks.push(block.name);

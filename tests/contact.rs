@@ -33,7 +33,7 @@ fn centres(world: &World) -> Vec<DVec3> {
     sums.into_iter().map(|(sum, all)| sum / all).collect()
 }
 
-/// Depth of the deepest node of a sponge inside another, or inside a part of its own, in edges: its distance from the
+/// Depth of the deepest node of a sponge inside another, or inside a part of its own, in edges. Its distance from the
 /// nearest corner of the surface there, less half an edge, the distance of nodes on a surface.
 fn deepest(world: &World) -> f64 {
     let (lattice, nodes) = (world.lattice(), world.node_positions());

@@ -5,7 +5,11 @@ mod common;
 use std::sync::Arc;
 
 use common::busy;
-use sorb::{Cpu, Options, SimdLevel, World, internal::columns::Column, scene::Scene};
+use sorb::{
+    Cpu, Options, SimdLevel, World,
+    internal::{self, columns::Column},
+    scene::Scene,
+};
 
 /// More than one chunk of nodes and several chunks of particles, so that threads matter.
 const RESOLUTION: f32 = 0.6;
@@ -131,8 +135,8 @@ fn frames_and_observed_columns_change_nothing_but_the_length_of_steps() {
     let scene = busy::scene("standing", 0.5);
     let mut plain = common::world(&scene);
     let cpu = plain.cpu().clone();
-    let all = Options { observed: Column::ALL.to_vec(), ..Options::default() };
-    let mut observed = World::on(&scene, cpu, &all).unwrap_or_else(|error| panic!("{error}"));
+    let mut observed = World::on(&scene, cpu, &Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    internal::observe(&mut observed, Column::ALL).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..2 {
         common::frame(&mut plain);
         common::frame(&mut observed);

@@ -4,7 +4,7 @@
 //! other spacings and lattices. Simulation and drawing are timed apart: medians of frames of 1/60 s and of pictures.
 //!
 //! `--particles 1000,8000`, `--nodes 250,1000`, `--views realistic,fast`, `--backends cpu,gpu`, `--size 1280x720`, `--frames 3`,
-//! `--pictures 7` choose what is measured; `--passes` prints the times of the passes of the renderer on a GPU. `--read FILE,FILE` takes
+//! `--pictures 7` choose what is measured. `--passes` prints the times of the passes of the renderer on a GPU. `--read FILE,FILE` takes
 //! rows of earlier runs first, on other machines as well; with `--backends none` nothing is measured.
 
 #![expect(clippy::print_stdout, reason = "the figures are what it is for")]

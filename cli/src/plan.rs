@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use sorb::{
     Offload, Options, World,
-    internal::{Place, Plan, PlanLine, Verdict},
+    internal::{Place, Plan, PlannedPhase, Verdict},
 };
 
 use crate::{choice::Choice, error::CliError, output};
@@ -90,7 +90,7 @@ fn dispatches(_: &World) -> Result<(&'static str, Value), CliError> {
     Ok(("", Value::Null))
 }
 
-fn line(plan: &Plan, line: &PlanLine) -> Value {
+fn line(plan: &Plan, line: &PlannedPhase) -> Value {
     let why = match line.verdict {
         Verdict::Runs => None,
         Verdict::Skipped(why) => Some(why),

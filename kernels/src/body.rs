@@ -11,7 +11,7 @@ use crate::{
     vector::{self, Vec3x8, cross, dot, minus, plus, times},
 };
 
-pub use crate::compound::{Compound, Part, pieces};
+pub use crate::compound::{Compound, ConvexPart, pieces};
 pub use crate::wrench::Wrench;
 pub(crate) use crate::wrench::by_chunk;
 

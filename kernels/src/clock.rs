@@ -15,7 +15,7 @@ enumeration! {
         Courant,
         /// Acceleration over a support radius.
         Acceleration,
-        /// Diffusion of velocity over a support radius; where viscosity is implicit fifty times that, and what stops a body that the
+        /// Diffusion of velocity over a support radius. Where viscosity is implicit it is fifty times that, and what stops a body that the
         /// fluid does not slide along.
         Viscosity,
         /// Capillary waves.
@@ -74,7 +74,7 @@ constants! {
     /// faster than this is swept.
     pub const SHORTEST_BY_BODY: f32 = 10.0;
 
-    /// Part of a step by which a frame may be longer than equal steps fill: a step that has been cut must not be cut to one more piece by
+    /// Part of a step by which a frame may be longer than equal steps fill. A step that has been cut must not be cut to one more piece by
     /// rounding.
     pub const CUT_TOLERANCE: f64 = 1e-4;
 

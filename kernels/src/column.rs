@@ -139,8 +139,8 @@ pub enum PlainMut<'a> {
 pub trait ColumnData {
     /// Calls `visit` with every 32-bit word of the first `rows` rows, in order.
     fn visit_words(&self, rows: usize, visit: &mut dyn FnMut(u32));
-    /// Takes over what [`Self::visit_words`] gave of as many rows. False, and nothing is changed, where there are more or fewer
-    /// words than the column has, and for lists, cells and the lattice, which are computed from other columns.
+    /// Takes over what [`Self::visit_words`] gave of as many rows. False where there are more or fewer words than the column has: then
+    /// nothing is changed. Always false for lists, cells and the lattice, which are computed from other columns.
     fn take_words(&mut self, rows: usize, words: &[u32]) -> bool {
         let _ = (rows, words);
         false

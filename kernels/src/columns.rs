@@ -28,7 +28,7 @@ columns! {
     fluid fluid: Fluid {
         /// Centre of the particle; w: pressure over density squared, p/rho^2 \[Pa m^6/kg^2\].
         FluidPosition = position: rows("m"; PRESSURE_OVER_SQUARED_DENSITY 3 "Pa m^6/kg^2") padded Row(FAR_ROW), State;
-        /// Velocity of the particle; w: its volume m/rho \[m^3\] or, with a pressure solve, its permitted compression \[1\] or, with
+        /// Velocity of the particle. w: its volume m/rho \[m^3\] or, with a pressure solve, its permitted compression \[1\] or, with
         /// one for the divergence, its kinematic pressure \[m^2/s^2\].
         FluidVelocity = velocity: rows("m/s"; VOLUME 3 "m^3", ALLOWED_COMPRESSION 3 "1", PRESSURE 3 "m^2/s^2"), State;
         /// Identity of the particle, kept while rows are re-ordered.
@@ -49,7 +49,7 @@ columns! {
         FluidControlWeights = control_weights: ListValues("1"), Scratch on host;
         /// Interior value of the particle: sum of node volumes times W, 0 outside of sponges, 1 inside.
         FluidInterior = interior: values("1"), Kept, needs Sponge;
-        /// Drag rate of the particle; y: its derivative by the speed relative to the sponge \[1/m\]; z: root of the
+        /// Drag rate of the particle; y: its derivative by the speed relative to the sponge \[1/m\]. z: root of the
         /// compliance of the material to the pressure, over that of water, see `couple::solid_yield` \[1\].
         FluidDragRate = drag_rate: rows(; DRAG_RATE 0 "1/s", INERTIAL_DRAG_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
         /// Impulse that the particle loses to the sponge, over its interior value.
@@ -60,7 +60,7 @@ columns! {
             needs Incompressible;
         /// Gradient of the boundary volume fraction of walls, bodies and sponges \[1/m\]; w: the fraction \[1\].
         FluidBoundary = boundary: rows("1/m"; SHARE 3 "1"), Scratch, needs Incompressible;
-        /// Acceleration of a particle by its own pressure, over its kinematic pressure; w: compression `rho / rho_0 - 1`
+        /// Acceleration of a particle by its own pressure, over its kinematic pressure. w: compression `rho / rho_0 - 1`
         /// before the solve or, with one for the divergence, the divergence that the error of the density asks for, times the step.
         FluidFactors = factors: rows("1/m"; COMPRESSION 3 "1", TARGET 3 "1"), Scratch, needs Incompressible;
         /// For every entry of the neighbour lists, volume times the gradient of W, over the distance vector.
@@ -72,8 +72,8 @@ columns! {
             padded Row([0.0, 0.0, 1.0, 0.0]), Scratch, needs Incompressible;
         /// Acceleration by the change of the pressure; w: its scalar product with the predicted position, less a part of the
         /// change \[m^2/s^2\], see `sph::pressure_acceleration`. With a solve for the divergence the velocity \[m/s\] by the pressure
-        /// of the present round.
-        FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2"), Scratch, needs Incompressible;
+        /// of the present round. w: the rate at which the material of sponges compresses the particle \[1/s\].
+        FluidCorrection = correction: rows("m/s^2"; ALONG_POSITION 3 "m^2/s^2", COMPRESSION_RATE 3 "1/s"), Scratch, needs Incompressible;
         /// Images of the particles in walls and bodies.
         FluidImages = images: Images("m"), Scratch;
         /// For every image, that of a vector of its particle.
@@ -89,7 +89,7 @@ columns! {
         FluidImageForce = image_force: ImageRows("m/s^2"), Scratch on host;
         /// Mean velocity of the neighbours along the lines to them, relative to the particle, see `divergence::approach`.
         FluidApproach = approach: rows("m/s"), Scratch, needs Divergence;
-        /// Inverse of the second moment of the neighbourhood of a particle, along the axes: xx, yy, zz; w: density over that at
+        /// Inverse of the second moment of the neighbourhood of a particle, along the axes: xx, yy, zz. w: density over that at
         /// rest, with walls, bodies and the material of sponges. Before `divergence::moments` the second moment of the material.
         FluidRenormalisation = renormalisation: rows("1"; DENSITY 3 "1"), Scratch, needs Divergence;
         /// The same between the axes: yz, zx, xy.
@@ -97,20 +97,20 @@ columns! {
         /// First moment of the neighbourhood of a particle; before `divergence::moments` that of the material of sponges; w: share of the
         /// material in the volume \[1\].
         FluidMoment = moment: rows("1/m"; MATERIAL 3 "1"), Scratch, needs Divergence;
-        /// Change of the velocity of a particle in a sponge over that without drag, with nodes at rest and with nodes that respond \[1\];
-        /// what the response of the nodes adds to the diagonal of the system, over the squared norm of the renormalisation \[1/m^2\].
+        /// Change of the velocity of a particle in a sponge over that without drag, with nodes at rest and with nodes that respond \[1\].
+        /// What the response of the nodes adds to the diagonal of the system, over the squared norm of the renormalisation \[1/m^2\].
         FluidMobility = mobility: rows(; MOBILITY 0 "1", WITH_NODES 1 "1", DIAGONAL 2 "1/m^2"), Scratch, needs Sponge;
-        /// Impulse of the pressure that the drag hands on to the nodes, over the interior value; w: mass of the particle that moves
+        /// Impulse of the pressure that the drag hands on to the nodes, over the interior value. w: mass of the particle that moves
         /// with them, over the same \[kg\].
         FluidHeld = held: rows("N s"; MASS 3 "kg"), Scratch, needs Sponge;
         /// Velocity by the pressure of the present round, without the drag.
         FluidUndragged = undragged: rows("m/s"), Scratch, needs Sponge;
         /// Control rows of the corners of the tet of the particle; the padding row outside of sponges.
         FluidCorners = corners: Corners("1"), Scratch;
-        /// For every corner, before `tets::flux` the gradient and the value of its weight; after it the change of the rate of compression
-        /// by its velocity \[1/m\], and its weight in means.
+        /// For every corner, before `tets::flux` the gradient and the value of its weight. After it this is the change of the rate of
+        /// compression by its velocity \[1/m\], and its weight in means.
         FluidShares = shares: CornerRows("1/m"), Scratch;
-        /// Acceleration of the particle by the material of its sponge, over its kinematic pressure; w: change of its velocity over that
+        /// Acceleration of the particle by the material of its sponge, over its kinematic pressure. w: change of its velocity over that
         /// without drag, with nodes at rest.
         FluidPushed = pushed: rows("1/m"; MOBILITY 3 "1"), Scratch, needs Barycentric;
         /// Impulse of the pressure that the drag hands on to the nodes; w: mass of the particle times its kinematic pressure.
@@ -144,7 +144,7 @@ columns! {
         /// Velocity of the node; w: share of the external acceleration that it followed in the last step, 0 to 1, see
         /// `pbd::guess`.
         NodeVelocity = velocity: rows("m/s"; FOLLOWED_SHARE 3 "1"), State;
-        /// Velocity that the node would have by the impulse of the pressure alone in the last step; w: length of that step, 0 before
+        /// Velocity that the node would have by the impulse of the pressure alone in the last step. w: length of that step, 0 before
         /// the first.
         NodeDriven = driven: rows("m/s"; STEP 3 "s"), State, needs Divergence;
         /// Volume of sponge that the node stands for, pores included.
@@ -173,7 +173,7 @@ columns! {
         NodePairs = pairs: Neighbors("1"), Scratch, needs Touch;
         /// Contact force of sponges on the node; w: lowest index of another sponge in contact, or of its own.
         NodeTouch = touch: rows("N"; LOWEST_SPONGE 3 "1"), Scratch, needs Touch;
-        /// Negative derivative of that force by the position of the node, along the axes: xx, yy, zz; w: highest index of
+        /// Negative derivative of that force by the position of the node, along the axes: xx, yy, zz. w: highest index of
         /// another sponge in contact, or of its own.
         NodeTouchStiffness = touch_stiffness: rows("N/m"; HIGHEST_SPONGE 3 "1"), Scratch, needs Touch;
         /// The same between the axes: xy, xz, yz.
@@ -182,19 +182,19 @@ columns! {
         NodeFree = free: rows("m"; MASS 3 "kg"), Scratch;
         /// Target of the node by inertia and the drag of the fluid; w: the mass of both \[kg\].
         NodeTarget = target: rows("m"; MASS 3 "kg"), Scratch;
-        /// Impulse of walls, bodies and grips on the node in this step; w: its mass if it is free to move, else the negative
+        /// Impulse of walls, bodies and grips on the node in this step. w: its mass if it is free to move, else the negative
         /// mass equivalent to the stiffness of what holds it \[kg\].
         NodeReaction = reaction: rows("N s"; MASS 3 "kg"), Scratch;
         /// Predicted position, corrected by the constraints; w: inverse mass \[1/kg\].
         NodePredicted = predicted: rows("m"; INVERSE_MASS 3 "1/kg") padded Row(FAR_ROW), Scratch;
         /// External acceleration, by gravity and the fluid.
         NodeAcceleration = acceleration: rows("m/s^2"), Scratch;
-        /// Volume ratio of the sponge around the node \[1\]; times it: drag rate, and its derivative by the relative speed
-        /// of the water \[1/m\]; w: porosity \[1\].
+        /// Volume ratio of the sponge around the node \[1\]. The next two are multiplied by it: drag rate, and its derivative by the
+        /// relative speed of the water \[1/m\]; w: porosity \[1\].
         NodePores = pores: rows(; VOLUME_RATIO 0 "1", DRAG_RATE 1 "1/s", INERTIAL_DRAG_RATE 2 "1/m", POROSITY 3 "1"), Scratch;
         /// Water-filled pore volume over pore volume.
         NodeSaturation = saturation: values("1"), Kept;
-        /// Wetness of the material of the node, 0 to 1; its saturation in this step, at most 1; share of the receding
+        /// Wetness of the material of the node, 0 to 1; its saturation in this step, at most 1. Share of the receding
         /// capillary pressure in its suction; w: mobility of the water, `k_r / S`. Empty where no property of a sponge depends
         /// on wetness, see `couple::wetting`.
         NodeWetting = wetting: rows(; WETNESS 0 "1", SATURATION 1 "1", RECEDING_SHARE 2 "1", MOBILITY 3 "1"), State, needs Wetting;

@@ -8,19 +8,19 @@ use crate::body::{Body, Shape};
 
 /// A convex part of a compound.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct ConvexPart {
     /// Place of its centre in the frame of the body \[m\].
     pub centre: Vec3,
     /// A [`Shape::Hull`] about its centre.
     pub hull: Shape,
-    /// The points of the hull that are at least `radius` below all of its faces, as a hull about the same centre: images of particles
+    /// The points of the hull that are at least `radius` below all of its faces, as a hull about the same centre. Images of particles
     /// see this, swept by a ball.
     pub core: Shape,
     /// Radius of the ball \[m\].
     pub radius: f32,
 }
 
-impl Part {
+impl ConvexPart {
     /// Outward unit normals and offsets of the faces \[m\], about the centre.
     #[must_use]
     pub fn planes(&self) -> &[(Vec3, f32)] {
@@ -49,7 +49,7 @@ impl Part {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compound {
     /// The hulls.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ConvexPart>,
     /// Corners of the closed surface of the union \[m\].
     pub vertices: Vec<Vec3>,
     /// Its triangles, outward winding: mass and inertia are those of what it encloses.
@@ -121,8 +121,8 @@ impl<'a> Piece<'a> {
     }
 }
 
-/// The convex pieces of bodies, each as a body of its own, and the radius of the ball that sweeps it \[m\]: their cores with that, or as
-/// they are with zero.
+/// The convex pieces of bodies, each as a body of its own, and the radius of the ball that sweeps it \[m\]. These are their cores with that
+/// radius, or as they are with zero.
 #[must_use]
 pub fn pieces(bodies: &[Body], as_cores: bool) -> Vec<(Body, f32)> {
     let body = |piece: Piece<'_>| {

@@ -46,7 +46,7 @@ pub struct Kernel {
     /// the measured error.
     #[cfg(test)]
     pub(crate) bound: f64,
-    /// Largest error of the twin against the body for the CPU. As [`Self::bound`], except for sums in another order: the CPU
+    /// Largest error of the twin against the body for the CPU. As [`Self::bound`], except for sums in another order. The CPU
     /// sums the 7000 particles of a node in the largest scene one after the other, a twin in thirty-two parts.
     #[cfg(all(test, feature = "gpu"))]
     pub(crate) twin_bound: f64,

@@ -1,10 +1,10 @@
-//! What a device shares with the host: constants, enumerations and structs are declared in Rust, and WGSL text, sizes, offsets and
+//! What a device shares with the host. Constants, enumerations and structs are declared in Rust, and WGSL text, sizes, offsets and
 //! words follow from the declarations.
 //!
 //! - `constants!` around constants: shaders know them by the same names.
 //! - `enumeration!` around an enum: its variants have numbers, and `Bound::SpongeSpeed` is `BOUND_SPONGE_SPEED` in WGSL.
 //! - `layout!` around a struct: a struct of WGSL with the same fields. Each begins and ends at a multiple of 16 bytes, as uniform buffers
-//!   ask for, and so does each vector; what is between the fields is zero.
+//!   ask for, and so does each vector. What is between the fields is zero.
 //!
 //! `gpu::wgsl` puts the text of all of them together.
 

@@ -1,9 +1,8 @@
 //! Computation of the phases of a step: columns, kernel table, CPU bodies and oracles.
 //!
-//! There is one file per kernel. A kernel's name is its path: `sph::density` is `sph/density.rs`. It declares what it reads
-//! and writes, and has a body for the CPU that is generic over the SIMD level and runs on fixed chunks of rows. Its oracle,
-//! a brute-force loop in f64, is in `oracle` (tests and feature `oracles`). Kernels depend on no scene, and on no other
-//! kernel.
+//! There is one file per kernel. A kernel's name is its path: `sph::density` is `sph/density.rs`. It declares what it reads and writes. Its
+//! body for the CPU is generic over the SIMD level and runs on fixed chunks of rows. Its oracle, a brute-force loop in f64, is in `oracle`
+//! (tests and feature `oracles`). Kernels depend on no scene, and on no other kernel.
 
 pub mod asleep;
 pub mod body;
@@ -82,13 +81,13 @@ kernels! {
         closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect,
         pub(crate) symmetric, pub(crate) walls,
     }
-    /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block
-    /// descent or by Neo-Hookean constraints, and contact of its nodes.
+    /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block descent or by
+    /// Neo-Hookean constraints. Contact of its nodes as well.
     pbd {
         pairs, gravity, predict, guess, touch, strain, xpbd_neo_hookean, vbd, contact, reaction, momentum,
         velocity,
     } shared {
-        pub(crate) descent, pub flatness, pub lattice, pub meeting, pub(crate) obstacles, pub stars, tets, pub wetted,
+        pub(crate) descent, pub flatness, pub lattice, pub meeting, pub(crate) obstacles, pub stars, sweep, tets, pub wetted,
     }
     /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
     couple {

@@ -1,7 +1,7 @@
 //! Bodies with rounded edges, as the images of particles see them (`divergence::images`).
 //!
-//! A *core* is swept by a ball. The core of a cuboid and of a hull is smaller than the shape, and the faces are moved outwards a little,
-//! so that the volume stays what it is. A sharp edge has no image: water would leak into it.
+//! A *core* is swept by a ball. The core of a cuboid and of a hull is smaller than the shape. The faces are moved outwards a little to keep
+//! the volume. A sharp edge has no image: water would leak into it.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ const NEWTON_STEPS: usize = 20;
 pub struct Rounding {
     /// Radius of the ball \[m\].
     pub radius: f32,
-    /// Half extents of the core of a cuboid \[m\]; half the length of the segment of a capsule \[m\]; size of the core of a hull over
+    /// Half extents of the core of a cuboid \[m\]; half the length of the segment of a capsule \[m\]. Size of the core of a hull over
     /// that of the hull \[1\].
     pub core: Vec3,
 }

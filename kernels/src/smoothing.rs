@@ -40,8 +40,8 @@ impl Wendland {
         Self::scaled(support_radius, 1.0)
     }
 
-    /// The function over its sum in a cubic lattice of the given spacing \[m\]. Particles of the mass of a cube of a spacing then
-    /// have rest density in a lattice, although they are too few for the sum to be the integral.
+    /// The function over its sum in a cubic lattice of the given spacing \[m\]. Particles of the mass of a cube of a spacing then have rest
+    /// density in a lattice. Without that the sum over so few particles differs from the integral.
     #[must_use]
     pub fn normalised(support_radius: f32, spacing: f32) -> Self {
         Self::scaled(support_radius, 1.0 / Self::lattice_sum(f64::from(support_radius), f64::from(spacing)))
@@ -77,14 +77,14 @@ impl Wendland {
         if q < 1.0 { 210.0 / (PI * support_radius.powi(5)) * (1.0 - q).powi(3) } else { 0.0 }
     }
 
-    /// Sum of `spacing^3 W` over a cubic lattice with a particle at the origin: 1 if it equals the integral.
+    /// Sum of `spacing^3 W` over a cubic lattice with a particle at the origin: It is 1 if it equals the integral.
     #[must_use]
     pub fn lattice_sum(support_radius: f64, spacing: f64) -> f64 {
         let value = |distance| spacing.powi(3) * Self::value_f64(support_radius, distance);
         over_lattice(support_radius, spacing, value)
     }
 
-    /// The sum of \[MCG03, eq. 22\] for a Laplacian of 1 in a cubic lattice of the right density: 1 if it equals the
+    /// The sum of \[MCG03, eq. 22\] for a Laplacian of 1 in a cubic lattice of the right density. 1 if it equals the
     /// integral, 0.96 at a support of two spacings.
     #[must_use]
     pub fn lattice_viscosity(support_radius: f64, spacing: f64) -> f64 {
@@ -95,7 +95,7 @@ impl Wendland {
     }
 
     /// The same for the viscosity along the line between particles \[M92, eq. 4.1\], as the mean over all directions of the
-    /// lattice: less along its axes, more across its diagonals.
+    /// lattice. It is less along its axes, more across its diagonals.
     #[must_use]
     pub fn lattice_central_viscosity(support_radius: f64, spacing: f64) -> f64 {
         let softening = SOFTENING * support_radius * support_radius;

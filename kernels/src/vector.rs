@@ -1,7 +1,7 @@
 //! Vectors of eight points or directions.
 //!
-//! Plain functions that are always inlined. A closure passed to `array::map` may be compiled separately, without the
-//! instruction set of the kernel around it, and then every operation in it is a call.
+//! Plain functions that are always inlined. A closure passed to `array::map` may be compiled separately, without the instruction set of the
+//! kernel around it. Every operation in it is then a call.
 
 use crate::lanes::{self, Simd, f32x8, select};
 

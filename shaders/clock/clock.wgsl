@@ -80,18 +80,9 @@ fn check() {
     if (clock.running == 0u) {
         return;
     }
-    clock.longest[0] = vec4<u32>(
-        extremes[EXTREME_NEIGHBORS],
-        extremes[EXTREME_CONTROLS],
-        extremes[EXTREME_CONTROL_FLUID],
-        extremes[EXTREME_PAIRS],
-    );
-    clock.longest[1] = vec4<u32>(
-        extremes[EXTREME_NEAR_IMAGES],
-        extremes[EXTREME_IMAGE_PARTICLES],
-        extremes[EXTREME_IMAGES],
-        0u,
-    );
+    for (var k = 0u; k < LIST_COUNT; k += 1u) {
+        clock.longest[k / 4u][k % 4u] = extremes[EXTREME_NEIGHBORS + k];
+    }
     if (any((clock.longest[0] | clock.longest[1]) != vec4<u32>(0u))) {
         clock.status = STATUS_LIST_FULL;
         clock.running = 0u;

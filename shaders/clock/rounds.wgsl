@@ -1,8 +1,8 @@
 // Repetitions that end when they have converged, which the host need not know before it submits what comes after.
 //
 // The last pass of the round takes `running` away once another round is not needed (`common/end_of_round.wgsl`). `end_rounds` gives
-// it back. If the rounds that were handed in do not suffice, the device stops there: nothing after them is done, and the
-// host hands in more, and all that comes after them again.
+// it back. If the submitted rounds do not suffice, the device stops there. Nothing after them is done, and the
+// host submits further ones, with all that comes after them.
 
 @group(0) @binding(0) var<uniform> repetition: Repetition;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;

@@ -5,7 +5,7 @@ fn total_wrench(body: u32, lane: u32) -> Wrench {
     var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
     let groups = (params.fluid_rows + GROUP_THREADS - 1u) / GROUP_THREADS;
     for (var k = lane; k < groups; k += GROUP_THREADS) {
-        let slot = (k * params.body_rows + body) * 2u;
+        let slot = (k * params.body_rows + body) * WRENCH_ROWS;
         own.impulse += wrenches[slot].xyz;
         own.angular += wrenches[slot + 1u].xyz;
     }

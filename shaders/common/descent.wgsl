@@ -187,7 +187,7 @@ fn with_touch(row: u32, material: Local) -> Local {
 
 // The way to the minimum of the energy without obstacles.
 fn minimum(local: Local, x: vec3<f32>, node_target: vec4<f32>, step: f32) -> Quadratic {
-    let inertia = node_target.w / (step * step);
+    let inertia = node_target[NODE_TARGET_MASS] / (step * step);
     let stiffness = local.stiffness + diagonal(inertia);
     let inverse = inverse_of(stiffness);
     return Quadratic(inverse * (local.force + (node_target.xyz - x) * inertia), stiffness, inverse);

@@ -1,12 +1,7 @@
-// Drag impulses on a node with the mass of fluid that moves with it, and their moments.
-struct DragOnNode {
-    impulse: vec4<f32>,
-    moment: vec4<f32>,
-}
-
-// All threads of the control take part.
-fn drag_on_node(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> DragOnNode {
-    let scale = own.w * params.coupling.value;
+// Drag of the particles within the coupling radius on a node. All threads of the control take part.
+fn drag_on_control(row: u32, is_row: bool, lane: u32) -> NodeDrag {
+    let own = control_position[min(row, params.node_rows - 1u)];
+    let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
@@ -25,5 +20,5 @@ fn drag_on_node(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> DragOnNode
     let sum = control_sum(lane, part);
     // The memory of the sum is used again.
     workgroupBarrier();
-    return DragOnNode(sum, control_sum(lane, vec4<f32>(turning, 0.0)));
+    return NodeDrag(sum, control_sum(lane, vec4<f32>(turning, 0.0)));
 }

@@ -1,6 +1,6 @@
 // Sum over the particles of a control of V_a W_ia times the drag row; all threads of the control take part.
 fn received_drag(own: vec4<f32>, row: u32, is_row: bool, lane: u32) -> vec4<f32> {
-    let scale = own.w * params.coupling.value;
+    let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {

@@ -21,7 +21,7 @@ fn group_scan(lane: u32, own: vec4<u32>) -> Scan {
         scanned[lane] += other;
     }
     workgroupBarrier();
-    let result = Scan(scanned[lane] - own, scanned[255]);
+    let result = Scan(scanned[lane] - own, scanned[GROUP_THREADS - 1u]);
     workgroupBarrier();
     return result;
 }

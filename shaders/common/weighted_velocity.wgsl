@@ -7,7 +7,7 @@ fn weighted_velocity(share: SharedRow, rows: u32, lane: u32) -> vec4<f32> {
         let other = fluid_controls[share.row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        let weight = there[CONTROL_POSITION_VOLUME] * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_velocity[other];
     }
     return share_sum(lane, sum);

@@ -8,6 +8,6 @@ fn wrapped_into_box(x: vec3<f32>) -> vec3<f32> {
     let repeats = period > vec3<f32>(0.0);
     let divisor = select(vec3<f32>(1.0), period, repeats);
     let moved = clamp(x - period * floor((x - low) / divisor), low, high);
-    let leaves = repeats & ((x < low) | (x >= high)) & (abs(x) < vec3<f32>(3.0e38));
+    let leaves = repeats & ((x < low) | (x >= high)) & (abs(x) < vec3<f32>(-NO_VALUE));
     return select(x, moved, leaves);
 }

@@ -23,6 +23,6 @@ fn main(
     }
     if (row < params.node_rows) {
         let node = control_node[row];
-        control_unfiltered[row] = vec4<f32>(node_velocity[node].xyz, node_position[node].w);
+        control_unfiltered[row] = with_vector(node_position[node], node_velocity[node].xyz);
     }
 }

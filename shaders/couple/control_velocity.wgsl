@@ -24,7 +24,7 @@ fn main(
     let row = control_row(group, groups, lane);
     let is_row = row < params.node_rows;
     let own = control_position[min(row, params.node_rows - 1u)];
-    let scale = own.w * params.coupling.value;
+    let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     let first = row * (params.control_fluid_capacity + 1u);
     var end = 0u;
     if (is_row) {
@@ -41,5 +41,5 @@ fn main(
         return;
     }
     let before = control_unfiltered[row];
-    control_velocity[row] = vec4<f32>(before.xyz, sum * before.w);
+    control_velocity[row] = vec4<f32>(before.xyz, sum * before[CONTROL_UNFILTERED_INVERSE_MASS]);
 }

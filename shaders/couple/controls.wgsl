@@ -37,7 +37,7 @@ fn main(
     let swelling = sponges.all[node_sponge[node]].wetting.swelling;
     var volume = node_volume[node];
     if (swelling > 0.0) {
-        let size = 1.0 + swelling * node_wetting[node].x;
+        let size = 1.0 + swelling * node_wetting[node][NODE_WETTING_WETNESS];
         volume *= size * size * size;
     }
     if (is_asleep(sponges.all[node_sponge[node]])) {

@@ -33,7 +33,7 @@ fn main(
         return;
     }
     let inverse = weight_inside(fluid_interior[row]);
-    let rate = fluid_drag_rate[row].x * clock.step;
+    let rate = fluid_drag_rate[row][FLUID_DRAG_RATE_DRAG_RATE] * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;
     // The column has impulses over chi.
     let old = fluid_drag[row].xyz;

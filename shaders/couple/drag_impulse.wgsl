@@ -32,7 +32,7 @@ fn main(
         let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        let weight = there[CONTROL_POSITION_VOLUME] * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         // As `node_velocity.wgsl` has it, which may run beside this.
         let velocity = (node_predicted[control_node[other]].xyz - there.xyz) * clock.inverse_step;
         part += weight * vec4<f32>(velocity, 1.0);

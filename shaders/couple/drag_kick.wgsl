@@ -18,5 +18,5 @@ fn main(
     }
     let scale = fluid_interior[row] * (1.0 / params.particle_mass);
     let before = fluid_velocity[row];
-    fluid_velocity[row] = vec4<f32>(before.xyz - fluid_drag[row].xyz * scale, before.w);
+    fluid_velocity[row] = with_vector(before, before.xyz - fluid_drag[row].xyz * scale);
 }

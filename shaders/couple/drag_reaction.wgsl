@@ -1,5 +1,5 @@
-// #include smoothing, control_group, drag_on_node
-// Drag impulses on the nodes, and their moments; `drag_reaction.rs` has the formulas.
+// #include smoothing, control_group, node_drag, drag_on_node
+// Drag impulses on the nodes, and their moments; `drag_reaction.rs` and `drag_settled.rs` have the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -17,17 +17,15 @@ fn main(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    if (clock.running == 0u) {
-        return;
-    }
-    let row = control_row(group, groups, lane);
-    let is_row = row < params.node_rows;
-    let own = control_position[min(row, params.node_rows - 1u)];
-    let drag = drag_on_node(own, row, is_row, lane);
-    if (!is_row || lane % CONTROL_THREADS != 0u) {
-        return;
-    }
-    let node = control_node[row];
-    node_drag[node] = drag.impulse;
-    node_drag_moment[node] = drag.moment;
+    on_node(group, groups, lane, true);
+}
+
+// Nodes no longer move fluid with them.
+@compute @workgroup_size(GROUP_THREADS)
+fn settled(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    on_node(group, groups, lane, false);
 }

@@ -29,8 +29,8 @@ fn main(
         return;
     }
     let before = control_unfiltered[row];
-    let after = vec4<f32>(before.xyz + received * before.w, before.w);
+    let after = with_vector(before, before.xyz + received * before[CONTROL_UNFILTERED_INVERSE_MASS]);
     control_velocity[row] = after;
     let node = control_node[row];
-    node_velocity[node] = vec4<f32>(after.xyz, node_velocity[node].w);
+    node_velocity[node] = with_vector(node_velocity[node], after.xyz);
 }

@@ -27,8 +27,8 @@ fn main(
     let x = node_position[node];
     let v = node_velocity[node];
     var share = 0.0;
-    if (x.w > 0.0) {
-        share = v.w;
+    if (x[NODE_POSITION_INVERSE_MASS] > 0.0) {
+        share = v[NODE_VELOCITY_FOLLOWED_SHARE];
     }
     let end = x.xyz + clock.step * (v.xyz + (clock.step * share) * node_acceleration[node].xyz);
     let solid = 1.0 - sponges.all[node_sponge[node]].porosity;

@@ -42,14 +42,14 @@ fn main(
         let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        let weight = there[CONTROL_POSITION_VOLUME] * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight;
         let node = control_node[other];
         let pores = node_pores[node];
         rate += weight * pores.yz;
-        follows += weight * pores.x * following(pores.w);
+        follows += weight * pores[NODE_PORES_VOLUME_RATIO] * following(pores[NODE_PORES_POROSITY]);
         if (params.has_wetting != 0u) {
-            mobile += weight * node_wetting[node].w;
+            mobile += weight * node_wetting[node][NODE_WETTING_MOBILITY];
         }
     }
     let all = share_sum(lane, vec4<f32>(rate, sum, mobile));

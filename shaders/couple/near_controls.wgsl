@@ -78,7 +78,7 @@ fn main(
     let sub = lane % CONTROL_THREADS;
     var own = 0u;
     // A node of a sleeping sponge has no volume, and no particle near it.
-    if (is_row && query.w > 0.0) {
+    if (is_row && query[CONTROL_POSITION_VOLUME] > 0.0) {
         own = visit(point, sub, 1u, 0u);
     }
     found[lane] = own;

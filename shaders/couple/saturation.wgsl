@@ -49,6 +49,6 @@ fn main(
     let dry = max(1.0 - saturation, 0.0);
     let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
     control_saturation[row] = saturation;
-    control_suction[row] = pressure * traits.suction * own.w;
+    control_suction[row] = pressure * traits.suction * own[CONTROL_POSITION_VOLUME];
     node_saturation[node] = saturation;
 }

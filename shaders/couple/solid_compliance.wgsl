@@ -26,16 +26,16 @@ fn main(
     let sponge = sponges.all[node_sponge[node]];
     var softer = 1.0;
     if (params.has_wetting != 0u) {
-        softer -= sponge.wetting.softening * node_wetting[node].x;
+        softer -= sponge.wetting.softening * node_wetting[node][NODE_WETTING_WETNESS];
     }
     let modulus = softer * (sponge.mu + sponge.lambda / 3.0);
-    let stiffness = 8.0 * control_position[row].w / (sponge.edge * sponge.edge) * modulus;
+    let stiffness = 8.0 * control_position[row][CONTROL_POSITION_VOLUME] / (sponge.edge * sponge.edge) * modulus;
     let elastic = HELD_BY_NEIGHBORS * clock.step * (clock.step + sponge.damping) * stiffness;
-    let drawn = control_compliance[row].x;
-    let inverse_mass = node_position[node].w;
+    let drawn = control_compliance[row][CONTROL_COMPLIANCE_COMPLIANCE];
+    let inverse_mass = node_position[node][NODE_POSITION_INVERSE_MASS];
     var response = 0.0;
     if (inverse_mass > 0.0) {
         response = 1.0 / (1.0 / inverse_mass + drawn + elastic);
     }
-    control_compliance[row] = vec4<f32>(response, drawn * response, 0.0, control_material[row].w);
+    control_compliance[row] = vec4<f32>(response, drawn * response, 0.0, control_material[row][CONTROL_MATERIAL_VOLUME]);
 }

@@ -20,7 +20,8 @@ fn main(
     let along = fluid_renormalisation[row].xyz;
     let between = fluid_renormalisation_between[row].xyz;
     let mobility = fluid_mobility[row];
-    let of_nodes = mobility.z * (dot(along, along) + 2.0 * dot(between, between));
-    let diagonal = fluid_pressure_rows[row].z;
-    fluid_pressure_rows[row].z = mobility.y * diagonal + (clock.step * clock.step) * of_nodes;
+    let of_nodes = mobility[FLUID_MOBILITY_DIAGONAL] * (dot(along, along) + 2.0 * dot(between, between));
+    let diagonal = fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_DIAGONAL];
+    let all = mobility[FLUID_MOBILITY_WITH_NODES] * diagonal + (clock.step * clock.step) * of_nodes;
+    fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_DIAGONAL] = all;
 }

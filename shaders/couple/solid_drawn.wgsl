@@ -26,12 +26,12 @@ fn main(
     if (is_row) {
         end = control_fluid[first];
     }
-    let scale = own.w * params.coupling.value;
+    let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     var part = 0.0;
     for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let other = control_fluid[first + 1u + k];
         let apart = own.xyz - fluid_position[other].xyz;
-        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * fluid_held[other].w;
+        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * fluid_held[other][FLUID_HELD_MASS];
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0));
     if (is_row && lane % CONTROL_THREADS == 0u) {

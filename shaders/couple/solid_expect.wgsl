@@ -29,10 +29,10 @@ fn main(
     let solid = 1.0 - sponges.all[node_sponge[node]].porosity;
     control_material[row] = vec4<f32>(v, solid * node_volume[node]);
     let driven = node_driven[node];
-    let inverse_mass = node_position[node].w;
+    let inverse_mass = node_position[node][NODE_POSITION_INVERSE_MASS];
     var expected = vec3<f32>(0.0);
-    if (inverse_mass > 0.0 && driven.w > 0.0) {
-        expected = (clock.step / (driven.w * inverse_mass)) * (v - driven.xyz);
+    if (inverse_mass > 0.0 && driven[NODE_DRIVEN_STEP] > 0.0) {
+        expected = (clock.step / (driven[NODE_DRIVEN_STEP] * inverse_mass)) * (v - driven.xyz);
     }
     control_expected[row] = vec4<f32>(expected, 0.0);
 }

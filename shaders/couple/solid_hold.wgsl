@@ -18,7 +18,7 @@ fn main(
         return;
     }
     let moved = fluid_correction[row];
-    let mass = fluid_held[row].w;
+    let mass = fluid_held[row][FLUID_HELD_MASS];
     fluid_held[row] = vec4<f32>(mass * (moved.xyz - fluid_velocity[row].xyz), mass);
     fluid_undragged[row] = moved;
 }

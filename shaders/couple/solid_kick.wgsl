@@ -22,7 +22,7 @@ fn main(
     }
     let node = control_node[row];
     let before = node_acceleration[node];
-    let inverse_mass = node_position[node].w;
-    node_acceleration[node] = vec4<f32>(before.xyz + control_force[row].xyz * inverse_mass, before.w);
+    let inverse_mass = node_position[node][NODE_POSITION_INVERSE_MASS];
+    node_acceleration[node] = with_vector(before, before.xyz + control_force[row].xyz * inverse_mass);
     node_driven[node] = vec4<f32>(node_velocity[node].xyz + control_impulse[row].xyz * inverse_mass, clock.step);
 }

@@ -32,7 +32,7 @@ fn main(
         let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        let weight = there[CONTROL_POSITION_VOLUME] * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_material[other].xyz;
         interior += weight;
     }

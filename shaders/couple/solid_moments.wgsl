@@ -38,9 +38,9 @@ fn main(
         let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        let weight = there[CONTROL_POSITION_VOLUME] * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         interior += weight;
-        follows += weight * control_compliance[other].y;
+        follows += weight * control_compliance[other][CONTROL_COMPLIANCE_DRAWN];
     }
     for (var mirror = 0u; mirror < mirrors; mirror += 1u) {
         let by = mirror_of(near, mirror);
@@ -49,11 +49,11 @@ fn main(
             let response = control_compliance[other];
             let offset = mirrored(by, control_position[other].xyz) - point;
             let u = closeness(params.solid, dot(offset, offset));
-            let push = (response.w * params.solid.gradient * (u * u * u)) * offset;
-            moment += vec4<f32>(push, response.w * params.solid.value * shape(u));
+            let push = (response[CONTROL_COMPLIANCE_VOLUME] * params.solid.gradient * (u * u * u)) * offset;
+            moment += vec4<f32>(push, response[CONTROL_COMPLIANCE_VOLUME] * params.solid.value * shape(u));
             along += push * offset;
             between += push.yzx * offset.zxy;
-            direct += dot(push, push) * response.x;
+            direct += dot(push, push) * response[CONTROL_COMPLIANCE_COMPLIANCE];
         }
     }
     moment = share_sum(lane, moment);
@@ -63,7 +63,7 @@ fn main(
     if (!share.writes) {
         return;
     }
-    let own = fluid_mobility[row].x;
+    let own = fluid_mobility[row][FLUID_MOBILITY_MOBILITY];
     let with_nodes = own + (1.0 - own) * (second.w * weight_inside(first.w));
     fluid_mobility[row] = vec4<f32>(own, with_nodes, direct * (params.particle_mass / 3.0), 0.0);
     fluid_moment[row] = moment;

@@ -30,12 +30,12 @@ fn main(
         let other = fluid_controls[row + (k + 1u) * rows];
         let apart = own.xyz - control_position[other].xyz;
         let u = closeness(params.solid, dot(apart, apart));
-        sum += (control_solid[other].w * (u * u * u)) * apart;
+        sum += (control_solid[other][CONTROL_SOLID_VOLUME] * (u * u * u)) * apart;
     }
     let all = share_sum3(lane, sum);
     if (share.writes) {
         let before = fluid_acceleration[row];
-        let scale = params.solid.gradient * params.rest_density * own.w;
-        fluid_acceleration[row] = vec4<f32>(before.xyz + all * scale, before.w);
+        let scale = params.solid.gradient * params.rest_density * own[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY];
+        fluid_acceleration[row] = with_vector(before, before.xyz + all * scale);
     }
 }

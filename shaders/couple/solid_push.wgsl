@@ -31,7 +31,7 @@ fn main(
     }
     let near = walls_near(own.xyz);
     let mirrors = select(1u, MIRRORS, near != 0u);
-    let scale = own.w * params.coupling.value;
+    let scale = own[CONTROL_POSITION_VOLUME] * params.coupling.value;
     var push = vec3<f32>(0.0);
     var drawn = vec3<f32>(0.0);
     for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
@@ -49,7 +49,7 @@ fn main(
             let between = fluid_renormalisation_between[other].xyz;
             let offset = there - particle.xyz;
             let u = closeness(params.solid, dot(offset, offset));
-            push += by.signs * ((particle.w * (u * u * u)) * symmetric_times(along, between, offset));
+            push += by.signs * ((particle[FLUID_PREDICTED_PRESSURE] * (u * u * u)) * symmetric_times(along, between, offset));
         }
     }
     let pushed = control_sum(lane, vec4<f32>(push, 0.0));

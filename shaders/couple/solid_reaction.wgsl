@@ -37,18 +37,18 @@ fn main(
         let particle = fluid_position[other];
         let apart = before - particle.xyz;
         let u = closeness(params.solid, dot(apart, apart));
-        part += (particle.w * params.rest_density * (u * u * u)) * apart;
+        part += (particle[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY] * params.rest_density * (u * u * u)) * apart;
         let moved = fluid_predicted[other];
         let apart_after = solid.xyz - moved.xyz;
         let u_after = closeness(params.solid, dot(apart_after, apart_after));
-        part += (moved.w * (u_after * u_after * u_after)) * apart_after;
+        part += (moved[FLUID_PREDICTED_PRESSURE_CHANGE] * (u_after * u_after * u_after)) * apart_after;
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0)).xyz;
     if (!is_row || lane % CONTROL_THREADS != 0u) {
         return;
     }
-    let force = sum * (solid.w * params.solid.gradient * params.particle_mass);
+    let force = sum * (solid[CONTROL_SOLID_VOLUME] * params.solid.gradient * params.particle_mass);
     let node = control_node[row];
     let old = node_acceleration[node];
-    node_acceleration[node] = vec4<f32>(old.xyz + force * node_position[node].w, old.w);
+    node_acceleration[node] = with_vector(old, old.xyz + force * node_position[node][NODE_POSITION_INVERSE_MASS]);
 }

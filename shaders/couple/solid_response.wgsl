@@ -20,10 +20,10 @@ fn main(
         return;
     }
     let response = control_compliance[row];
-    let force = control_force[row].xyz * (response.w * params.solid.gradient * params.particle_mass);
+    let force = control_force[row].xyz * (response[CONTROL_COMPLIANCE_VOLUME] * params.solid.gradient * params.particle_mass);
     let received = force * clock.step + control_solved[row].xyz;
-    let velocity = control_material[row].xyz + response.x * (received + control_expected[row].xyz);
+    let velocity = control_material[row].xyz + response[CONTROL_COMPLIANCE_COMPLIANCE] * (received + control_expected[row].xyz);
     control_force[row] = vec4<f32>(force, 0.0);
     control_impulse[row] = vec4<f32>(received, 0.0);
-    control_solved[row] = vec4<f32>(velocity, response.w);
+    control_solved[row] = vec4<f32>(velocity, response[CONTROL_COMPLIANCE_VOLUME]);
 }

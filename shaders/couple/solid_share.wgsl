@@ -29,7 +29,7 @@ fn main(
         let solid = control_solid[fluid_controls[row + (k + 1u) * rows]];
         let apart = point - solid.xyz;
         let u = closeness(params.solid, dot(apart, apart));
-        part += solid.w * vec4<f32>(apart * (u * u * u), shape(u));
+        part += solid[CONTROL_SOLID_VOLUME] * vec4<f32>(apart * (u * u * u), shape(u));
     }
     let sum = share_sum(lane, part);
     if (!share.writes) {
@@ -37,5 +37,5 @@ fn main(
     }
     let before = fluid_boundary[row];
     let slope = sum.xyz * params.solid.gradient;
-    fluid_boundary[row] = vec4<f32>(before.xyz - slope, before.w + sum.w * params.solid.value);
+    fluid_boundary[row] = vec4<f32>(before.xyz - slope, before[FLUID_BOUNDARY_SHARE] + sum.w * params.solid.value);
 }

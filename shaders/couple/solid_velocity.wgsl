@@ -37,7 +37,7 @@ fn main(
         let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
         let apart = point - there.xyz;
-        let weight = there.w * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
+        let weight = there[CONTROL_POSITION_VOLUME] * params.coupling.value * shape(closeness(params.coupling, dot(apart, apart)));
         sum += weight * control_solved[other].xyz;
         interior += weight;
     }
@@ -48,7 +48,7 @@ fn main(
             let node = control_solved[other];
             let offset = point - mirrored(by, control_position[other].xyz);
             let u = closeness(params.solid, dot(offset, offset));
-            let apart = (node.w * (u * u * u)) * offset;
+            let apart = (node[CONTROL_SOLVED_VOLUME] * (u * u * u)) * offset;
             let v = by.signs * node.xyz;
             moment += apart;
             on += v * apart;
@@ -62,7 +62,7 @@ fn main(
     if (!share.writes || end == 0u) {
         return;
     }
-    let mobility = fluid_mobility[row].x;
+    let mobility = fluid_mobility[row][FLUID_MOBILITY_MOBILITY];
     let own = mobility * fluid_correction[row].xyz + ((1.0 - mobility) * weight_inside(all.w)) * all.xyz;
     on -= own * moment;
     off -= own.yzx * moment.zxy + own.zxy * moment.yzx;

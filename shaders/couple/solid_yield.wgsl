@@ -23,7 +23,7 @@ fn main(
     let share = shared_row(group, groups, lane, rows);
     let row = share.row;
     let own = fluid_predicted[row];
-    let follows = fluid_drag_rate[row].z;
+    let follows = fluid_drag_rate[row][FLUID_DRAG_RATE_COMPLIANCE];
     var sum = 0.0;
     if (follows > 0.0) {
         let gradient = params.smoothing.gradient * (params.particle_mass / params.rest_density);
@@ -33,7 +33,8 @@ fn main(
             let there = fluid_predicted[other];
             let apart = own.xyz - there.xyz;
             let u = closeness(params.smoothing, dot(apart, apart));
-            sum += gradient * (u * u * u) * fluid_drag_rate[other].z * (there.w - own.w);
+            let difference = there[FLUID_PREDICTED_PRESSURE_CHANGE] - own[FLUID_PREDICTED_PRESSURE_CHANGE];
+            sum += gradient * (u * u * u) * fluid_drag_rate[other][FLUID_DRAG_RATE_COMPLIANCE] * difference;
         }
     }
     let all = share_sum(lane, vec4<f32>(sum, 0.0, 0.0, 0.0)).x;

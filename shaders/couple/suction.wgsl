@@ -36,6 +36,6 @@ fn main(
     if (share.writes) {
         let before = fluid_acceleration[row];
         let scale = params.coupling.gradient * (1.0 / params.rest_density);
-        fluid_acceleration[row] = vec4<f32>(before.xyz + all * scale, before.w);
+        fluid_acceleration[row] = with_vector(before, before.xyz + all * scale);
     }
 }

@@ -27,5 +27,5 @@ fn main(
         return;
     }
     let before = control_unfiltered[row];
-    control_velocity[row] = vec4<f32>(before.xyz + received * before.w, control_velocity[row].w);
+    control_velocity[row] = with_vector(control_velocity[row], before.xyz + received * before[CONTROL_UNFILTERED_INVERSE_MASS]);
 }

@@ -29,7 +29,7 @@ fn main(
     let before = node_wetting[node];
     var saturation = control_saturation[row] * max(traits.interior, 1.0);
     if (sponge.wetting.swelling > 0.0) {
-        let size = 1.0 + sponge.wetting.swelling * before.x;
+        let size = 1.0 + sponge.wetting.swelling * before[NODE_WETTING_WETNESS];
         let porosity = 1.0 - (1.0 - sponge.porosity) / (size * size * size);
         saturation *= sponge.porosity / porosity;
     }
@@ -38,13 +38,14 @@ fn main(
     for (var k = 1u; k < sponge.wetting.exponent; k += 1u) {
         mobility *= filled;
     }
-    let receding = clamp(before.z + (before.y - filled) * (1.0 / SCANNING_BAND), 0.0, 1.0);
+    let drained = before[NODE_WETTING_SATURATION] - filled;
+    let receding = clamp(before[NODE_WETTING_RECEDING_SHARE] + drained * (1.0 / SCANNING_BAND), 0.0, 1.0);
     let dry = max(1.0 - saturation, 0.0);
     let pressure =
         -(sponge.entry_pressure + receding * sponge.wetting.receding) * (1.0 + sponge.saturation_gain * dry);
-    let wetness = (sponge.wetting.time * before.x + clock.step * filled) / (sponge.wetting.time + clock.step);
+    let wetness = (sponge.wetting.time * before[NODE_WETTING_WETNESS] + clock.step * filled) / (sponge.wetting.time + clock.step);
     control_saturation[row] = saturation;
-    control_suction[row] = pressure * traits.suction * control_position[row].w;
+    control_suction[row] = pressure * traits.suction * control_position[row][CONTROL_POSITION_VOLUME];
     node_saturation[node] = saturation;
     node_wetting[node] = vec4<f32>(wetness, filled, receding, max(mobility, MINIMUM_MOBILITY));
     node_stars[node * STAR_WORDS + STAR_WETNESS] = bitcast<u32>(wetness);

@@ -45,7 +45,7 @@ fn main(
     let volume = params.particle_mass / params.rest_density;
     let force = sum * (control_suction[row] * params.coupling.gradient * volume);
     let node = control_node[row];
-    let scale = sponges.all[node_sponge[node]].reaction * node_position[node].w;
+    let scale = sponges.all[node_sponge[node]].reaction * node_position[node][NODE_POSITION_INVERSE_MASS];
     let before = node_acceleration[node];
-    node_acceleration[node] = vec4<f32>(before.xyz + force * scale, before.w);
+    node_acceleration[node] = with_vector(before, before.xyz + force * scale);
 }

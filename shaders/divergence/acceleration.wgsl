@@ -32,11 +32,11 @@ fn main(
         let apart = apart_from(own.xyz, there.xyz);
         let along = fluid_renormalisation[other].xyz;
         let between = fluid_renormalisation_between[other].xyz;
-        sum += (pair_factor(apart) * there.w) * symmetric_times(along, between, apart);
+        sum += (pair_factor(apart) * there[FLUID_PREDICTED_PRESSURE]) * symmetric_times(along, between, apart);
     }
     let all = share_sum3(lane, sum);
     if (share.writes) {
-        let push = own.w * fluid_factors[row].xyz + all;
+        let push = own[FLUID_PREDICTED_PRESSURE] * fluid_factors[row].xyz + all;
         fluid_correction[row] = vec4<f32>(fluid_velocity[row].xyz + clock.step * push, 0.0);
     }
 }

@@ -31,10 +31,10 @@ fn main(
         let apart = apart_from(point.xyz, there.xyz);
         let along = fluid_renormalisation[other].xyz;
         let between = fluid_renormalisation_between[other].xyz;
-        sum += (pair_factor(apart) * there.w) * symmetric_times(along, between, apart);
+        sum += (pair_factor(apart) * there[FLUID_PREDICTED_PRESSURE]) * symmetric_times(along, between, apart);
     }
     let all = share_sum3(lane, sum);
     if (share.writes) {
-        image_forces[row] = vec4<f32>(all * point.w, 0.0);
+        image_forces[row] = vec4<f32>(all * point[IMAGE_RATIO], 0.0);
     }
 }

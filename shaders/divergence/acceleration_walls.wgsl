@@ -35,7 +35,7 @@ fn main(
         let apart = apart_from(point, image_position[other].xyz);
         let along = fluid_renormalisation[image.source].xyz;
         let between = mirrored_between(image, fluid_renormalisation_between[image.source].xyz);
-        sum += (pair_factor(apart) * fluid_predicted[image.source].w) * symmetric_times(along, between, apart);
+        sum += (pair_factor(apart) * fluid_predicted[image.source][FLUID_PREDICTED_PRESSURE]) * symmetric_times(along, between, apart);
     }
     let all = share_sum3(lane, sum);
     if (share.writes) {

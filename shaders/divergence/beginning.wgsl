@@ -26,14 +26,16 @@ fn main(
     var sums = vec4<f32>(0.0);
     if (share.writes) {
         let own = fluid_velocity[row];
-        let outside = vec2<f32>(own.w * own.w, fluid_factors[row].w);
-        let counted = select(outside, vec2<f32>(0.0), fluid_moment[row].w > MINIMUM_MATERIAL);
+        let pressure = own[FLUID_VELOCITY_PRESSURE];
+        let outside = vec2<f32>(pressure * pressure, fluid_factors[row][FLUID_FACTORS_TARGET]);
+        let counted = select(outside, vec2<f32>(0.0), fluid_moment[row][FLUID_MOMENT_MATERIAL] > MINIMUM_MATERIAL);
         sums = vec4<f32>(dot(own.xyz, own.xyz), counted, 0.0);
-        fluid_pressure_rows[row].x = select(0.0, own.w, fluid_renormalisation[row].w >= SPARSE);
+        let is_dense = fluid_renormalisation[row][FLUID_RENORMALISATION_DENSITY] >= SPARSE;
+        fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_PRESSURE] = select(0.0, pressure, is_dense);
     }
     let all = group_row(lane, sums, false);
     let place = group_of(group, groups);
     if (lane == 0u && place * (GROUP / SHARES) < rows) {
-        solve_sums[place * 2u] = all;
+        solve_sums[place * SOLVE_SUM_ROWS] = all;
     }
 }

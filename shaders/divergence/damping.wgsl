@@ -38,11 +38,11 @@ fn main(
         let other = fluid_near_images[row + (k + 1u) * rows];
         let there = image_position[other];
         let apart = apart_from(point, there.xyz);
-        sum += (there.w * pair_factor(apart) * dot(fluid_image_vectors[other].xyz - own, apart)) * apart;
+        sum += (there[IMAGE_RATIO] * pair_factor(apart) * dot(fluid_image_vectors[other].xyz - own, apart)) * apart;
     }
     let all = share_sum3(lane, sum);
     if (share.writes) {
         let before = fluid_acceleration[row];
-        fluid_acceleration[row] = vec4<f32>(before.xyz - all * damping_rate(), before.w);
+        fluid_acceleration[row] = with_vector(before, before.xyz - all * damping_rate());
     }
 }

@@ -39,16 +39,16 @@ fn main(
             slot += rows;
             let other = fluid_near_images[slot];
             let value = fluid_image_vectors[other];
-            if (u32(value.w) == index + 1u) {
+            if (u32(value[IMAGE_BODY]) == index + 1u) {
                 let there = image_position[other];
                 let apart = apart_from(point, there.xyz);
-                sum += (there.w * pair_factor(apart) * dot(value.xyz - own, apart)) * apart;
+                sum += (there[IMAGE_RATIO] * pair_factor(apart) * dot(value.xyz - own, apart)) * apart;
             }
         }
         if (group_touches(lane, any(sum != vec3<f32>(0.0)))) {
             let impulse = scale * sum;
             let all = group_sum(lane, Wrench(impulse, cross(point - body_states[index].position, impulse)));
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
             if (lane == 0u && group_of(group, groups) * GROUP_THREADS < rows) {
                 body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
                 body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);

@@ -31,12 +31,12 @@ fn main(
     for (var k = fluid_image_first[row]; k < end; k += 1u) {
         let there = image_position[k];
         let offset = -apart_from(point, there.xyz);
-        let received = (there.w * pair_factor(offset)) * symmetric_times(along, between.xyz, offset);
+        let received = (there[IMAGE_RATIO] * pair_factor(offset)) * symmetric_times(along, between.xyz, offset);
         push += back(images[k], received);
         own += dot(received, received);
     }
     let minimum = MINIMUM_DIAGONAL / (params.spacing * params.spacing);
-    let diagonal = max(max(between.w - own, 0.0) + dot(push, push), minimum);
+    let diagonal = max(max(between[BEFORE_IMAGES] - own, 0.0) + dot(push, push), minimum);
     fluid_renormalisation_between[row] = vec4<f32>(between.xyz, 0.0);
     fluid_pressure_rows[row] = vec4<f32>(0.0, 0.0, diagonal * (clock.step * clock.step), 0.0);
 }

@@ -37,7 +37,7 @@ fn main(
         let image = images[other];
         let there = image_position[other];
         let apart = apart_from(point, there.xyz);
-        let push = (there.w * pair_factor(apart)) * apart;
+        let push = (there[IMAGE_RATIO] * pair_factor(apart)) * apart;
         own += push * difference(there.xyz - fluid_position[image.source].xyz);
         if (image.body == NO_BODY) {
             let signs = signs_of(image);
@@ -51,6 +51,6 @@ fn main(
     let sum = share_sum3(lane, part);
     if (share.writes) {
         let before = fluid_acceleration[row];
-        fluid_acceleration[row] = vec4<f32>(before.xyz + sum, before.w);
+        fluid_acceleration[row] = with_vector(before, before.xyz + sum);
     }
 }

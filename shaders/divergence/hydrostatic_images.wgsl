@@ -41,6 +41,6 @@ fn main(
     let all = share_sum3(lane, sum);
     if (share.writes) {
         let d = difference(point.xyz - fluid_position[images[row].source].xyz);
-        image_forces[row] = vec4<f32>(all * (point.w * d), 0.0);
+        image_forces[row] = vec4<f32>(all * (point[IMAGE_RATIO] * d), 0.0);
     }
 }

@@ -39,7 +39,7 @@ fn react(group: vec3<u32>, groups: vec3<u32>, lane: u32, factor: f32) {
             }
         }
         let place = group_of(group, groups);
-        let slot = (place * params.body_rows + index) * 2u;
+        let slot = (place * params.body_rows + index) * WRENCH_ROWS;
         var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
         if (group_touches(lane, any(own.impulse != vec3<f32>(0.0)))) {
             all = group_sum(lane, own);
@@ -51,7 +51,7 @@ fn react(group: vec3<u32>, groups: vec3<u32>, lane: u32, factor: f32) {
     }
     if (is_row) {
         let before = vectors[row];
-        vectors[row] = vec4<f32>(before.xyz + factor * sum, before.w);
+        vectors[row] = with_vector(before, before.xyz + factor * sum);
     }
 }
 

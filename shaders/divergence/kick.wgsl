@@ -18,9 +18,9 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    fluid_velocity[row] = vec4<f32>(fluid_correction[row].xyz, fluid_pressure_rows[row].x);
+    fluid_velocity[row] = vec4<f32>(fluid_correction[row].xyz, fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_PRESSURE]);
     let groups_of_rows = (params.fluid_rows + GROUP_THREADS - 1u) / GROUP_THREADS;
-    let end = groups_of_rows * params.body_rows * 2u;
+    let end = groups_of_rows * params.body_rows * WRENCH_ROWS;
     for (var slot = row; slot < end; slot += params.fluid_rows) {
         body_fluid_wrenches[slot] += body_pressure_wrenches[slot];
     }

@@ -81,13 +81,13 @@ fn main(
         let other = fluid_near_images[row + (k + 1u) * rows];
         let there = image_position[other];
         let offset = -apart_from(point, there.xyz);
-        let push = (there.w * pair_factor(offset)) * offset;
+        let push = (there[IMAGE_RATIO] * pair_factor(offset)) * offset;
         first += push;
         along += push * offset;
         between += push.yzx * offset.zxy;
         squares += push * push;
         squares_between += push.yzx * push.zxy;
-        shapes += there.w * shape(closeness(params.smoothing, dot(offset, offset)));
+        shapes += there[IMAGE_RATIO] * shape(closeness(params.smoothing, dot(offset, offset)));
     }
     let all_first = share_sum(lane, vec4<f32>(first, shapes));
     first = all_first.xyz;
@@ -105,7 +105,7 @@ fn main(
     first += material.xyz;
     along += fluid_renormalisation[row].xyz;
     between += fluid_renormalisation_between[row].xyz;
-    let density = shapes * (params.smoothing.value * volume) + material.w;
+    let density = shapes * (params.smoothing.value * volume) + material[FLUID_MOMENT_MATERIAL];
     let inverse = inverse_of(along, between);
     // The square of the inverse, contracted with those.
     let a = inverse.along;
@@ -119,6 +119,7 @@ fn main(
     fluid_renormalisation[row] = vec4<f32>(inverse.along, density);
     // Beside it what `diagonal.wgsl` begins with.
     fluid_renormalisation_between[row] = vec4<f32>(inverse.between, all);
-    fluid_moment[row] = vec4<f32>(first, material.w);
-    fluid_factors[row] = vec4<f32>(-symmetric_times(inverse.along, inverse.between, first), target_of(density, first, material.w));
+    fluid_moment[row] = vec4<f32>(first, material[FLUID_MOMENT_MATERIAL]);
+    let asked = target_of(density, first, material[FLUID_MOMENT_MATERIAL]);
+    fluid_factors[row] = vec4<f32>(-symmetric_times(inverse.along, inverse.between, first), asked);
 }

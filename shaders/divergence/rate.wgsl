@@ -43,6 +43,6 @@ fn main(
     let rate = share_sum(lane, vec4<f32>(dot(on, along) + dot(off, between), 0.0, 0.0, 0.0)).x;
     if (share.writes) {
         // Beside the velocity is the part of the material of sponges.
-        fluid_rate[row] = rate + moved.w;
+        fluid_rate[row] = rate + moved[FLUID_CORRECTION_COMPRESSION_RATE];
     }
 }

@@ -33,7 +33,7 @@ fn main(
         let other = fluid_near_images[row + (k + 1u) * rows];
         let there = image_position[other];
         let offset = apart_from(point, there.xyz);
-        let apart = (there.w * pair_factor(offset)) * offset;
+        let apart = (there[IMAGE_RATIO] * pair_factor(offset)) * offset;
         let v = fluid_image_vectors[other].xyz - own;
         on += v * apart;
         off += v.yzx * apart.zxy + v.zxy * apart.yzx;

@@ -1,4 +1,4 @@
-// #include sums, shares
+// #include sums, shares, pressure_rows
 // After the rate of the velocities: the remaining compression, and the sums for `solve_round.wgsl`.
 //
 //     r_i = h t_i - h div w_i
@@ -28,31 +28,22 @@ fn main(
     var sums = vec4<f32>(0.0);
     var others = vec4<f32>(0.0);
     if (share.writes) {
-        let is_in_pores = fluid_moment[row].w > MINIMUM_MATERIAL;
+        let is_in_pores = fluid_moment[row][FLUID_MOMENT_MATERIAL] > MINIMUM_MATERIAL;
         let scale = select(fluid_pressure_solve.target_scale, 1.0, is_in_pores);
-        let rest = fluid_factors[row].w * scale + fluid_rate[row] * clock.step;
-        let left = select(rest, 0.0, fluid_renormalisation[row].w < SPARSE);
-        let before = fluid_pressure_rows[row];
-        let response = before.w - left;
-        var error = left;
-        if (left <= 0.0) {
-            error = min(-left, before.x * before.z);
-        }
-        sums = vec4<f32>(
-            error,
-            before.y * before.y * before.z,
-            before.y * response,
-            response * response / before.z,
-        );
-        let weighted = before.x * select(1.0, PRESSURE_IN_PORES, is_in_pores);
+        let rest = fluid_factors[row][FLUID_FACTORS_TARGET] * scale + fluid_rate[row] * clock.step;
+        let left = select(rest, 0.0, fluid_renormalisation[row][FLUID_RENORMALISATION_DENSITY] < SPARSE);
+        let before = pressure_row(fluid_pressure_rows[row]);
+        sums = round_sums(before, left);
+        let error = sums.x;
+        let weighted = before.pressure * select(1.0, PRESSURE_IN_PORES, is_in_pores);
         others = vec4<f32>(weighted * weighted, error * error * (error * error), 0.0, 0.0);
-        fluid_pressure_rows[row].w = left;
+        fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_COMPRESSION] = left;
     }
     let all = group_row(lane, sums, false);
     let rest = group_row(lane, others, false);
     let place = group_of(group, groups);
     if (lane == 0u && place * (GROUP / SHARES) < rows) {
-        solve_sums[place * 2u] = all;
-        solve_sums[place * 2u + 1u] = rest;
+        solve_sums[place * SOLVE_SUM_ROWS] = all;
+        solve_sums[place * SOLVE_SUM_ROWS + 1u] = rest;
     }
 }

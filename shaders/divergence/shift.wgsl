@@ -34,12 +34,12 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    if (fluid_renormalisation[row].w < SPARSE) {
+    if (fluid_renormalisation[row][FLUID_RENORMALISATION_DENSITY] < SPARSE) {
         return;
     }
     let own = fluid_position[row];
     let moment = fluid_moment[row].xyz;
-    if (fluid_moment[row].w > MINIMUM_MATERIAL) {
+    if (fluid_moment[row][FLUID_MOMENT_MATERIAL] > MINIMUM_MATERIAL) {
         return;
     }
     let share = max(1.0 - sqrt(dot(moment, moment)) / (SHIFT_END * params.surface_moment), 0.0);
@@ -65,5 +65,5 @@ fn main(
     if (length > most) {
         shift *= most / length;
     }
-    fluid_position[row] = vec4<f32>(own.xyz + shift, own.w);
+    fluid_position[row] = with_vector(own, own.xyz + shift);
 }

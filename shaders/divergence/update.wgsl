@@ -1,3 +1,4 @@
+// #include pressure_rows
 // One round of a pressure solve: a step along the projected gradient.
 //
 //     P_i <- min(max(0, P_i + alpha r_i / A_i), (10 u)^2)
@@ -19,9 +20,8 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let own = fluid_pressure_rows[row];
-    let speed = SOUND_SPEED_RATIO * params.correction_speed;
-    let next = min(max(own.x + fluid_pressure_solve.length * own.w / own.z, 0.0), speed * speed);
-    fluid_pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
+    let own = pressure_row(fluid_pressure_rows[row]);
+    let next = next_pressure(own, fluid_pressure_solve.length, params.correction_speed);
+    fluid_pressure_rows[row] = with_pressure(own, next);
     fluid_predicted[row] = vec4<f32>(fluid_position[row].xyz, next);
 }

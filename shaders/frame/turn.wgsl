@@ -8,7 +8,7 @@
 fn turned(position: vec3<f32>, velocity: vec4<f32>) -> vec4<f32> {
     let coriolis = mat3x3<f32>(turn.coriolis_x.xyz, turn.coriolis_y.xyz, turn.coriolis_z.xyz);
     let field = mat3x3<f32>(turn.field_x.xyz, turn.field_y.xyz, turn.field_z.xyz);
-    return vec4<f32>(coriolis * velocity.xyz + field * position, velocity.w);
+    return with_vector(velocity, coriolis * velocity.xyz + field * position);
 }
 
 @compute @workgroup_size(GROUP)
@@ -31,7 +31,7 @@ fn nodes(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    if (row < params.node_rows && positions[row].w > 0.0) {
+    if (row < params.node_rows && positions[row][NODE_POSITION_INVERSE_MASS] > 0.0) {
         velocities[row] = turned(positions[row].xyz, velocities[row]);
     }
 }

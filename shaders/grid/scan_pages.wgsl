@@ -39,20 +39,20 @@ fn main(
         }
         start = group_scan(lane, vec4<u32>(of_page, 0u, 0u, 0u)).all.x;
     }
-    // Four tiles of 1024 values at once.
+    // Four tiles at once, four values a thread.
     let first = page * (PAGE_CELLS / 4u) + lane;
     let a = counts[first];
     let b = counts[first + GROUP_THREADS];
-    let c = counts[first + 512u];
-    let d = counts[first + 768u];
+    let c = counts[first + 2u * GROUP_THREADS];
+    let d = counts[first + 3u * GROUP_THREADS];
     let scan = group_scan(lane, vec4<u32>(total(a), total(b), total(c), total(d)));
     let before = exclusive(scan.all, start) + scan.before;
     starts[first] = exclusive(a, before.x);
     starts[first + GROUP_THREADS] = exclusive(b, before.y);
-    starts[first + 512u] = exclusive(c, before.z);
-    starts[first + 768u] = exclusive(d, before.w);
+    starts[first + 2u * GROUP_THREADS] = exclusive(c, before.z);
+    starts[first + 3u * GROUP_THREADS] = exclusive(d, before.w);
     counts[first] = vec4<u32>(0u);
     counts[first + GROUP_THREADS] = vec4<u32>(0u);
-    counts[first + 512u] = vec4<u32>(0u);
-    counts[first + 768u] = vec4<u32>(0u);
+    counts[first + 2u * GROUP_THREADS] = vec4<u32>(0u);
+    counts[first + 3u * GROUP_THREADS] = vec4<u32>(0u);
 }

@@ -24,8 +24,8 @@ fn main(
         let tet = tets[row];
         if (sponge.wetting.softening > 0.0 || sponge.wetting.swelling > 0.0) {
             // As `wetted.rs` has it.
-            let two = vec2<f32>(node_wetting[tet.x].x, node_wetting[tet.y].x);
-            let others = vec2<f32>(node_wetting[tet.z].x, node_wetting[tet.w].x);
+            let two = vec2<f32>(node_wetting[tet.x][NODE_WETTING_WETNESS], node_wetting[tet.y][NODE_WETTING_WETNESS]);
+            let others = vec2<f32>(node_wetting[tet.z][NODE_WETTING_WETNESS], node_wetting[tet.w][NODE_WETTING_WETNESS]);
             let wetness = 0.25 * dot(two + others, vec2<f32>(1.0));
             sponge.edge *= 1.0 + sponge.wetting.swelling * wetness;
             sponge.mu *= 1.0 - sponge.wetting.softening * wetness;

@@ -15,8 +15,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if (clock.running == 0u) {
         return;
     }
-    var low = vec3<f32>(3.0e38);
-    var high = vec3<f32>(-3.0e38);
+    var low = vec3<f32>(-NO_VALUE);
+    var high = vec3<f32>(NO_VALUE);
     for (var color = 0u; color < VERTEX_COLORS; color += 1u) {
         let range = sponge_ranges[group.x * RANGES + color];
         for (var row = range.x + lane; row < range.y; row += SPONGE_THREADS) {
@@ -34,7 +34,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         }
     }
     if (lane == 0u) {
-        sponge_boxes[group.x * 2u] = vec4<f32>(lows[0] - params.pair_radius, 0.0);
-        sponge_boxes[group.x * 2u + 1u] = vec4<f32>(highs[0] + params.pair_radius, 0.0);
+        sponge_boxes[group.x * BOX_ROWS] = vec4<f32>(lows[0] - params.pair_radius, 0.0);
+        sponge_boxes[group.x * BOX_ROWS + 1u] = vec4<f32>(highs[0] + params.pair_radius, 0.0);
     }
 }

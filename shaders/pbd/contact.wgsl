@@ -59,7 +59,7 @@ fn main(
     var moves = false;
     if (is_row) {
         point = node_predicted[row].xyz;
-        w = node_predicted[row].w;
+        w = node_predicted[row][NODE_PREDICTED_INVERSE_MASS];
         old = node_position[row].xyz;
         clearance = sponges.all[node_sponge[row]].edge * CLEARANCE;
         let sponge = sponges.all[node_sponge[row]];
@@ -90,7 +90,7 @@ fn main(
         }
         if (group_touches(lane, touches)) {
             let all = group_sum(lane, own);
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
             if (lane == 0u) {
                 body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
                 body_node_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);

@@ -25,15 +25,15 @@ fn main(
     }
     let y = node_predicted[row];
     var mass = 0.0;
-    if (y.w > 0.0) {
-        mass = 1.0 / y.w;
+    if (y[NODE_PREDICTED_INVERSE_MASS] > 0.0) {
+        mass = 1.0 / y[NODE_PREDICTED_INVERSE_MASS];
     }
     node_free[row] = vec4<f32>(y.xyz, mass);
     node_target[row] = vec4<f32>(y.xyz, mass);
     node_drag[row] = vec4<f32>(0.0);
     node_drag_moment[row] = vec4<f32>(0.0);
-    if (y.w > 0.0 && sponges.all[node_sponge[row]].solver == SOLVER_VBD) {
-        let lacking = clock.step * clock.step * (1.0 - node_velocity[row].w);
-        node_predicted[row] = vec4<f32>(y.xyz - node_acceleration[row].xyz * lacking, y.w);
+    if (y[NODE_PREDICTED_INVERSE_MASS] > 0.0 && sponges.all[node_sponge[row]].solver == SOLVER_VBD) {
+        let lacking = clock.step * clock.step * (1.0 - node_velocity[row][NODE_VELOCITY_FOLLOWED_SHARE]);
+        node_predicted[row] = with_vector(y, y.xyz - node_acceleration[row].xyz * lacking);
     }
 }

@@ -25,12 +25,12 @@ fn main(
     }
     let sponge = node_sponge[row];
     let start = node_predicted[row];
-    if (start.w <= 0.0 || sponges.all[sponge].solver != SOLVER_VBD) {
+    if (start[NODE_PREDICTED_INVERSE_MASS] <= 0.0 || sponges.all[sponge].solver != SOLVER_VBD) {
         return;
     }
     let x = node_position[row].xyz;
     var y = start.xyz;
-    if (node_reaction[row].w > 0.0) {
+    if (node_reaction[row][NODE_REACTION_MASS] > 0.0) {
         let turn = cross(sponge_motions[sponge * MOTION_ROWS + 2u].xyz, x - sponge_motions[sponge * MOTION_ROWS].xyz);
         y += (sponge_motions[sponge * MOTION_ROWS + 1u].xyz + turn) * clock.step;
         if (params.has_walls != 0u) {
@@ -39,7 +39,7 @@ fn main(
             y = select(y, params.wall_high, y > params.wall_high);
         }
     }
-    node_predicted[row] = vec4<f32>(y, start.w);
+    node_predicted[row] = with_vector(start, y);
     let v = node_velocity[row].xyz;
     let a = node_acceleration[row].xyz;
     let square = dot(a, a);

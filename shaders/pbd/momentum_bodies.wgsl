@@ -46,12 +46,12 @@ fn main(
     if (row < params.node_rows) {
         let sponge = node_sponge[row];
         let before = node_reaction[row];
-        if (before.w < 0.0 && sponges.all[sponge].solver == SOLVER_VBD) {
+        if (before[NODE_REACTION_MASS] < 0.0 && sponges.all[sponge].solver == SOLVER_VBD) {
             old = node_position[row].xyz;
             let turn = cross(sponge_motions[sponge * MOTION_ROWS + 2u].xyz, old - sponge_motions[sponge * MOTION_ROWS].xyz);
-            impulse = (sponge_motions[sponge * MOTION_ROWS + 1u].xyz + turn) * -before.w;
-            node_reaction[row] = vec4<f32>(before.xyz - impulse, before.w);
-            if (node_predicted[row].w > 0.0) {
+            impulse = (sponge_motions[sponge * MOTION_ROWS + 1u].xyz + turn) * -before[NODE_REACTION_MASS];
+            node_reaction[row] = with_vector(before, before.xyz - impulse);
+            if (node_predicted[row][NODE_PREDICTED_INVERSE_MASS] > 0.0) {
                 body = touched(node_predicted[row].xyz, sponges.all[sponge].edge * OBSTACLE_MARGIN);
             }
         }
@@ -60,7 +60,7 @@ fn main(
         if (group_touches(lane, body == index)) {
             let own = select(vec3<f32>(0.0), impulse, body == index);
             let all = group_sum(lane, Wrench(own, cross(old - body_states[index].position, own)));
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
             if (lane == 0u) {
                 body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
                 body_node_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);

@@ -15,16 +15,16 @@
 
 fn term(row: u32, origin: vec3<f32>) -> Sums {
     let x = node_position[row].xyz - origin;
-    var weight = node_reaction[row].w;
+    var weight = node_reaction[row][NODE_REACTION_MASS];
     if (weight > 0.0) {
-        weight += node_drag[row].w;
+        weight += node_drag[row][NODE_DRAG_MASS];
     }
     let mass = abs(weight);
     let y = node_predicted[row];
     var lacking = node_reaction[row].xyz;
     var moment = vec3<f32>(0.0);
-    if (y.w > 0.0) {
-        lacking += node_drag[row].xyz - (y.xyz - node_free[row].xyz) * (clock.inverse_step / y.w);
+    if (y[NODE_PREDICTED_INVERSE_MASS] > 0.0) {
+        lacking += node_drag[row].xyz - (y.xyz - node_free[row].xyz) * (clock.inverse_step / y[NODE_PREDICTED_INVERSE_MASS]);
         moment = node_drag_moment[row].xyz;
     }
     return Sums(

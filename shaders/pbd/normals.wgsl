@@ -12,11 +12,11 @@
 
 // Whether a node may be near another sponge.
 fn is_near(sponge: u32, x: vec3<f32>) -> bool {
-    for (var other = 0u; other < arrayLength(&sponge_boxes) / 2u && other < SPONGES; other += 1u) {
+    for (var other = 0u; other < arrayLength(&sponge_boxes) / BOX_ROWS && other < SPONGES; other += 1u) {
         if (!may_meet(sponge, other)) {
             continue;
         }
-        if (other == sponge || (all(x >= sponge_boxes[other * 2u].xyz) && all(x <= sponge_boxes[other * 2u + 1u].xyz))) {
+        if (other == sponge || (all(x >= sponge_boxes[other * BOX_ROWS].xyz) && all(x <= sponge_boxes[other * BOX_ROWS + 1u].xyz))) {
             return true;
         }
     }
@@ -38,7 +38,7 @@ fn main(
     let sponge = node_stars[base + STAR_SPONGE];
     let x = node_position[row].xyz;
     node_normal[row] = vec4<f32>(0.0);
-    let weight = node_rest[row].w;
+    let weight = node_rest[row][NODE_REST_FLATNESS];
     if (weight <= 0.0 || !is_near(sponge, x)) {
         return;
     }

@@ -17,7 +17,7 @@
 fn may_touch(a: u32, b: u32, own: u32) -> bool {
     let normal_b = node_normal[b];
     let other = node_stars[b * STAR_WORDS + STAR_SPONGE];
-    if (normal_b.w <= 0.0 || !may_meet(own, other)) {
+    if (normal_b[NODE_NORMAL_AREA] <= 0.0 || !may_meet(own, other)) {
         return false;
     }
     let edge = max(contact_edge(own), contact_edge(other));
@@ -52,7 +52,7 @@ fn main(
     if (clock.running == 0u || row >= pair_grid.rows) {
         return;
     }
-    if (node_normal[row].w <= 0.0) {
+    if (node_normal[row][NODE_NORMAL_AREA] <= 0.0) {
         node_pairs[row] = 0u;
         return;
     }

@@ -31,10 +31,10 @@ fn main(
         let arm = body.x * offset.x + body.y * offset.y + body.z * offset.z;
         y = body.position + arm + (body.linear + cross(body.angular, arm)) * clock.step;
     }
-    node_predicted[row] = vec4<f32>(y, x.w);
+    node_predicted[row] = with_vector(x, y);
     if (lane == 0u) {
-        let first = group_of(group, groups) * params.body_rows * 2u;
-        for (var k = 0u; k < params.body_rows * 2u; k += 1u) {
+        let first = group_of(group, groups) * params.body_rows * WRENCH_ROWS;
+        for (var k = 0u; k < params.body_rows * WRENCH_ROWS; k += 1u) {
             body_node_wrenches[first + k] = vec4<f32>(0.0);
         }
     }

@@ -53,7 +53,7 @@ fn main(
         sponge = sponges.all[node_stars[row * STAR_WORDS + STAR_SPONGE]];
         counts = sponge.solver == SOLVER_VBD;
     }
-    let free = x.w > 0.0;
+    let free = x[NODE_PREDICTED_INVERSE_MASS] > 0.0;
     let near = counts && free && is_near(x.xyz, old, sponge.edge * OBSTACLE_MARGIN);
     var local = Local(vec3<f32>(0.0), diagonal(1.0), 0.0);
     var quadratic = Quadratic(vec3<f32>(0.0), diagonal(1.0), diagonal(1.0));
@@ -83,7 +83,7 @@ fn main(
         if (group_touches(lane, any(pushed.force != vec3<f32>(0.0)))) {
             let impulse = pushed.force * -clock.step;
             let all = group_sum(lane, Wrench(impulse, cross(old - body_states[index].position, impulse)));
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
+            let slot = (group_of(group, groups) * params.body_rows + index) * WRENCH_ROWS;
             if (lane == 0u) {
                 body_node_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
                 body_node_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
@@ -99,7 +99,7 @@ fn main(
     if (row < params.node_rows) {
         var mass = 0.0;
         if (counts && free) {
-            mass = 1.0 / x.w;
+            mass = 1.0 / x[NODE_PREDICTED_INVERSE_MASS];
         }
         if (counts && (!free || any(force != vec3<f32>(0.0)))) {
             let trace = local.stiffness[0].x + local.stiffness[1].y + local.stiffness[2].z;

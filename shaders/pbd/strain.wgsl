@@ -122,7 +122,12 @@ fn main(
     p1 = b.xyz;
     p2 = c.xyz;
     p3 = d.xyz;
-    w = vec4<f32>(a.w, b.w, c.w, d.w);
+    w = vec4<f32>(
+        a[NODE_PREDICTED_INVERSE_MASS],
+        b[NODE_PREDICTED_INVERSE_MASS],
+        c[NODE_PREDICTED_INVERSE_MASS],
+        d[NODE_PREDICTED_INVERSE_MASS],
+    );
     old0 = node_position[tet.x].xyz;
     old1 = node_position[tet.y].xyz;
     old2 = node_position[tet.z].xyz;
@@ -136,8 +141,8 @@ fn main(
     shear(per_modulus / sponge.shear_modulus, damping);
     volume(per_modulus / sponge.volume_modulus, damping, false);
     volume(per_modulus / sponge.volume_modulus * LIMIT_COMPLIANCE, 0.0, true);
-    node_predicted[tet.x] = vec4<f32>(p0, a.w);
-    node_predicted[tet.y] = vec4<f32>(p1, b.w);
-    node_predicted[tet.z] = vec4<f32>(p2, c.w);
-    node_predicted[tet.w] = vec4<f32>(p3, d.w);
+    node_predicted[tet.x] = vec4<f32>(p0, a[NODE_PREDICTED_INVERSE_MASS]);
+    node_predicted[tet.y] = vec4<f32>(p1, b[NODE_PREDICTED_INVERSE_MASS]);
+    node_predicted[tet.z] = vec4<f32>(p2, c[NODE_PREDICTED_INVERSE_MASS]);
+    node_predicted[tet.w] = vec4<f32>(p3, d[NODE_PREDICTED_INVERSE_MASS]);
 }

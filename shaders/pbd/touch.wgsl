@@ -53,7 +53,7 @@ fn main(
         let modulus_a = sponges.all[own].lambda + sponges.all[own].mu;
         let modulus_b = sponges.all[sponge].lambda + sponges.all[sponge].mu;
         let modulus = 2.0 * modulus_a * modulus_b / (modulus_a + modulus_b);
-        let k = CONTACT_STIFFNESS * modulus / edge * facing * (n_a.w * n_b.w * share);
+        let k = CONTACT_STIFFNESS * modulus / edge * facing * (n_a[NODE_NORMAL_AREA] * n_b[NODE_NORMAL_AREA] * share);
         let square = 4.0 * depth * depth / (edge * edge);
         let push = k * depth * (1.0 + square);
         var slip = (y_a - x_a) - (y_b - x_b);

@@ -24,8 +24,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     for (var color = 0u; color < VERTEX_COLORS; color += 1u) {
         let range = sponge_ranges[group.x * RANGES + color];
         for (var row = range.x + lane; row < range.y; row += SPONGE_THREADS) {
-            set_bit(u32(node_touch[row].w));
-            set_bit(u32(node_touch_stiffness[row].w));
+            set_bit(u32(node_touch[row][NODE_TOUCH_LOWEST_SPONGE]));
+            set_bit(u32(node_touch_stiffness[row][NODE_TOUCH_STIFFNESS_HIGHEST_SPONGE]));
         }
     }
     workgroupBarrier();

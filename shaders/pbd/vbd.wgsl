@@ -25,7 +25,7 @@ fn main(
     let row = batch.first + share.row;
     let sponge = sponges.all[node_stars[row * STAR_WORDS + STAR_SPONGE]];
     let x = node_predicted[row];
-    let moves = x.w > 0.0 && sponge.solver == SOLVER_VBD;
+    let moves = x[NODE_PREDICTED_INVERSE_MASS] > 0.0 && sponge.solver == SOLVER_VBD;
     let old = node_position[row].xyz;
     var part = no_energy();
     if (moves) {
@@ -51,7 +51,7 @@ fn main(
         // The contact force is that of the minimum, without over-relaxation.
         point = pushed(quadratic, moved(x.xyz, quadratic.way), old, sponge);
     }
-    node_predicted[row] = vec4<f32>(point, x.w);
+    node_predicted[row] = with_vector(x, point);
 }
 
 fn no_energy() -> Local {

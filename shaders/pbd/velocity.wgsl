@@ -34,7 +34,7 @@ fn main(
     if (moves) {
         let y = node_predicted[row];
         let v = (y.xyz - node_position[row].xyz) * clock.inverse_step;
-        node_velocity[row] = vec4<f32>(v, node_velocity[row].w);
+        node_velocity[row] = with_vector(node_velocity[row], v);
         node_position[row] = y;
         let square = dot(v, v);
         if (is_finite(square)) {

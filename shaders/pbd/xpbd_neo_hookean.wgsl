@@ -55,7 +55,7 @@ fn main(
     for (var vertex = 0; vertex < 4; vertex += 1) {
         let n = by_norm[vertex];
         let a = apart[vertex];
-        let w = p[vertex].w;
+        let w = p[vertex][NODE_PREDICTED_INVERSE_MASS];
         nn += w * dot(n, n);
         na += w * dot(n, a);
         aa += w * dot(a, a);
@@ -83,6 +83,6 @@ fn main(
     let rows = array<u32, 4>(tet.x, tet.y, tet.z, tet.w);
     for (var vertex = 0; vertex < 4; vertex += 1) {
         let change = by_norm[vertex] * to_both + apart[vertex] * to_apart;
-        node_predicted[rows[vertex]] = vec4<f32>(p[vertex].xyz + change * p[vertex].w, p[vertex].w);
+        node_predicted[rows[vertex]] = with_vector(p[vertex], p[vertex].xyz + change * p[vertex][NODE_PREDICTED_INVERSE_MASS]);
     }
 }

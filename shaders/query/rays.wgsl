@@ -1,5 +1,5 @@
 // #include sums, water_around
-// Where rays meet the surface of the water: a group for each, of which every thread looks at another place.
+// Where rays meet the surface of the water: a group for each, whose threads take one place each.
 //
 // a: distance, or less than 0 if it meets none; particles near the ray; b: outward normal.
 
@@ -61,18 +61,18 @@ fn first_of(lane: u32, is_in: bool) -> u32 {
     return workgroupUniformLoad(&chosen);
 }
 
-@compute @workgroup_size(GROUP_THREADS)
-fn main(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32,
-) {
-    let place_in_batch = group_of(group, groups);
-    let index = min(question.first + place_in_batch, question.count - 1u);
-    let origin = asked[2u * index].xyz;
-    let length = asked[2u * index].w;
-    let direction = asked[2u * index + 1u].xyz;
-    // Particles near the ray, thread by thread.
+// The particles near a ray.
+struct Near {
+    // How many there are.
+    all: u32,
+    // How many of them there is room for.
+    count: u32,
+    // Largest of the distances along the ray at which they end, and of the negative ones at which they begin.
+    span: vec4<f32>,
+}
+
+// Stores the particles near a ray from the place `begin` on, thread by thread.
+fn collect_near(lane: u32, begin: u32, origin: vec3<f32>, direction: vec3<f32>, length: f32) -> Near {
     var own = 0u;
     for (var row = lane; row < params.fluid_rows; row += GROUP_THREADS) {
         own += u32(near(origin, direction, length, fluid_position[row].xyz).x);
@@ -85,9 +85,6 @@ fn main(
         before += select(0u, counts[k], k < lane);
         all += counts[k];
     }
-    let begin = place_in_batch * NEAR_RAY;
-    let count = min(all, NEAR_RAY);
-    // Distances between which they are.
     var span = vec4<f32>(NO_VALUE);
     var slot = before;
     for (var row = lane; row < params.fluid_rows; row += GROUP_THREADS) {
@@ -102,24 +99,26 @@ fn main(
         }
     }
     storageBarrier();
-    let both = group_row(lane, span, true);
-    var start = max(-both.y - question.radius, 0.0);
-    let end = min(both.x + question.radius, length);
-    // Looks at places one step apart, then between the last outside and the first inside, twice.
+    return Near(all, min(all, NEAR_RAY), group_row(lane, span, true));
+}
+
+// Distance at which a ray enters the water between two distances, -1 if it does not. Computes the share of water at places one step
+// apart, then twice between the last outside and the first inside.
+fn first_hit(lane: u32, begin: u32, count: u32, origin: vec3<f32>, direction: vec3<f32>, ends: vec2<f32>) -> f32 {
     var step = question.step;
     var hit = -1.0;
     var chunk = 0u;
-    let chunks = select(0u, u32(max(end - start, 0.0) / (step * f32(GROUP_THREADS))) + 1u, count > 0u);
-    counts[0] = chunks;
+    let chunks = u32(max(ends.y - ends.x, 0.0) / (step * f32(GROUP_THREADS))) + 1u;
+    counts[0] = select(0u, chunks, count > 0u);
     let total = workgroupUniformLoad(&counts[0]);
     var found = GROUP_THREADS;
     for (chunk = 0u; chunk < total && found == GROUP_THREADS; chunk += 1u) {
-        let at = min(start + step * f32(chunk * GROUP_THREADS + lane), end);
+        let at = min(ends.x + step * f32(chunk * GROUP_THREADS + lane), ends.y);
         found = first_of(lane, filled(origin + at * direction, begin, count) > SURFACE_SHARE);
     }
     if (found < GROUP_THREADS) {
         let ahead = (chunk - 1u) * GROUP_THREADS + found;
-        hit = min(start + step * f32(ahead), end);
+        hit = min(ends.x + step * f32(ahead), ends.y);
         if (ahead > 0u) {
             for (var refinement = 0u; refinement < 2u; refinement += 1u) {
                 let low = hit - step;
@@ -130,17 +129,41 @@ fn main(
             }
         }
     }
-    // The slope, by six threads.
+    return hit;
+}
+
+// Slope of the share of water at a point, by six threads.
+fn slope_at(lane: u32, begin: u32, count: u32, point: vec3<f32>, is_hit: bool) -> vec4<f32> {
     let axis = lane / 2u % 3u;
     var beside = vec3<f32>(0.0);
     beside[axis] = select(question.step, -question.step, lane % 2u == 0u);
     var slope = vec4<f32>(0.0);
-    if (lane < 6u && hit >= 0.0) {
-        let share = filled(origin + hit * direction + beside, begin, count);
+    if (lane < 6u && is_hit) {
+        let share = filled(point + beside, begin, count);
         slope[axis] = select(-share, share, lane % 2u == 0u);
     }
-    let normal = group_row(lane, slope, false);
+    return group_row(lane, slope, false);
+}
+
+@compute @workgroup_size(GROUP_THREADS)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let place_in_batch = group_of(group, groups);
+    let index = min(question.first + place_in_batch, question.count - 1u);
+    // A row for the origin and the length of a ray, and one for its direction.
+    let first = asked[2u * index];
+    let direction = asked[2u * index + 1u].xyz;
+    let begin = place_in_batch * NEAR_RAY;
+    let length = first[RAY_LENGTH];
+    let around = collect_near(lane, begin, first.xyz, direction, length);
+    let start = max(-around.span.y - question.radius, 0.0);
+    let end = min(around.span.x + question.radius, length);
+    let hit = first_hit(lane, begin, around.count, first.xyz, direction, vec2<f32>(start, end));
+    let normal = slope_at(lane, begin, around.count, first.xyz + hit * direction, hit >= 0.0);
     if (lane == 0u && question.first + place_in_batch < question.count) {
-        answers[index] = QueryAnswer(vec4<f32>(hit, f32(all), 0.0, 0.0), normal);
+        answers[index] = QueryAnswer(vec4<f32>(hit, f32(around.all), 0.0, 0.0), normal);
     }
 }

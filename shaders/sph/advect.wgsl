@@ -44,8 +44,8 @@ fn main(
         if (params.has_periods != 0u) {
             x = wrapped_into_box(x);
         }
-        fluid_position_next[row] = vec4<f32>(x, own.w);
-        fluid_velocity_next[row] = vec4<f32>(v, its_velocity.w);
+        fluid_position_next[row] = with_vector(own, x);
+        fluid_velocity_next[row] = with_vector(its_velocity, v);
         fluid_id_next[row] = fluid_id[row];
         let square = dot(v, v);
         if (is_finite(square) && is_finite(x.x + x.y + x.z)) {

@@ -16,7 +16,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
     let fluid_groups = (params.fluid_rows + GROUP_THREADS - 1u) / GROUP_THREADS;
     for (var k = lane; k < fluid_groups; k += GROUP_THREADS) {
-        let slot = (k * params.body_rows + body) * 2u;
+        let slot = (k * params.body_rows + body) * WRENCH_ROWS;
         own.impulse += body_fluid_wrenches[slot].xyz;
         own.angular += body_fluid_wrenches[slot + 1u].xyz;
     }
@@ -24,15 +24,15 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     own = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
     let node_groups = (params.node_rows + GROUP_THREADS - 1u) / GROUP_THREADS;
     for (var k = lane; k < node_groups; k += GROUP_THREADS) {
-        let slot = (k * params.body_rows + body) * 2u;
+        let slot = (k * params.body_rows + body) * WRENCH_ROWS;
         own.impulse += body_node_wrenches[slot].xyz;
         own.angular += body_node_wrenches[slot + 1u].xyz;
     }
     let nodes = group_sum(lane, own);
     if (lane == 0u) {
-        body_wrenches[body * 4u] = vec4<f32>(fluid.impulse, 0.0);
-        body_wrenches[body * 4u + 1u] = vec4<f32>(fluid.angular, 0.0);
-        body_wrenches[body * 4u + 2u] = vec4<f32>(nodes.impulse, 0.0);
-        body_wrenches[body * 4u + 3u] = vec4<f32>(nodes.angular, 0.0);
+        body_wrenches[2u * WRENCH_ROWS * body] = vec4<f32>(fluid.impulse, 0.0);
+        body_wrenches[2u * WRENCH_ROWS * body + 1u] = vec4<f32>(fluid.angular, 0.0);
+        body_wrenches[2u * WRENCH_ROWS * body + 2u] = vec4<f32>(nodes.impulse, 0.0);
+        body_wrenches[2u * WRENCH_ROWS * body + 3u] = vec4<f32>(nodes.angular, 0.0);
     }
 }

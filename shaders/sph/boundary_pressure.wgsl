@@ -1,4 +1,4 @@
-// #include body, surface, wrench, profile
+// #include body, surface, wrench, fluid_wrench, profile
 // Pressure of the particles against walls and bodies, at the beginning of the step.
 //
 //     a_i -= P_i grad lambda_i,   impulse of a body = m h sum_i P_i grad lambda_ik
@@ -30,7 +30,7 @@ fn main(
     var pressure = 0.0;
     if (is_row) {
         own = fluid_position[row];
-        pressure = own.w * params.rest_density;
+        pressure = own[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY] * params.rest_density;
         sum = fluid_acceleration[row].xyz - pressure * wall_share(own.xyz).xyz;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
@@ -38,19 +38,11 @@ fn main(
         let gradient = body_share(body, own.xyz).xyz;
         let push = pressure * gradient;
         sum -= push;
-        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-        let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
-        var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
-        if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
-            let impulse = push * (clock.step * params.particle_mass);
-            all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position, impulse)));
-        }
-        if (lane == 0u && is_slot) {
-            body_fluid_wrenches[slot] = vec4<f32>(all.impulse, 0.0);
-            body_fluid_wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
-        }
+        let impulse = push * (clock.step * params.particle_mass);
+        let touches = is_row && any(push != vec3<f32>(0.0));
+        begin_wrench(lane, group_of(group, groups), index, touches, own.xyz - body.position, impulse);
     }
     if (is_row) {
-        fluid_acceleration[row] = vec4<f32>(sum, fluid_acceleration[row].w);
+        fluid_acceleration[row] = with_vector(fluid_acceleration[row], sum);
     }
 }

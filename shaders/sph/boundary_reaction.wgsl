@@ -1,4 +1,4 @@
-// #include body, surface, wrench, profile
+// #include body, surface, wrench, fluid_wrench, profile
 // Reaction of bodies to the change of the pressure, at their places of the end of the step.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -26,16 +26,9 @@ fn main(
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {
         let body = at_end(body_states[index]);
-        let push = own.w * body_share(body, own.xyz).xyz;
-        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-        let is_slot = group_of(group, groups) * GROUP_THREADS < rows;
-        if (group_touches(lane, is_row && any(push != vec3<f32>(0.0)))) {
-            let impulse = push * (clock.step * params.particle_mass);
-            let all = group_sum(lane, Wrench(impulse, cross(own.xyz - body.position, impulse)));
-            if (lane == 0u && is_slot) {
-                body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
-            }
-        }
+        let push = own[FLUID_PREDICTED_PRESSURE_CHANGE] * body_share(body, own.xyz).xyz;
+        let impulse = push * (clock.step * params.particle_mass);
+        let touches = is_row && any(push != vec3<f32>(0.0));
+        add_wrench(lane, group_of(group, groups), index, touches, own.xyz - body.position, impulse);
     }
 }

@@ -36,5 +36,5 @@ fn main(
     let volume = params.cohesion_volume;
     let factor = params.cohesion_stiffness * volume * (volume / params.particle_mass);
     let own = fluid_acceleration[row];
-    fluid_acceleration[row] = vec4<f32>(own.xyz - sum * (params.cohesion.gradient * factor), own.w);
+    fluid_acceleration[row] = with_vector(own, own.xyz - sum * (params.cohesion.gradient * factor));
 }

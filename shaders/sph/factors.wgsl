@@ -57,14 +57,15 @@ fn main(
         let rough = (pairs - gradient) * prompt_roughness();
         let diagonal = max(dot(own, own) + others, minimum) * (clock.step * clock.step) + rough;
         let maximum = params.correction_speed * clock.step / params.spacing;
-        let share = shapes * (params.smoothing.value * volume) + wall.w;
-        let compression = min(share - 1.0 + fluid_acceleration[row].w, maximum);
+        let share = shapes * (params.smoothing.value * volume) + wall[FLUID_BOUNDARY_SHARE];
+        let compression = min(share - 1.0 + fluid_acceleration[row][FLUID_ACCELERATION_ALLOWED_COMPRESSION], maximum);
         fluid_factors[row] = vec4<f32>(own, compression);
-        fluid_pressure_rows[row] = vec4<f32>(before.w * params.rest_density, 0.0, diagonal, compression);
+        let pressure = before[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY] * params.rest_density;
+        fluid_pressure_rows[row] = vec4<f32>(pressure, 0.0, diagonal, compression);
     }
     let sum = group_row(lane, vec4<f32>(displacement, 0.0, 0.0, 0.0), false);
     let place = group_of(group, groups);
     if (lane == 0u && place * GROUP < rows) {
-        solve_sums[place * 2u] = sum;
+        solve_sums[place * SOLVE_SUM_ROWS] = sum;
     }
 }

@@ -25,6 +25,7 @@ fn main(
     let share = shared_row(group, groups, lane, rows);
     let row = share.row;
     let own = fluid_position[row];
+    let own_pressure = own[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY];
     let own_velocity = fluid_velocity[row];
     let end = fluid_neighbors[row];
     var push = vec3<f32>(0.0);
@@ -34,7 +35,7 @@ fn main(
     // With a pressure solve particles keep their volume, and the fourth lane of the velocity has another quantity.
     let is_known = params.incompressible != 0u;
     let rest_volume = params.particle_mass / params.rest_density;
-    let own_volume = select(own_velocity.w, rest_volume, is_known);
+    let own_volume = select(own_velocity[FLUID_VELOCITY_VOLUME], rest_volume, is_known);
     let softening = SOFTENING * params.smoothing.support_radius * params.smoothing.support_radius;
     let weight = params.gravity / params.rest_density;
     for (var k = share.first; k < end; k += SHARES) {
@@ -48,12 +49,13 @@ fn main(
         let relative = its_velocity.xyz - own_velocity.xyz;
         // A solve for the divergence has all of the pressure.
         if (params.divergence == 0u) {
-            push += ((own.w + there.w) * cube) * apart;
-            if (min(own.w, there.w) > 0.0) {
-                roughness += cube * (there.w - own.w + dot(weight, apart));
+            let its_pressure = there[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY];
+            push += ((own_pressure + its_pressure) * cube) * apart;
+            if (min(own_pressure, its_pressure) > 0.0) {
+                roughness += cube * (its_pressure - own_pressure + dot(weight, apart));
             }
         }
-        let volume = select(its_velocity.w, rest_volume, is_known);
+        let volume = select(its_velocity[FLUID_VELOCITY_VOLUME], rest_volume, is_known);
         pull += (volume * u) * relative;
         central += (volume * cube * dot(relative, apart) / (square + softening)) * apart;
     }
@@ -65,6 +67,6 @@ fn main(
     let part = push * pressure_scale + pull * viscosity_scale + central * central_scale;
     let sum = share_sum(lane, vec4<f32>(part, roughness * (pressure_scale * params.roughness)));
     if (share.writes) {
-        fluid_acceleration[row] = vec4<f32>(sum.xyz + params.gravity, sum.w);
+        fluid_acceleration[row] = with_vector(sum, sum.xyz + params.gravity);
     }
 }

@@ -25,7 +25,7 @@ fn main(
     if (row < params.fluid_rows) {
         let a = fluid_acceleration[row].xyz;
         let own = fluid_velocity[row];
-        fluid_velocity[row] = vec4<f32>(own.xyz + clock.step * a, own.w);
+        fluid_velocity[row] = with_vector(own, own.xyz + clock.step * a);
         let square = dot(a, a);
         // Bits of non-negative floats have the order of the numbers; NaN is above all.
         if (is_finite(square)) {

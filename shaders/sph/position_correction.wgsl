@@ -28,7 +28,7 @@ fn main(
         let high = params.wall_high - margin;
         end = select(select(end, high, end > high), low, end < low);
     }
-    fluid_predicted[row] = vec4<f32>(end, before.w);
+    fluid_predicted[row] = with_vector(before, end);
     let velocity_before = fluid_velocity[row];
-    fluid_velocity[row] = vec4<f32>(velocity_before.xyz + change, velocity_before.w);
+    fluid_velocity[row] = with_vector(velocity_before, velocity_before.xyz + change);
 }

@@ -34,10 +34,10 @@ fn main(
         share = prompt / params.roughness;
     }
     // A value above the whole volume is no compression.
-    let own = fluid_velocity[row].w;
+    let own = fluid_velocity[row][FLUID_VELOCITY_ALLOWED_COMPRESSION];
     let before = select(0.0, own, abs(own) <= 1.0);
-    let asked = fluid_acceleration[row].w;
+    let asked = fluid_acceleration[row][FLUID_ACCELERATION_ALLOWED_COMPRESSION];
     let allowed = before + share * (asked - before);
-    fluid_velocity[row].w = allowed;
-    fluid_acceleration[row].w = allowed + share * (asked - allowed);
+    fluid_velocity[row][FLUID_VELOCITY_ALLOWED_COMPRESSION] = allowed;
+    fluid_acceleration[row][FLUID_ACCELERATION_ALLOWED_COMPRESSION] = allowed + share * (asked - allowed);
 }

@@ -27,6 +27,6 @@ fn main(
         return;
     }
     let rho = fluid_density[row];
-    fluid_position[row].w = pressure(rho) / (rho * rho);
-    fluid_velocity[row].w = params.particle_mass / rho;
+    fluid_position[row][FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY] = pressure(rho) / (rho * rho);
+    fluid_velocity[row][FLUID_VELOCITY_VOLUME] = params.particle_mass / rho;
 }

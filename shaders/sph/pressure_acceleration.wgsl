@@ -30,13 +30,13 @@ fn main(
         let there = fluid_predicted[fluid_neighbors[row + (k + 1u) * rows]];
         let apart = apart_from(own.xyz, there.xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
-        part += (gradient * (u * u * u) * there.w) * apart;
+        part += (gradient * (u * u * u) * there[FLUID_PREDICTED_PRESSURE_CHANGE]) * apart;
     }
     let all = share_sum3(lane, part);
     if (!share.writes) {
         return;
     }
-    let sum = all + own.w * fluid_factors[row].xyz;
+    let sum = all + own[FLUID_PREDICTED_PRESSURE_CHANGE] * fluid_factors[row].xyz;
     let roughness = prompt_roughness() / (clock.step * clock.step);
-    fluid_correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()) - own.w * roughness);
+    fluid_correction[row] = vec4<f32>(sum, dot(sum, own.xyz - middle()) - own[FLUID_PREDICTED_PRESSURE_CHANGE] * roughness);
 }

@@ -19,6 +19,7 @@ fn main(
         return;
     }
     let before = fluid_velocity[row];
-    fluid_velocity[row] = vec4<f32>(before.xyz + clock.step * fluid_correction[row].xyz, before.w);
-    fluid_position[row].w = fluid_pressure_rows[row].x / params.rest_density;
+    fluid_velocity[row] = with_vector(before, before.xyz + clock.step * fluid_correction[row].xyz);
+    let pressure = fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_PRESSURE];
+    fluid_position[row][FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY] = pressure / params.rest_density;
 }

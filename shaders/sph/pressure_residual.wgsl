@@ -1,4 +1,4 @@
-// #include smoothing, middle, sums, roughness, images
+// #include smoothing, middle, sums, roughness, images, pressure_rows
 // Iteration of the pressure solve: the remaining compression, and the sums for `solve_round.wgsl`.
 //
 //     r_i = r0_i + h^2 (sum_j c_ij a_j . x_ij - a_i . B_i + y_i) + b e sum_j c_ij (dP_j - dP_i)
@@ -43,33 +43,24 @@ fn main(
             let u = closeness(params.smoothing, dot(apart, apart));
             let there = fluid_correction[other];
             let c = gradient * (u * u * u);
-            sum += c * (dot(there.xyz, point + shift) - there.w);
+            sum += c * (dot(there.xyz, point + shift) - there[FLUID_CORRECTION_ALONG_POSITION]);
             pairs += c;
         }
         let factor = fluid_factors[row];
         let square = clock.step * clock.step;
-        let away = dot(fluid_correction[row].xyz, factor.xyz) + pairs * own.w * (prompt_roughness() / square);
-        let left = factor.w + (sum - away + fluid_solid_yield[row]) * square;
-        let before = fluid_pressure_rows[row];
-        let response = before.w - left;
-        var error = left;
-        if (left <= 0.0) {
-            error = min(-left, before.x * before.z);
-        }
-        sums = vec4<f32>(
-            error,
-            before.y * before.y * before.z,
-            before.y * response,
-            response * response / before.z,
-        );
-        pressure_sum = before.x * before.x;
-        fluid_pressure_rows[row].w = left;
+        let change = own[FLUID_PREDICTED_PRESSURE_CHANGE];
+        let away = dot(fluid_correction[row].xyz, factor.xyz) + pairs * change * (prompt_roughness() / square);
+        let left = factor[FLUID_FACTORS_COMPRESSION] + (sum - away + fluid_solid_yield[row]) * square;
+        let before = pressure_row(fluid_pressure_rows[row]);
+        sums = round_sums(before, left);
+        pressure_sum = before.pressure * before.pressure;
+        fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_COMPRESSION] = left;
     }
     let all = group_row(lane, sums, false);
     let pressures = group_row(lane, vec4<f32>(pressure_sum, 0.0, 0.0, 0.0), false);
     let place = group_of(group, groups);
     if (lane == 0u && place * GROUP < rows) {
-        solve_sums[place * 2u] = all;
-        solve_sums[place * 2u + 1u] = pressures;
+        solve_sums[place * SOLVE_SUM_ROWS] = all;
+        solve_sums[place * SOLVE_SUM_ROWS + 1u] = pressures;
     }
 }

@@ -1,3 +1,4 @@
+// #include pressure_rows
 // One round of a pressure solve: a step along the projected gradient.
 //
 //     P_i <- min(max(0, P_i + alpha r_i / M_i), (10 u)^2)
@@ -20,9 +21,9 @@ fn main(
     if (clock.running == 0u || row >= rows) {
         return;
     }
-    let own = fluid_pressure_rows[row];
-    let speed = SOUND_SPEED_RATIO * params.correction_speed;
-    let next = min(max(own.x + fluid_pressure_solve.length * own.w / own.z, 0.0), speed * speed);
-    fluid_pressure_rows[row] = vec4<f32>(next, next - own.x, own.zw);
-    fluid_predicted[row].w = next - params.rest_density * fluid_position[row].w;
+    let own = pressure_row(fluid_pressure_rows[row]);
+    let next = next_pressure(own, fluid_pressure_solve.length, params.correction_speed);
+    fluid_pressure_rows[row] = with_pressure(own, next);
+    let before = params.rest_density * fluid_position[row][FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY];
+    fluid_predicted[row][FLUID_PREDICTED_PRESSURE_CHANGE] = next - before;
 }

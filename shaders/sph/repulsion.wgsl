@@ -1,4 +1,4 @@
-// #include body, surface, wrench
+// #include body, surface, wrench, fluid_wrench
 // Elastic repulsion of particles from walls and bodies.
 //
 //     a_i += (k (R - d) - c v_n) n   where the distance d from the surface is less than R, not pulling
@@ -62,20 +62,11 @@ fn main(
             push = push_of(surface.distance, dot(speed - body_velocity(body, point), surface.normal));
         }
         sum += surface.normal * push;
-        let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-        let is_slot = group_of(group, groups) * GROUP_THREADS < params.fluid_rows;
-        var all = Wrench(vec3<f32>(0.0), vec3<f32>(0.0));
-        if (group_touches(lane, push > 0.0)) {
-            let impulse = surface.normal * (-push * (clock.step * params.particle_mass));
-            let arm = (point - surface.normal * surface.distance) - body.position;
-            all = group_sum(lane, Wrench(impulse, cross(arm, impulse)));
-        }
-        if (lane == 0u && is_slot) {
-            body_fluid_wrenches[slot] = vec4<f32>(all.impulse, 0.0);
-            body_fluid_wrenches[slot + 1u] = vec4<f32>(all.angular, 0.0);
-        }
+        let impulse = surface.normal * (-push * (clock.step * params.particle_mass));
+        let arm = (point - surface.normal * surface.distance) - body.position;
+        begin_wrench(lane, group_of(group, groups), index, push > 0.0, arm, impulse);
     }
     if (is_row) {
-        fluid_acceleration[row] = vec4<f32>(sum, fluid_acceleration[row].w);
+        fluid_acceleration[row] = with_vector(fluid_acceleration[row], sum);
     }
 }

@@ -12,10 +12,10 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         return;
     }
     // Sums of missing groups stay zero.
-    let groups = arrayLength(&solve_sums) / 2u;
+    let groups = arrayLength(&solve_sums) / SOLVE_SUM_ROWS;
     var own = 0.0;
     for (var k = lane; k < groups; k += GROUP_THREADS) {
-        own += solve_sums[k * 2u].x;
+        own += solve_sums[k * SOLVE_SUM_ROWS].x;
     }
     let sum = group_row(lane, vec4<f32>(own, 0.0, 0.0, 0.0), false).x;
     if (lane == 0u) {

@@ -9,12 +9,12 @@
 
 fn take_round(lane: u32) {
     // Sums of missing groups stay zero.
-    let groups = arrayLength(&solve_sums) / 2u;
+    let groups = arrayLength(&solve_sums) / SOLVE_SUM_ROWS;
     var own = vec4<f32>(0.0);
     var rest = vec4<f32>(0.0);
     for (var k = lane; k < groups; k += GROUP_THREADS) {
-        own += solve_sums[k * 2u];
-        rest += solve_sums[k * 2u + 1u];
+        own += solve_sums[k * SOLVE_SUM_ROWS];
+        rest += solve_sums[k * SOLVE_SUM_ROWS + 1u];
     }
     let sums = group_row(lane, own, false);
     let others = group_row(lane, rest, false);
@@ -36,8 +36,8 @@ fn choose_length(sums: vec4<f32>, others: vec4<f32>) {
     let largest = UNEVENNESS * fluid_pressure_solve.tolerance;
     let is_even = still == 0u || others.y / particles <= largest * largest * (largest * largest);
     let is_small = fluid_pressure_solve.error <= fluid_pressure_solve.tolerance && is_even && rounds > still;
-    let has_converged = is_small || rounds >= params.solve_rounds;
-    fluid_pressure_solve.is_converged = select(0u, 1u, has_converged);
+    let is_over = is_small || rounds >= params.solve_rounds;
+    fluid_pressure_solve.is_converged = select(0u, 1u, is_over);
     fluid_pressure_solve.length = FIRST_LENGTH * most;
     let below = select(sums.w, sums.z, rounds % 2u == 0u);
     let above = select(sums.z, sums.y, rounds % 2u == 0u);
@@ -49,21 +49,16 @@ fn choose_length(sums: vec4<f32>, others: vec4<f32>) {
     }
 }
 
+fn has_converged() -> bool {
+    return fluid_pressure_solve.is_converged != 0u;
+}
+
 @compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(local_invocation_index) lane: u32) {
-    if (clock.running != 0u) {
-        take_round(lane);
-    }
+    run_round(lane, false);
 }
 
 @compute @workgroup_size(GROUP_THREADS)
 fn last(@builtin(local_invocation_index) lane: u32) {
-    if (clock.running == 0u) {
-        return;
-    }
-    take_round(lane);
-    workgroupBarrier();
-    if (lane == 0u) {
-        end_of_round(fluid_pressure_solve.is_converged != 0u);
-    }
+    run_round(lane, true);
 }

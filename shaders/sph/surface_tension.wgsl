@@ -30,7 +30,7 @@ fn main(
         let other = fluid_neighbors[row + (k + 1u) * rows];
         let apart = apart_from(point, fluid_position[other].xyz);
         let u = closeness(params.smoothing, dot(apart, apart));
-        let weight = fluid_velocity[other].w * u * u;
+        let weight = fluid_velocity[other][FLUID_VELOCITY_VOLUME] * u * u;
         slopes -= (weight * u) * apart;
         laplacian -= weight * (u + u - 1.0);
     }
@@ -41,9 +41,9 @@ fn main(
     let normal = all.xyz * params.smoothing.gradient;
     let length = sqrt(dot(normal, normal));
     if (length > SURFACE_THRESHOLD / params.smoothing.support_radius) {
-        let strength = all.w * params.smoothing.laplacian * fluid_velocity[row].w
+        let strength = all.w * params.smoothing.laplacian * fluid_velocity[row][FLUID_VELOCITY_VOLUME]
             * (params.surface_tension / params.particle_mass);
         let own = fluid_acceleration[row];
-        fluid_acceleration[row] = vec4<f32>(own.xyz - (strength / length) * normal, own.w);
+        fluid_acceleration[row] = with_vector(own, own.xyz - (strength / length) * normal);
     }
 }

@@ -20,5 +20,5 @@ fn main(
     let own = fluid_velocity[row];
     let share = f32(fluid_viscosity_solve.is_solved);
     let change = fluid_viscosity_change[row].xyz + share * fluid_viscosity_residual[row].xyz;
-    fluid_velocity[row] = vec4<f32>(own.xyz + change, own.w);
+    fluid_velocity[row] = with_vector(own, own.xyz + change);
 }

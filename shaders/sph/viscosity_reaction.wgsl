@@ -1,4 +1,4 @@
-// #include body, surface, wrench, friction
+// #include body, surface, wrench, fluid_wrench, friction
 // Reaction of no-slip bodies, where viscosity is implicit.
 //
 //     impulse = m h sum_i f(y) (v*_i + y_i - v_body)_t
@@ -34,17 +34,10 @@ fn main(
         var slowed = vec3<f32>(0.0);
         if (is_row && body.no_slip != 0u) {
             let surface = body_surface(body, point);
-            let slide = v - body_velocity(body, point);
-            slowed = (slide - surface.normal * dot(slide, surface.normal)) * friction_rate(surface.distance);
+            slowed = slide_along(body, surface, point, v) * friction_rate(surface.distance);
         }
-        if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
-            let impulse = slowed * (clock.step * params.particle_mass);
-            let all = group_sum(lane, Wrench(impulse, cross(point - body.position, impulse)));
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-            if (lane == 0u) {
-                body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
-            }
-        }
+        let impulse = slowed * (clock.step * params.particle_mass);
+        let touches = any(slowed != vec3<f32>(0.0));
+        add_wrench(lane, group_of(group, groups), index, touches, point - body.position, impulse);
     }
 }

@@ -22,26 +22,21 @@ fn take_round(lane: u32) {
     fluid_viscosity_solve.residual = sqrt(sums.x / particles);
     fluid_viscosity_solve.change = sqrt(sums.y / particles);
     let is_solved = fluid_viscosity_solve.residual <= params.viscosity_tolerance * fluid_viscosity_solve.change;
-    let has_converged = is_solved || rounds >= params.viscosity_rounds;
+    let is_over = is_solved || rounds >= params.viscosity_rounds;
     fluid_viscosity_solve.is_solved = select(0u, 1u, is_solved);
-    fluid_viscosity_solve.is_converged = select(0u, 1u, has_converged);
+    fluid_viscosity_solve.is_converged = select(0u, 1u, is_over);
+}
+
+fn has_converged() -> bool {
+    return fluid_viscosity_solve.is_converged != 0u;
 }
 
 @compute @workgroup_size(GROUP_THREADS)
 fn main(@builtin(local_invocation_index) lane: u32) {
-    if (clock.running != 0u) {
-        take_round(lane);
-    }
+    run_round(lane, false);
 }
 
 @compute @workgroup_size(GROUP_THREADS)
 fn last(@builtin(local_invocation_index) lane: u32) {
-    if (clock.running == 0u) {
-        return;
-    }
-    take_round(lane);
-    workgroupBarrier();
-    if (lane == 0u) {
-        end_of_round(fluid_viscosity_solve.is_converged != 0u);
-    }
+    run_round(lane, true);
 }

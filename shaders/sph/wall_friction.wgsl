@@ -1,4 +1,4 @@
-// #include body, surface, wrench, friction
+// #include body, surface, wrench, fluid_wrench, friction
 // Friction of the fluid at no-slip walls and bodies.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -50,22 +50,15 @@ fn main(
         var slowed = vec3<f32>(0.0);
         if (is_row && body.no_slip != 0u) {
             let surface = body_surface(body, point);
-            let slide = v - body_velocity(body, point);
-            slowed = (slide - surface.normal * dot(slide, surface.normal)) * bounded_rate(surface.distance);
+            slowed = slide_along(body, surface, point, v) * bounded_rate(surface.distance);
         }
         sum += slowed;
-        if (group_touches(lane, any(slowed != vec3<f32>(0.0)))) {
-            let impulse = slowed * (clock.step * params.particle_mass);
-            let all = group_sum(lane, Wrench(impulse, cross(point - body.position, impulse)));
-            let slot = (group_of(group, groups) * params.body_rows + index) * 2u;
-            if (lane == 0u) {
-                body_fluid_wrenches[slot] += vec4<f32>(all.impulse, 0.0);
-                body_fluid_wrenches[slot + 1u] += vec4<f32>(all.angular, 0.0);
-            }
-        }
+        let impulse = slowed * (clock.step * params.particle_mass);
+        let touches = any(slowed != vec3<f32>(0.0));
+        add_wrench(lane, group_of(group, groups), index, touches, point - body.position, impulse);
     }
     if (is_row) {
         let own = fluid_acceleration[row];
-        fluid_acceleration[row] = vec4<f32>(own.xyz - sum, own.w);
+        fluid_acceleration[row] = with_vector(own, own.xyz - sum);
     }
 }

@@ -1,7 +1,7 @@
 //! The WGSL twins of the kernels of sorb: text only, no dependencies.
 //!
 //! A twin has the path of its kernel: the twin of `sph::density` is `sph/density.wgsl`. A kernel that needs several
-//! passes has further files beside it, and what several twins need is in `common/`: a file names what it needs of that in its
+//! passes has further files beside it, and what several twins need is in `common/`. A file names what it needs of that in its
 //! first line, `// #include grid, smoothing`. Which passes make up a kernel, and which buffers they are bound to, is in the
 //! declaration of the kernel in `sorb-kernels`. The passes of the renderer are in `render/`, and what several of those need is in
 //! `render/parts/`.

@@ -20,8 +20,8 @@ fn main(
         return;
     }
     let moved = fluid_correction[row];
-    let held = params.particle_mass * (1.0 - fluid_pushed[row].w);
-    let pressure = params.particle_mass * fluid_predicted[row].w;
+    let held = params.particle_mass * (1.0 - fluid_pushed[row][FLUID_PUSHED_MOBILITY]);
+    let pressure = params.particle_mass * fluid_predicted[row][FLUID_PREDICTED_PRESSURE];
     fluid_carried[row] = vec4<f32>(held * (moved.xyz - fluid_velocity[row].xyz), pressure);
     fluid_undragged[row] = moved;
 }

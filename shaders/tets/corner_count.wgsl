@@ -21,7 +21,7 @@ fn main(
         return;
     }
     var controls = vec4<u32>(0u);
-    for (var corner = 0u; corner < 4u; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         let control = node_control[nodes[corner]];
         controls[corner] = control;
         atomicAdd(&corner_counts[control], 1u);

@@ -20,8 +20,8 @@ fn main(
     if (controls.x == controls.y) {
         return;
     }
-    for (var corner = 0u; corner < 4u; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         let place = atomicAdd(&corner_counts[controls[corner]], 1u);
-        corner_places[place] = 4u * row + corner;
+        corner_places[place] = TET_CORNERS * row + corner;
     }
 }

@@ -71,8 +71,8 @@ fn main(
     let end = fluid_controls[row];
     if (end == 0u) {
         fluid_corners[row] = vec4<u32>(params.node_rows);
-        for (var corner = 0u; corner < 4u; corner += 1u) {
-            fluid_shares[4u * row + corner] = vec4<f32>(0.0);
+        for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
+            fluid_shares[TET_CORNERS * row + corner] = vec4<f32>(0.0);
         }
         return;
     }
@@ -115,8 +115,8 @@ fn main(
     let steepest = max(max(dot(first, first), dot(best.p, best.p)), max(dot(best.q, best.q), dot(best.r, best.r)));
     let scale = sqrt(limit / max(limit, steepest));
     fluid_corners[row] = vec4<u32>(node, best.nodes);
-    fluid_shares[4u * row] = vec4<f32>(first * scale, weights.x);
-    fluid_shares[4u * row + 1u] = vec4<f32>(best.p * scale, weights.y);
-    fluid_shares[4u * row + 2u] = vec4<f32>(best.q * scale, weights.z);
-    fluid_shares[4u * row + 3u] = vec4<f32>(best.r * scale, weights.w);
+    fluid_shares[TET_CORNERS * row] = vec4<f32>(first * scale, weights.x);
+    fluid_shares[TET_CORNERS * row + 1u] = vec4<f32>(best.p * scale, weights.y);
+    fluid_shares[TET_CORNERS * row + 2u] = vec4<f32>(best.q * scale, weights.z);
+    fluid_shares[TET_CORNERS * row + 3u] = vec4<f32>(best.r * scale, weights.w);
 }

@@ -28,11 +28,11 @@ fn main(
         return;
     }
     var moved = vec3<f32>(0.0);
-    for (var corner = 0u; corner < 4u; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         // As `node_velocity.wgsl` has it, which may run beside this.
         let node = control_node[corners[corner]];
         let way = node_predicted[node].xyz - node_position[node].xyz;
-        moved += fluid_shares[4u * row + corner].w * way;
+        moved += fluid_shares[TET_CORNERS * row + corner][CORNER_WEIGHT] * way;
     }
     let relative = fluid_velocity[row].xyz - moved * clock.inverse_step;
     let strength = drag_strength(fluid_drag_rate[row].xy, length(relative), clock.step) * params.particle_mass;

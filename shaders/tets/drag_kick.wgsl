@@ -16,5 +16,5 @@ fn main(
         return;
     }
     let before = fluid_velocity[row];
-    fluid_velocity[row] = vec4<f32>(before.xyz - fluid_drag[row].xyz * (1.0 / params.particle_mass), before.w);
+    fluid_velocity[row] = with_vector(before, before.xyz - fluid_drag[row].xyz * (1.0 / params.particle_mass));
 }

@@ -1,4 +1,4 @@
-// #include control_group, corner_list, corner_drag
+// #include control_group, corner_list, node_drag, corner_drag
 // Drag impulses on the nodes, and their moments; `drag_reaction.rs` and `drag_settled.rs` have the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -11,22 +11,6 @@
 @group(0) @binding(7) var<storage, read> control_corners: array<u32>;
 @group(0) @binding(8) var<storage, read_write> node_drag: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> node_drag_moment: array<vec4<f32>>;
-
-fn on_node(group: vec3<u32>, groups: vec3<u32>, lane: u32, responds: bool) {
-    if (clock.running == 0u) {
-        return;
-    }
-    let row = control_row(group, groups, lane);
-    let is_row = row < params.node_rows;
-    let list = corner_list(row, is_row);
-    let drag = corner_drag(row, list, lane);
-    if (!is_row || lane % CONTROL_THREADS != 0u) {
-        return;
-    }
-    let node = control_node[row];
-    node_drag[node] = vec4<f32>(drag.impulse.xyz, select(0.0, drag.impulse.w, responds));
-    node_drag_moment[node] = drag.moment;
-}
 
 @compute @workgroup_size(GROUP_THREADS)
 fn main(

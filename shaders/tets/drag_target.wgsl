@@ -27,7 +27,7 @@ fn main(
     var sum = vec4<f32>(0.0);
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let place = control_corners[k];
-        sum += fluid_shares[place].w * fluid_drag[place / 4u];
+        sum += fluid_shares[place][CORNER_WEIGHT] * fluid_drag[place / TET_CORNERS];
     }
     let received = control_sum(lane, sum);
     if (!is_row || lane % CONTROL_THREADS != 0u) {

@@ -23,7 +23,7 @@ fn main(
     var part = 0.0;
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let place = control_corners[k];
-        part += fluid_shares[place].w * (1.0 - fluid_pushed[place / 4u].w);
+        part += fluid_shares[place][CORNER_WEIGHT] * (1.0 - fluid_pushed[place / TET_CORNERS][FLUID_PUSHED_MOBILITY]);
     }
     let sum = control_sum(lane, vec4<f32>(part * params.particle_mass, 0.0, 0.0, 0.0));
     if (is_row && lane % CONTROL_THREADS == 0u) {

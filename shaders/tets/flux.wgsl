@@ -43,7 +43,7 @@ fn main(
             let node = control_position[other].xyz;
             let offset = mirrored(by, node) - point;
             let u = closeness(params.solid, dot(offset, offset));
-            let push = (control_material[other].w * (u * u * u)) * symmetric_times(along, between, offset);
+            let push = (control_material[other][CONTROL_MATERIAL_VOLUME] * (u * u * u)) * symmetric_times(along, between, offset);
             received += push;
             let back = by.signs * push;
             let way = node - point;
@@ -67,12 +67,12 @@ fn main(
         return;
     }
     var sum = 0.0;
-    for (var corner = 0u; corner < 4u; corner += 1u) {
-        sum += max(fluid_shares[4u * row + corner].w, 0.0);
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
+        sum += max(fluid_shares[TET_CORNERS * row + corner][CORNER_WEIGHT], 0.0);
     }
-    for (var corner = 0u; corner < 4u; corner += 1u) {
-        let linear = fluid_shares[4u * row + corner];
-        let own = turned * linear.w + by_x * linear.x + by_y * linear.y + by_z * linear.z;
-        fluid_shares[4u * row + corner] = vec4<f32>(own * scale, max(linear.w, 0.0) / sum);
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
+        let linear = fluid_shares[TET_CORNERS * row + corner];
+        let own = turned * linear[CORNER_WEIGHT] + by_x * linear.x + by_y * linear.y + by_z * linear.z;
+        fluid_shares[TET_CORNERS * row + corner] = vec4<f32>(own * scale, max(linear[CORNER_WEIGHT], 0.0) / sum);
     }
 }

@@ -21,10 +21,10 @@ fn main(
     }
     let corners = fluid_corners[row];
     var mean = vec3<f32>(0.0);
-    for (var corner = 0u; corner < 4u && corners.x != corners.y; corner += 1u) {
-        mean += fluid_shares[4u * row + corner].w * control_material[corners[corner]].xyz;
+    for (var corner = 0u; corner < TET_CORNERS && corners.x != corners.y; corner += 1u) {
+        mean += fluid_shares[TET_CORNERS * row + corner][CORNER_WEIGHT] * control_material[corners[corner]].xyz;
     }
     let relative = fluid_velocity[row].xyz - mean;
     let drag = fluid_drag_rate[row].xy;
-    fluid_pushed[row].w = 1.0 / (1.0 + (drag.x + drag.y * length(relative)) * clock.step);
+    fluid_pushed[row][FLUID_PUSHED_MOBILITY] = 1.0 / (1.0 + (drag.x + drag.y * length(relative)) * clock.step);
 }

@@ -24,13 +24,14 @@ fn main(
     }
     var follows = 0.0;
     var direct = 0.0;
-    for (var corner = 0u; corner < 4u; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         let response = control_compliance[corners[corner]];
-        let own = fluid_shares[4u * row + corner];
-        follows += own.w * response.y;
-        direct += dot(own.xyz, own.xyz) * response.x;
+        let own = fluid_shares[TET_CORNERS * row + corner];
+        follows += own[CORNER_WEIGHT] * response[CONTROL_COMPLIANCE_DRAWN];
+        direct += dot(own.xyz, own.xyz) * response[CONTROL_COMPLIANCE_COMPLIANCE];
     }
-    let own = fluid_pushed[row].w;
+    let own = fluid_pushed[row][FLUID_PUSHED_MOBILITY];
     let scale = clock.step * clock.step * params.particle_mass;
-    fluid_pressure_rows[row].z = (own + (1.0 - own) * follows) * fluid_pressure_rows[row].z + direct * scale;
+    let diagonal = fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_DIAGONAL];
+    fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_DIAGONAL] = (own + (1.0 - own) * follows) * diagonal + direct * scale;
 }

@@ -34,7 +34,7 @@ fn main(
         let by = mirror_of(near, mirror);
         for (var k = share.first; k < end && by.is_there; k += SHARES) {
             let other = fluid_controls[row + (k + 1u) * rows];
-            let volume = control_material[other].w;
+            let volume = control_material[other][CONTROL_MATERIAL_VOLUME];
             let offset = mirrored(by, control_position[other].xyz) - point;
             let u = closeness(params.solid, dot(offset, offset));
             let push = (volume * params.solid.gradient * (u * u * u)) * offset;

@@ -26,9 +26,9 @@ fn main(
     for (var k = list.x + lane % CONTROL_THREADS; k < list.y; k += CONTROL_THREADS) {
         let place = control_corners[k];
         let own = fluid_shares[place];
-        let carried = fluid_carried[place / 4u];
-        push += own.xyz * carried.w;
-        drawn += carried.xyz * own.w;
+        let carried = fluid_carried[place / TET_CORNERS];
+        push += own.xyz * carried[FLUID_CARRIED_ENERGY];
+        drawn += carried.xyz * own[CORNER_WEIGHT];
     }
     let pushed = control_sum(lane, vec4<f32>(push, 0.0));
     let held = control_sum(lane, vec4<f32>(drawn, 0.0));

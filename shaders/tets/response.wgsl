@@ -21,7 +21,7 @@ fn main(
     }
     let response = control_compliance[row];
     let received = control_force[row].xyz * clock.step + control_solved[row].xyz;
-    let velocity = control_material[row].xyz + response.x * (received + control_expected[row].xyz);
+    let velocity = control_material[row].xyz + response[CONTROL_COMPLIANCE_COMPLIANCE] * (received + control_expected[row].xyz);
     control_impulse[row] = vec4<f32>(received, 0.0);
-    control_solved[row] = vec4<f32>(velocity, response.w);
+    control_solved[row] = vec4<f32>(velocity, response[CONTROL_COMPLIANCE_VOLUME]);
 }

@@ -24,13 +24,13 @@ fn main(
     }
     var mean = vec3<f32>(0.0);
     var rate = 0.0;
-    for (var corner = 0u; corner < 4u; corner += 1u) {
+    for (var corner = 0u; corner < TET_CORNERS; corner += 1u) {
         let node = control_solved[corners[corner]].xyz;
-        let own = fluid_shares[4u * row + corner];
-        mean += own.w * node;
+        let own = fluid_shares[TET_CORNERS * row + corner];
+        mean += own[CORNER_WEIGHT] * node;
         rate -= dot(node, own.xyz);
     }
     let pushed = fluid_pushed[row];
-    let velocity = pushed.w * fluid_correction[row].xyz + (1.0 - pushed.w) * mean;
+    let velocity = pushed[FLUID_PUSHED_MOBILITY] * fluid_correction[row].xyz + (1.0 - pushed[FLUID_PUSHED_MOBILITY]) * mean;
     fluid_correction[row] = vec4<f32>(velocity, rate + dot(velocity, pushed.xyz));
 }

@@ -84,10 +84,10 @@ pub enum Command {
         /// The nodes.
         nodes: Nodes,
     },
-    /// Water in a region, at once, as particles on a lattice of `fluid.spacing`. Places outside of the container, or less than a quarter
-    /// of a spacing from its walls, in bodies, in sponges and less than 0.8 spacings from other water are left out and counted
-    /// ([`Ledger::left_out`](crate::Ledger)). A region without any room is an error. For water that falls from above the blocks of the
-    /// scene, or is faster than they are, set [`Fluid::sound_speed`](crate::scene::Fluid::sound_speed).
+    /// Water in a region, at once, as particles on a lattice of `fluid.spacing`. Some places are left out and counted
+    /// ([`Ledger::left_out`](crate::Ledger)): those outside of the container or less than a quarter of a spacing from its walls. So are
+    /// those in bodies, in sponges and less than 0.8 spacings from other water. A region without any room is an error. For water that falls
+    /// from above the blocks of the scene, or is faster than they are, set [`Fluid::sound_speed`](crate::scene::Fluid::sound_speed).
     Pour {
         /// Where. At most 50 million particles in all.
         region: Region,
@@ -120,7 +120,7 @@ pub enum Command {
         number: FlowHandle,
     },
     /// A sponge in its shape at rest at another place, at once, with the water in its pores. Nodes that bodies hold are let go. A place
-    /// outside of the container, in a body or in a sponge is an error, and one in water if the sponge brings water along.
+    /// outside of the container, in a body or in a sponge is an error. So is one in water if the sponge brings water along.
     PlaceSponge {
         /// The sponge.
         sponge: SpongeHandle,

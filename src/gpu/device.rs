@@ -26,7 +26,7 @@ use crate::{
 const EXTREMES: [Column; 3] = [Column::FluidExtremes, Column::FluidPressureSolve, Column::NodeExtremes];
 
 /// Scratch columns that the host reads after a step that it shares with a device.
-pub(super) fn looked_at(observed: &[Column]) -> Vec<Column> {
+pub(super) fn read_by_host(observed: &[Column]) -> Vec<Column> {
     let observed = observed.iter().filter(|column| !column.is_on_host_only());
     let kept = Column::ALL.iter().filter(|column| column.life() == Life::Kept);
     kept.chain(&EXTREMES).chain(observed).copied().collect()
@@ -44,7 +44,7 @@ pub(crate) struct Device {
     /// Awake parts of the next steps.
     awake: Awake,
     /// Columns that are read back for the host.
-    looked_at: Vec<Column>,
+    read_by_host: Vec<Column>,
     wants_times: bool,
     resident: Option<On>,
     /// The same with a state that is past, for the next one.
@@ -85,17 +85,17 @@ impl Device {
         observed: &[Column],
         wants_times: bool,
     ) -> Self {
-        let shares = plans.whole().shares(&looked_at(observed));
+        let shares = plans.whole().shares(&read_by_host(observed));
         let written: Vec<Column> = shares.on_gpu().flat_map(|kernel| kernel.writes).copied().collect();
         let wanted = |column: &Column| {
             (column.life().is_saved() || observed.contains(column))
                 && written.contains(column)
                 && !column.is_on_host_only()
         };
-        let looked_at = Column::ALL.iter().copied().filter(wanted).collect();
+        let read_by_host = Column::ALL.iter().copied().filter(wanted).collect();
         let stages = |plan: &Plan| {
-            let segments = plan.shares(&[]).segments;
-            segments.into_iter().flat_map(|segment| segment.stages).collect()
+            let shares = plan.shares(&[]).all;
+            shares.into_iter().flat_map(|share| share.stages).collect()
         };
         let reduced = if shares.are_all_on_gpu() { plans.0.iter().map(stages).collect() } else { Vec::new() };
         Self {
@@ -104,7 +104,7 @@ impl Device {
             shares,
             reduced,
             awake: Awake::EVERYTHING,
-            looked_at,
+            read_by_host,
             wants_times,
             resident: None,
             spare: None,
@@ -116,15 +116,15 @@ impl Device {
 
     /// The same without the data on the device, for a copy of the host's columns. If these are of an earlier state, because
     /// the device was lost, the copy records that.
-    pub(crate) fn another(&self) -> Self {
-        let is_ahead = !self.is_looked_at();
+    pub(crate) fn without_data(&self) -> Self {
+        let is_ahead = !self.is_host_current();
         Self {
             gpu: Arc::clone(&self.gpu),
             limits: self.limits,
             shares: self.shares.clone(),
             reduced: self.reduced.clone(),
             awake: self.awake,
-            looked_at: self.looked_at.clone(),
+            read_by_host: self.read_by_host.clone(),
             wants_times: self.wants_times,
             resident: None,
             spare: None,
@@ -141,7 +141,7 @@ impl Device {
 
     /// The dispatches of a step: of the kernels that run here.
     pub(crate) fn dispatches(&self, host: &Columns, params: &Params) -> Result<Dispatches, GpuError> {
-        let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
+        let shares = self.shares.all.iter().filter(|share| share.place == Place::Gpu);
         let stages: Vec<Stage> = shares.flat_map(|share| share.stages.clone()).collect();
         Ok(match self.resident() {
             Some(resident) => resident.dispatches_of(&stages),
@@ -167,7 +167,7 @@ impl Device {
             return mirror;
         }
         let mut columns = host.clone();
-        match on.resident.download(&mut columns, &self.looked_at) {
+        match on.resident.download(&mut columns, &self.read_by_host) {
             Ok(()) => self.mirror.get_or_init(|| columns),
             Err(_) => host,
         }
@@ -175,17 +175,17 @@ impl Device {
 
     /// Whether a step has iterations that end when they have converged.
     pub(crate) fn has_rounds(&self) -> bool {
-        let mut stages = self.shares.segments.iter().flat_map(|share| &share.stages);
+        let mut stages = self.shares.all.iter().flat_map(|share| &share.stages);
         stages.any(|stage| matches!(stage, Stage::Rounds { .. }))
     }
 
     /// Requests the columns that the host reads; none if there is nothing on the device.
-    pub(crate) fn ask(&self) -> Result<Option<Pending>, GpuError> {
-        self.resident.as_ref().map(|on| on.resident.ask(&self.looked_at)).transpose()
+    pub(crate) fn request_columns(&self) -> Result<Option<Pending>, GpuError> {
+        self.resident.as_ref().map(|on| on.resident.request_columns(&self.read_by_host)).transpose()
     }
 
     /// Whether the host has the present state, so that the next step leaves it behind.
-    pub(crate) fn is_looked_at(&self) -> bool {
+    pub(crate) fn is_host_current(&self) -> bool {
         !self.is_ahead || self.mirror.get().is_some()
     }
 
@@ -195,27 +195,27 @@ impl Device {
     }
 
     /// Drops the data on the device: the newest state of the host becomes the present one. Some if that is an earlier one.
-    pub(crate) fn give_up(&mut self, host: &mut Columns) -> Option<Kept> {
-        let is_earlier = !self.is_looked_at();
-        self.leave(host);
+    pub(crate) fn release(&mut self, host: &mut Columns) -> Option<Kept> {
+        let is_earlier = !self.is_host_current();
+        self.take_mirror(host);
         self.is_ahead = false;
         self.resident = None;
         self.kept.take().filter(|_| is_earlier)
     }
 
     /// Makes the present state that of the host, and uploads it anew before the next step. False if the device is lost.
-    pub(crate) fn bring_home(&mut self, host: &mut Columns) -> bool {
+    pub(crate) fn move_to_host(&mut self, host: &mut Columns) -> bool {
         self.view(host);
-        let is_there = self.is_looked_at();
+        let is_there = self.is_host_current();
         if is_there {
-            self.leave(host);
+            self.take_mirror(host);
             self.set_aside();
         }
         is_there
     }
 
     /// Forgets the state of the device for another one, which the host has.
-    pub(crate) fn leave_behind(&mut self) {
+    pub(crate) fn discard_state(&mut self) {
         self.mirror.take();
         self.set_aside();
     }
@@ -227,7 +227,7 @@ impl Device {
     }
 
     /// The read-back state becomes that of the host: the newest one if the device is lost.
-    fn leave(&mut self, host: &mut Columns) {
+    fn take_mirror(&mut self, host: &mut Columns) {
         if let Some(mut mirror) = self.mirror.take() {
             std::mem::swap(&mut mirror.bodies, &mut host.bodies);
             *host = mirror;
@@ -254,7 +254,7 @@ impl Device {
         resident.upload(host, &columns, false)?;
         // Kernels are timed one by one.
         resident.set_fused(!self.wants_times);
-        let shares = self.shares.segments.iter().filter(|share| share.place == Place::Gpu);
+        let shares = self.shares.all.iter().filter(|share| share.place == Place::Gpu);
         let programs =
             shares.map(|share| resident.program_of(share.stages.clone())).collect::<Result<_, _>>()?;
         let profile = if self.wants_times { Profile::new(&self.gpu)? } else { None };
@@ -316,7 +316,7 @@ impl Device {
 
     /// Takes steps that the device chooses.
     pub(crate) fn advance(&mut self, host: &mut Columns, steps: u32) -> Result<Answer, GpuError> {
-        self.leave(host);
+        self.take_mirror(host);
         let refused = || GpuError::Refused { reason: "no state was uploaded".to_owned() };
         let On { resident, programs, reduced, profile } = self.resident.as_mut().ok_or_else(refused)?;
         let index = self.awake.index();
@@ -348,7 +348,7 @@ impl Device {
     fn try_step_with(&mut self, cpu: &Cpu, host: &mut Columns, params: &Params) -> Result<(), GpuError> {
         let Some(On { resident, programs, .. }) = &mut self.resident else { return Ok(()) };
         let mut programs = programs.iter_mut();
-        for share in &self.shares.segments {
+        for share in &self.shares.all {
             match share.place {
                 Place::Cpu => {
                     fetch(resident, host, params, &share.needs)?;

@@ -17,7 +17,7 @@ use crate::{
     stores::Stores,
     world::{
         FrameReport, Options, Pushes, StepError, StepReport, World, WorldError, fastest_body, move_bodies,
-        sleep::Kind, take_masses,
+        sleep::Kind, take_masses, tally::FrameTally,
     },
 };
 
@@ -74,7 +74,7 @@ impl World {
         self.steps.stable(&self.params, &Clock { body_speed, ..self.clock })
     }
 
-    /// One step of the time that was set, in which a turn of the container gives something to the bodies; `bound` is what made the host
+    /// One step of the time that was set, in which a turn of the container gives something to the bodies. `bound` is what made the host
     /// choose its length.
     fn take_one(&mut self, carried: &[Wrench], bound: Option<Bound>) -> Result<StepReport, StepError> {
         let before = self.clock.steps;
@@ -94,45 +94,24 @@ impl World {
 
     /// Steps that fill a frame: all in one submission, if no bodies move in between, no part sleeps, and nothing is iterated.
     fn fill_frame(&mut self) -> Result<FrameReport, StepError> {
-        let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
-        let mut report = FrameReport {
-            time: self.clock.time,
-            steps: 0,
-            shortest_step: f32::INFINITY,
-            bound: Bound::Frame,
-            maximum_speed: 0.0,
-        };
-        let mut bounds = [0; Bound::ALL.len()];
+        let end = self.end_of_frame();
+        let mut tally = FrameTally::new(Bound::Frame);
         while end - self.clock.time > TIME_RESOLUTION && !self.sleep_until(end) {
             if self.is_carried(self.clock.time, end) {
-                let taken = self.take_carried_step(end - self.clock.time)?;
-                report.steps += 1;
-                report.shortest_step = report.shortest_step.min(taken.step);
-                report.maximum_speed = report.maximum_speed.max(taken.maximum_speed);
-                bounds[taken.bound as usize] += 1;
+                tally.add(&self.take_carried_step(end - self.clock.time)?);
                 self.watch();
             } else {
-                self.fill_on_device(end, &mut report, &mut bounds)?;
+                self.fill_on_device(end, &mut tally)?;
             }
-            let maximum = (0..bounds.len()).rev().max_by_key(|bound| bounds[*bound]).unwrap_or(0);
-            report.bound = Bound::ALL[maximum];
         }
-        self.clock.frames += 1;
-        report.time = self.clock.time;
-        Ok(report)
+        Ok(self.end_frame(tally))
     }
 
-    /// Steps to the end of a frame, or until parts fall asleep or wake: then the device begins anew. Counts the bounds of
-    /// the steps.
-    fn fill_on_device(
-        &mut self,
-        end: f64,
-        report: &mut FrameReport,
-        bounds: &mut [u32; Bound::ALL.len()],
-    ) -> Result<(), StepError> {
+    /// Steps to the end of a frame, or until parts fall asleep or wake: then the device begins anew.
+    fn fill_on_device(&mut self, end: f64, tally: &mut FrameTally) -> Result<(), StepError> {
         self.carry(self.params.step)?;
         self.begin_on_device((end - self.clock.time) as f32)?;
-        let (first, before) = (self.clock.steps, *bounds);
+        let (first, mut counted) = (self.clock.steps, [0; Bound::ALL.len()]);
         loop {
             let taken_before = (self.clock.steps - first) as u32;
             let answer = self.advance_on_device(self.steps_to(end), taken_before)?;
@@ -142,12 +121,11 @@ impl World {
             let is_over = answer.left <= TIME_RESOLUTION as f32;
             self.clock.time = if is_over { end } else { end - f64::from(answer.left) };
             self.take_over(&answer, taken, &[])?;
-            report.steps += taken;
-            report.shortest_step = report.shortest_step.min(answer.shortest);
-            report.maximum_speed = report.maximum_speed.max(answer.maximum_speed);
-            for (index, bound) in bounds.iter_mut().enumerate() {
-                *bound = before[index] + answer.bounds[index];
+            tally.add_steps(taken, answer.shortest, answer.maximum_speed);
+            for (index, bound) in Bound::ALL.iter().enumerate() {
+                tally.add_bounds(*bound, answer.bounds[index] - counted[index]);
             }
+            counted = answer.bounds;
             if self.watch() || is_over {
                 return Ok(());
             }
@@ -158,7 +136,7 @@ impl World {
     fn steps_to(&self, end: f64) -> u32 {
         // Fixed bodies need no host.
         let is_moved = (0..self.engine.body_count()).any(|body| self.engine.kind(body) != BodyKind::Fixed);
-        // Awake parts may come near sleeping ones in any step. Where rounds do not suffice, the steps behind would leave at once, at the
+        // Awake parts may come near sleeping ones in any step. Where rounds do not suffice, the steps behind would return at once, at the
         // cost of all their barriers.
         let has_rounds = self.stores.device.as_ref().is_some_and(Device::has_rounds);
         if is_moved || has_rounds || self.sleep.dormant() != Dormant::default() {
@@ -204,7 +182,7 @@ impl World {
 
     /// Stores clock and bodies of the state of the host, before the device continues from it.
     fn keep_state(&mut self) {
-        if let Some(device) = self.stores.device.as_mut().filter(|device| device.is_looked_at()) {
+        if let Some(device) = self.stores.device.as_mut().filter(|device| device.is_host_current()) {
             let (clock, engine) = (self.clock, self.engine.clone());
             device.keep(Kept { clock, engine, step: self.params.step });
         }
@@ -225,7 +203,7 @@ impl World {
         // Reads back what the host does not have yet, if it can.
         self.stores.view();
         if let Some(device) = &mut self.stores.device
-            && let Some(kept) = device.give_up(&mut self.stores.host)
+            && let Some(kept) = device.release(&mut self.stores.host)
         {
             let bodies = &mut self.stores.host.bodies.states.0;
             for (index, body) in bodies.iter_mut().enumerate() {

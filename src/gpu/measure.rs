@@ -9,7 +9,7 @@ impl Device {
     /// Adds sums over the state to measures; false if the device cannot provide them, or the host has the state.
     pub(crate) fn add_sums(&self, world: &World, measures: &mut Measures) -> bool {
         // With a pressure solve the measured density is summed anew.
-        if self.is_looked_at() || world.params.fluid.incompressible.is_some() {
+        if self.is_host_current() || world.params.fluid.incompressible.is_some() {
             return false;
         }
         let lattice = world.lattice();

@@ -9,7 +9,7 @@ use sorb_kernels::{
     step::RIGID,
 };
 
-use super::{Device, device::looked_at};
+use super::{Device, device::read_by_host};
 use crate::{
     schedule::{Offload, Place, Placement, Plan, Transfer},
     world::{Options, World, WorldError},
@@ -24,6 +24,7 @@ struct Request<'a> {
     rows: RowCounts,
     params: &'a Params,
     options: &'a Options,
+    observed: &'a [Column],
 }
 
 impl World {
@@ -50,17 +51,18 @@ impl World {
     pub(super) fn place_by(&mut self, options: &Options) -> Result<(), WorldError> {
         self.placed_by.clone_from(options);
         let (rows, params, plans) = (self.stores.host.rows, &self.params, &mut self.plans);
+        let observed = &self.observed[..];
         if options.offload == Offload::Cpu {
             self.stores.device = None;
             plans.0.iter_mut().for_each(|plan| plan.placement = None);
             return Ok(());
         }
-        let (placement, gpu) = Request { plan: plans.whole(), rows, params, options }.place()?;
+        let (placement, gpu) = Request { plan: plans.whole(), rows, params, options, observed }.place()?;
         for plan in &mut plans.0 {
-            let transfers = Request { plan, rows, params, options }.transfers(&placement.on_gpu);
+            let transfers = Request { plan, rows, params, options, observed }.transfers(&placement.on_gpu);
             plan.placement = Some(Placement { transfers, ..placement.clone() });
         }
-        let device = |gpu| Device::new(gpu, plans, self.steps.limits(), &options.observed, options.gpu_times);
+        let device = |gpu| Device::new(gpu, plans, self.steps.limits(), observed, options.gpu_times);
         self.stores.device = gpu.map(device);
         Ok(())
     }
@@ -117,12 +119,12 @@ impl Request<'_> {
 
     /// Transfers of every step.
     fn transfers(&self, on_gpu: &[&'static str]) -> Vec<Transfer> {
-        let shares = self.plan.shares_with(on_gpu, &looked_at(&self.options.observed));
+        let shares = self.plan.shares_with(on_gpu, &read_by_host(self.observed));
         if shares.are_all_on_gpu() {
             return self.few_transfers();
         }
         let mut all: Vec<Transfer> = Vec::new();
-        for share in shares.segments.iter().filter(|share| !share.needs.is_empty()) {
+        for share in shares.all.iter().filter(|share| !share.needs.is_empty()) {
             let line = share.line;
             let mut transfer = self.columns(&share.needs, share.place == Place::Gpu);
             transfer.before = share.kernels().next().map(|kernel| kernel.name);

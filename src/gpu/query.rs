@@ -20,7 +20,7 @@ impl World {
     /// until then the host answers, from what was read back before.
     fn asked(&self) -> Option<&Resident> {
         let device = self.stores.device.as_ref()?;
-        device.resident().filter(|_| device.has_all() && !device.is_looked_at())
+        device.resident().filter(|_| device.has_all() && !device.is_host_current())
     }
 
     fn water_shares(&self) -> WaterShares {

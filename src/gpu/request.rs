@@ -50,12 +50,12 @@ impl World {
     /// The device was lost, or there is no memory to copy to.
     pub fn request_state(&self) -> Result<StateRequest, GpuError> {
         let host = &self.stores.host;
-        let device = self.stores.device.as_ref().filter(|device| !device.is_looked_at());
+        let device = self.stores.device.as_ref().filter(|device| !device.is_host_current());
         let (columns, pending) = match device {
             Some(device) => {
                 let mut columns = Columns { rows: host.rows, ..Columns::default() };
                 columns.bodies.states = host.bodies.states.clone();
-                (columns, device.ask()?)
+                (columns, device.request_columns()?)
             }
             None => (self.columns().clone(), None),
         };

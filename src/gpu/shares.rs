@@ -5,12 +5,13 @@ use sorb_kernels::{
 };
 
 use crate::schedule::{
-    Offload, Place, PlaceError, Plan, PlanLine, Verdict, offload::place_in, order::Part, plan::Work,
+    Offload, Place, PlaceError, Plan, PlannedPhase, Verdict, offload::place_in, order::PlannedStage,
+    plan::Work,
 };
 
-/// Consecutive kernels at one place.
+/// Consecutive stages at one place.
 #[derive(Clone, Debug)]
-pub(crate) struct Segment {
+pub(crate) struct Share {
     pub(crate) place: Place,
     pub(crate) stages: Vec<Stage>,
     /// Index of the first one in the plan.
@@ -21,11 +22,11 @@ pub(crate) struct Segment {
     pub(crate) is_sorted: bool,
 }
 
-/// A step, divided by place.
+/// The shares of a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shares {
     /// In order, with repetitions written out.
-    pub(crate) segments: Vec<Segment>,
+    pub(crate) all: Vec<Share>,
     /// Columns that the host fetches at the end of the step.
     pub(crate) fetched: Vec<Column>,
 }
@@ -33,17 +34,17 @@ pub(crate) struct Shares {
 impl Shares {
     /// Whether the device runs all of it.
     pub(crate) fn are_all_on_gpu(&self) -> bool {
-        !self.segments.is_empty() && self.segments.iter().all(|segment| segment.place == Place::Gpu)
+        !self.all.is_empty() && self.all.iter().all(|share| share.place == Place::Gpu)
     }
 
     /// Kernels of the device, in order, with repetitions written out.
     pub(crate) fn on_gpu(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
-        let segments = self.segments.iter().filter(|segment| segment.place == Place::Gpu);
-        segments.flat_map(Segment::kernels)
+        let shares = self.all.iter().filter(|share| share.place == Place::Gpu);
+        shares.flat_map(Share::kernels)
     }
 }
 
-impl Segment {
+impl Share {
     /// Its kernels, in order.
     pub(crate) fn kernels(&self) -> impl Iterator<Item = &'static Kernel> + '_ {
         self.stages.iter().flat_map(Stage::kernels).copied()
@@ -122,7 +123,7 @@ impl Plan {
     /// # Errors
     /// Kernels are asked for at places where they cannot be.
     pub(crate) fn kernels_on_gpu(&self, offload: &Offload) -> Result<Vec<&'static str>, PlaceError> {
-        let kernel = |line: &PlanLine| match line.work {
+        let kernel = |line: &PlannedPhase| match line.work {
             Work::Kernel(kernel) => (line.verdict == Verdict::Runs).then_some(kernel),
             Work::Host(_) => None,
         };
@@ -180,7 +181,7 @@ impl Plan {
     }
 
     /// Groups of active lines that are repeated until they have converged.
-    fn rounds(&self) -> impl Iterator<Item = Vec<&PlanLine>> {
+    fn rounds(&self) -> impl Iterator<Item = Vec<&PlannedPhase>> {
         self.groups()
             .filter(|group| group[0].until_converged)
             .map(|group| group.iter().filter(|line| line.verdict == Verdict::Runs).collect())
@@ -192,39 +193,39 @@ impl Plan {
         group.map_or(name, |group| group[0].name)
     }
 
-    /// The shares of CPU and device in the placed plan; `looked_at` are columns that the host reads after a step.
-    pub(crate) fn shares(&self, looked_at: &[Column]) -> Shares {
+    /// The shares of CPU and device in the placed plan; `read_by_host` are columns that the host reads after a step.
+    pub(crate) fn shares(&self, read_by_host: &[Column]) -> Shares {
         let on_gpu = self.placement().map_or(&[][..], |placement| &placement.on_gpu);
-        self.shares_with(on_gpu, looked_at)
+        self.shares_with(on_gpu, read_by_host)
     }
 
     /// The shares if the device has these kernels.
-    pub(crate) fn shares_with(&self, on_gpu: &[&str], looked_at: &[Column]) -> Shares {
-        let parts = self.in_order();
+    pub(crate) fn shares_with(&self, on_gpu: &[&str], read_by_host: &[Column]) -> Shares {
+        let stages = self.in_order();
         let mut fresh = Fresh::at_upload();
         // Data of one step remain on the device for the next: only the second step shows the transfers of all others.
-        shares_of(&parts, on_gpu, &mut fresh, looked_at);
-        shares_of(&parts, on_gpu, &mut fresh, looked_at)
+        shares_of(&stages, on_gpu, &mut fresh, read_by_host);
+        shares_of(&stages, on_gpu, &mut fresh, read_by_host)
     }
 }
 
 /// The shares of a step that begins with these columns up to date.
-fn shares_of(parts: &[Part], on_gpu: &[&str], fresh: &mut Fresh, looked_at: &[Column]) -> Shares {
+fn shares_of(stages: &[PlannedStage], on_gpu: &[&str], fresh: &mut Fresh, read_by_host: &[Column]) -> Shares {
     let mut shares = Shares::default();
     let mut is_sorted = false;
     let mut host = Vec::new();
-    for part in parts {
-        let (stage, lines) = match part {
-            Part::Kernels(stage, lines) => (stage, lines),
-            Part::Host(phase) => {
+    for planned in stages {
+        let (stage, lines) = match planned {
+            PlannedStage::Kernels(stage, lines) => (stage, lines),
+            PlannedStage::Host(phase) => {
                 host.push(phase);
                 continue;
             }
         };
         let is_there = |kernel: &&Kernel| on_gpu.contains(&kernel.name);
         let place = if stage.kernels().iter().any(is_there) { Place::Gpu } else { Place::Cpu };
-        if shares.segments.last().is_none_or(|last| last.place != place) {
-            shares.segments.push(Segment {
+        if shares.all.last().is_none_or(|last| last.place != place) {
+            shares.all.push(Share {
                 place,
                 stages: Vec::new(),
                 line: lines[0],
@@ -232,22 +233,22 @@ fn shares_of(parts: &[Part], on_gpu: &[&str], fresh: &mut Fresh, looked_at: &[Co
                 is_sorted,
             });
         }
-        let Some(segment) = shares.segments.last_mut() else { continue };
+        let Some(share) = shares.all.last_mut() else { continue };
         for kernel in stage.kernels() {
             let (reads, writes) = moved(kernel);
             for column in reads {
-                segment.needs.extend(fresh.bring(column, place));
+                share.needs.extend(fresh.bring(column, place));
             }
             writes.into_iter().for_each(|column| fresh.write(column, place));
             is_sorted = kernel.sorts_fluid() || is_sorted && !kernel.returns_fluid();
         }
-        segment.stages.push(stage.clone());
+        share.stages.push(stage.clone());
     }
     // The host stores the state, reads it, and has phases of its own.
-    let state = |column: &Column| column.life() == Life::State || looked_at.contains(column);
+    let state = |column: &Column| column.life() == Life::State || read_by_host.contains(column);
     let mut wanted: Vec<Column> = Column::ALL.iter().copied().filter(state).collect();
     host.iter().for_each(|phase| wanted.extend(phase.reads));
-    if !shares.segments.is_empty() {
+    if !shares.all.is_empty() {
         shares.fetched = wanted.into_iter().flat_map(|column| fresh.bring(column, Place::Cpu)).collect();
     }
     for column in host.iter().flat_map(|phase| phase.writes) {

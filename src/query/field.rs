@@ -27,7 +27,7 @@ struct Sample {
     is_mirrored: bool,
 }
 
-/// The particles near some box by cells, with their images across periodic sides and behind walls: water at rest fills half of the space
+/// The particles near some box by cells, with their images across periodic sides and behind walls. Water at rest fills half of the space
 /// at its surface also beside a wall.
 #[derive(Debug)]
 pub(super) struct WaterField {
@@ -77,7 +77,7 @@ impl WaterField {
         low.is_finite().then(|| (low - self.radius, high + self.radius))
     }
 
-    /// Calls with the row and the share of the space around a point of every particle near it; no row for an image behind a wall.
+    /// Calls with the row and the share of the space around a point of every particle near it. There is no row for an image behind a wall.
     pub(super) fn around(&self, point: Vec3, mut visit: impl FnMut(Option<usize>, f64)) {
         let [z, y, x] = self.cell(point);
         let scale = self.volume * 21.0 / (2.0 * PI * f64::from(self.radius).powi(3));

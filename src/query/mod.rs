@@ -1,9 +1,8 @@
 //! Questions about the present state: what rays meet, how high the water stands, and what is at points.
 //!
 //! All of them take many questions at once, which share the preparation. Where a device has the state it answers, and 32 bytes a question
-//! come back (`gpu::query`); rays that may meet sponges, and probes with other solvers than `divergence`, read the state back once a call.
-//! The surface of the water is where it fills half of the space around a point ([`WaterField`]), so that a single drop of a particle
-//! has none.
+//! come back (`gpu::query`). Rays that may meet sponges, and probes with other solvers than `divergence`, read the state back once a call.
+//! The surface of the water is where it fills half of the space around a point ([`WaterField`]). A drop of a single particle has none.
 
 mod error;
 pub(crate) mod field;

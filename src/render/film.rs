@@ -44,8 +44,8 @@ impl Film {
     /// Creates the file, replacing one that is there. `frames_per_second` is 0.02 to 1000.
     ///
     /// # Errors
-    /// [`RenderError`] when a side is below 16 pixels or the film is larger than 3840 x 2160 pixels, when the rate is out of range, or
-    /// when the file cannot be created.
+    /// [`RenderError`] when a side is below 16 pixels or the film is larger than 3840 x 2160 pixels. Also when the rate is out of range, or
+    /// the file cannot be created.
     pub fn create(
         path: impl AsRef<Path>,
         width: u32,

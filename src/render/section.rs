@@ -3,8 +3,8 @@
 use crate::World;
 use glam::Vec3;
 
-/// The plane through the middle of some places, across the axis that the eye is nearest to: a point (m) and the normal towards the
-/// eye.
+/// The plane through the middle of some places, across the axis that the eye is nearest to. The result is a point (m) and the normal
+/// towards the eye.
 pub(super) fn plane(places: &[[f32; 4]], eye: Vec3) -> (Vec3, Vec3) {
     let places = places.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).filter(|place| place.is_finite());
     let (sum, count) = places.fold((Vec3::ZERO, 0.0_f32), |(sum, count), place| (sum + place, count + 1.0));

@@ -205,7 +205,7 @@ fn hull(o: Vec3, d: Vec3, planes: &[(Vec3, f32)]) -> Option<Span> {
     (span.enter > f32::MIN && span.exit < f32::MAX).then_some(span)
 }
 
-/// From where a ray first enters a part to where it leaves that and all that overlap it: the wall of a cup, not its hollow.
+/// From where a ray first enters a part to where it leaves that and all that overlap it. That is the wall of a cup, not its hollow.
 fn union(o: Vec3, d: Vec3, compound: &Compound) -> Option<Span> {
     let parts = compound.parts.iter();
     let spans =

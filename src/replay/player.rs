@@ -28,7 +28,7 @@ pub struct Mismatch {
     pub recorded: u64,
     /// Digest of this run.
     pub found: u64,
-    /// What differs first, and in which frame: this one where the recorded state can be computed from the key frame before it,
+    /// What differs first, and in which frame. It is this one where the recorded state can be computed from the key frame before it,
     /// else that of the next key frame. The first value is the recorded one.
     pub difference: Option<(u64, Difference)>,
 }
@@ -237,7 +237,7 @@ impl<'a> Player<'a> {
         Ok(key.first_difference(&found).map(|difference| (at, difference)))
     }
 
-    /// The present frame as it was recorded, computed from the key frame before on one thread at the lowest SIMD level; none if that gives
+    /// The present frame as it was recorded, computed from the key frame before on one thread at the lowest SIMD level. None if that gives
     /// another digest.
     fn recomputed(&self, recorded: u64) -> Option<Save> {
         let options =

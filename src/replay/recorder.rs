@@ -30,7 +30,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Begins with the present state. `every` is the number of frames from a key frame to the next, at least 1; without it
+    /// Begins with the present state. `every` is the number of frames from a key frame to the next, at least 1. Without it
     /// there is none, and who seeks plays from the start.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use glam::{DVec3, Vec3};
-use sorb_kernels::body::{Compound, Part};
+use sorb_kernels::body::{Compound, ConvexPart};
 
 use super::{ConvexHull, HullError, Shape, convex_hull, mass::Solid};
 
@@ -22,8 +22,8 @@ const EDGE_RADIUS: f32 = 1.5;
 /// A shape about its centre of mass, and the place of that in the frame of the description \[m\].
 pub(crate) type Placed = (Shape, Vec3);
 
-/// A cup along y that stands on the origin: inner radius, height in all, and thickness of wall and bottom \[m\], for water of particles at
-/// a spacing \[m\]. It is a prism of 24 sides that holds as much as a round one.
+/// A cup along y that stands on the origin. Its sizes are inner radius, height in all, and thickness of wall and bottom \[m\], for water of
+/// particles at a spacing \[m\]. It is a prism of 24 sides that holds as much as a round one.
 pub(crate) fn cup([radius, height, thickness]: [f32; 3], spacing: f32) -> Result<Placed, HullError> {
     let [radius, height, thickness] = [radius, height, thickness].map(f64::from);
     let half_angle = PI / f64::from(SIDES);
@@ -96,7 +96,7 @@ pub(super) fn compound(
     let parts = hulls.into_iter().map(|hull| {
         let place = (hull.offset.as_dvec3() - centre).as_vec3();
         let (core, radius) = core(&hull.shape, spacing);
-        Part { centre: place, hull: hull.shape, core, radius }
+        ConvexPart { centre: place, hull: hull.shape, core, radius }
     });
     let parts = parts.collect();
     let vertices = vertices.iter().map(|vertex| (vertex.as_dvec3() - centre).as_vec3()).collect();

@@ -31,7 +31,7 @@ mod tests;
 mod told;
 
 // The interface shared with the kernels and the scene. The files of this folder import these types from here.
-pub use sorb_kernels::body::{Body, BodyKind, BodyState, Compound, Part, Shape, Wrench};
+pub use sorb_kernels::body::{Body, BodyKind, BodyState, Compound, ConvexPart, Shape, Wrench};
 
 use crate::scene::Motion;
 
@@ -124,7 +124,7 @@ pub trait RigidEngine: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Appends everything that decides the future and does not follow from the bodies that the engine was built from: an engine
+    /// Appends everything that decides the future and does not follow from the bodies that the engine was built from. An engine
     /// of the same bodies that [`restore`](Self::restore)s it continues with the same bits, and saves the same bytes after
     /// every step.
     ///

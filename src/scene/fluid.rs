@@ -160,7 +160,7 @@ pub enum FluidSolver {
     /// By a pressure solve that keeps the rest density: few long steps \[BK17\]. Water resists shear like a pile of spheres.
     Dfsph,
     /// By a pressure solve that keeps the velocities free of divergence, with gradients that are exact for particles in any order
-    /// (docs/pressure-solve.md): water flows without friction of its own, and bodies sink and float by their weight.
+    /// (docs/pressure-solve.md). Water flows without friction of its own, and bodies sink and float by their weight.
     /// Sponges are porous media with it: not with `coupling` = "paper".
     #[default]
     Divergence,

@@ -13,7 +13,7 @@ impl Scene {
     /// change its `kind`: `domain={kind="open"}`.
     ///
     /// # Errors
-    /// [`SceneError::Override`] for a text without `=`, an element that is not there or a value that is not TOML;
+    /// [`SceneError::Override`] for a text without `=`, an element that is not there or a value that is not TOML.
     /// [`SceneError::Invalid`] for an unknown key or a value that makes the scene invalid. The scene is then unchanged.
     pub fn set(&mut self, text: &str) -> Result<(), SceneError> {
         *self = self.with_overrides([text])?;

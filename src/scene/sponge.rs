@@ -128,7 +128,7 @@ pub struct Sponge {
     ///
     /// At time zero all material is dry. Much below 0.05, `swelling` shakes the sponge as single particles pass.
     pub wetting_time: f32,
-    /// Exponent n of the relative permeability `k_r = S^n` at saturation S: the flow under any pressure gradient is in
+    /// Exponent n of the relative permeability `k_r = S^n` at saturation S. The flow under any pressure gradient is in
     /// proportion to `permeability * k_r` over the viscosity. Range 1 to 8; default 1, at which the velocity of the water
     /// does not depend on S. Brooks and Corey have `3 + 2 / l` for a pore size distribution index l, 3 to 4 in foams.
     pub relative_permeability_exponent: u32,

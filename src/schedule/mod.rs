@@ -8,6 +8,6 @@ pub(crate) mod run;
 
 pub(crate) use awake::{Awake, Plans};
 pub use offload::{Offload, OffloadError, Place, PlaceError, Placement, Transfer};
-pub use plan::{Plan, PlanError, PlanLine, Verdict};
+pub use plan::{Plan, PlanError, PlannedPhase, Verdict};
 pub use run::PhaseTime;
 pub(crate) use run::Runner;

@@ -2,11 +2,11 @@
 
 use sorb_kernels::{stage::Stage, step::HostPhase};
 
-use super::plan::{Plan, PlanLine, Verdict, Work};
+use super::plan::{Plan, PlannedPhase, Verdict, Work};
 
-/// Something that runs in a step.
+/// A stage of a plan.
 #[derive(Clone, Debug)]
-pub(crate) enum Part {
+pub(crate) enum PlannedStage {
     /// Kernels, with the indices of their lines in the plan.
     Kernels(Stage, Vec<usize>),
     /// A phase of the host.
@@ -15,34 +15,34 @@ pub(crate) enum Part {
 
 impl Plan {
     /// The active phases in order. Repetitions are written out, except iterations until convergence.
-    pub(crate) fn in_order(&self) -> Vec<Part> {
-        let mut parts = Vec::new();
+    pub(crate) fn in_order(&self) -> Vec<PlannedStage> {
+        let mut stages = Vec::new();
         let mut first = 0;
         for group in self.groups() {
             let lines = (first..).zip(group).filter(|(_, line)| line.verdict == Verdict::Runs);
             let times = group[0].repeat.map_or(1, |(_, times)| times);
             if group[0].until_converged {
-                parts.extend(rounds(times, lines));
+                stages.extend(rounds(times, lines));
             } else {
                 for _ in 0..times {
-                    parts.extend(lines.clone().map(|(number, line)| match line.work {
-                        Work::Kernel(kernel) => Part::Kernels(Stage::Run(kernel), vec![number]),
-                        Work::Host(host) => Part::Host(host),
+                    stages.extend(lines.clone().map(|(number, line)| match line.work {
+                        Work::Kernel(kernel) => PlannedStage::Kernels(Stage::Run(kernel), vec![number]),
+                        Work::Host(host) => PlannedStage::Host(host),
                     }));
                 }
             }
             first += group.len();
         }
-        parts
+        stages
     }
 }
 
 /// Iterations until convergence; none without kernels.
-fn rounds<'a>(maximum: u32, lines: impl Iterator<Item = (usize, &'a PlanLine)>) -> Option<Part> {
-    let kernel = |(number, line): (usize, &PlanLine)| match line.work {
+fn rounds<'a>(maximum: u32, lines: impl Iterator<Item = (usize, &'a PlannedPhase)>) -> Option<PlannedStage> {
+    let kernel = |(number, line): (usize, &PlannedPhase)| match line.work {
         Work::Kernel(kernel) => Some((kernel, number)),
         Work::Host(_) => None,
     };
     let (kernels, numbers): (Vec<_>, Vec<_>) = lines.filter_map(kernel).unzip();
-    (!kernels.is_empty()).then_some(Part::Kernels(Stage::Rounds { maximum, kernels }, numbers))
+    (!kernels.is_empty()).then_some(PlannedStage::Kernels(Stage::Rounds { maximum, kernels }, numbers))
 }

@@ -22,9 +22,9 @@ pub enum Verdict {
     Skipped(&'static str),
 }
 
-/// One line of a plan.
+/// A phase of a plan: a kernel or what the host does, with the decision about it.
 #[derive(Clone, Debug)]
-pub struct PlanLine {
+pub struct PlannedPhase {
     /// `family::name`.
     pub name: &'static str,
     /// Whether it runs.
@@ -56,7 +56,7 @@ pub struct PlanError {
 /// The phases of a step for one scene.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    lines: Vec<PlanLine>,
+    lines: Vec<PlannedPhase>,
     pub(crate) placement: Option<Placement>,
 }
 
@@ -79,7 +79,7 @@ impl Plan {
 
     /// All lines, in the order of the step.
     #[must_use]
-    pub fn lines(&self) -> &[PlanLine] {
+    pub fn lines(&self) -> &[PlannedPhase] {
         &self.lines
     }
 
@@ -97,7 +97,7 @@ impl Plan {
     }
 
     /// Lines that are repeated together, and single ones.
-    pub(crate) fn groups(&self) -> impl DoubleEndedIterator<Item = &[PlanLine]> {
+    pub(crate) fn groups(&self) -> impl DoubleEndedIterator<Item = &[PlannedPhase]> {
         self.lines.chunk_by(|a, b| a.group().is_some() && a.group() == b.group())
     }
 
@@ -110,9 +110,11 @@ impl Plan {
     ) {
         for phase in phases {
             match phase {
-                Phase::Part(block) => self.collect(block.phases, contents, repeat, groups),
-                Phase::Run(kernel) => self.lines.push(PlanLine::new(Work::Kernel(kernel), contents, repeat)),
-                Phase::Host(host) => self.lines.push(PlanLine::new(Work::Host(host), contents, repeat)),
+                Phase::Named(block) => self.collect(block.phases, contents, repeat, groups),
+                Phase::Run(kernel) => {
+                    self.lines.push(PlannedPhase::new(Work::Kernel(kernel), contents, repeat))
+                }
+                Phase::Host(host) => self.lines.push(PlannedPhase::new(Work::Host(host), contents, repeat)),
                 Phase::Repeat { times, phases } => {
                     *groups += 1;
                     let first = self.lines.len();
@@ -203,7 +205,7 @@ impl Work {
     }
 }
 
-impl PlanLine {
+impl PlannedPhase {
     fn new(work: Work, contents: &Contents<'_>, repeat: Option<(usize, u32)>) -> Self {
         let missing = work.needs().iter().find_map(|need| need.missing(contents));
         let verdict = missing.map_or(Verdict::Runs, Verdict::Skipped);
@@ -260,7 +262,7 @@ impl fmt::Display for Plan {
 
 impl Plan {
     /// What a line of a phase begins with.
-    fn verb(&self, line: &PlanLine) -> &'static str {
+    fn verb(&self, line: &PlannedPhase) -> &'static str {
         match (&self.placement, line.work, self.place(line.name)) {
             (None, ..) => "run",
             (_, Work::Host(_), _) => "host",

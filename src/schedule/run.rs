@@ -4,7 +4,7 @@ use sorb_kernels::{columns::Columns, cpu::Cpu, params::Params};
 
 use super::{
     awake::Awake,
-    order::Part,
+    order::PlannedStage,
     plan::{Plan, Verdict},
 };
 use crate::stopwatch::Stopwatch;
@@ -57,15 +57,15 @@ impl PhaseTime {
 #[derive(Clone, Debug)]
 pub struct Runner {
     /// One for every plan, in the order of [`Awake::ALL`]; a single one for a runner of one plan.
-    sequences: Vec<Sequence>,
+    orders: Vec<RunOrder>,
     pub(crate) times: Vec<PhaseTime>,
     pub(crate) step: PhaseTime,
 }
 
-/// The active phases of a step in order, with the indices of the times of its kernels.
+/// The stages of a step in order, with the indices of the times of its kernels.
 #[derive(Clone, Debug, Default)]
-struct Sequence {
-    parts: Vec<(Part, Vec<usize>)>,
+struct RunOrder {
+    stages: Vec<(PlannedStage, Vec<usize>)>,
 }
 
 impl Runner {
@@ -78,13 +78,13 @@ impl Runner {
     /// The runner of several plans, which share its times.
     pub(crate) fn of_all(plans: &[Plan]) -> Self {
         let mut times = Vec::new();
-        let sequences = plans.iter().map(|plan| Sequence::new(plan, &mut times)).collect();
-        Self { sequences, times, step: PhaseTime::new("step") }
+        let orders = plans.iter().map(|plan| RunOrder::new(plan, &mut times)).collect();
+        Self { orders, times, step: PhaseTime::new("step") }
     }
 
     /// Takes over other plans, and keeps the times.
     pub(crate) fn follow(&mut self, plans: &[Plan]) {
-        self.sequences = plans.iter().map(|plan| Sequence::new(plan, &mut self.times)).collect();
+        self.orders = plans.iter().map(|plan| RunOrder::new(plan, &mut self.times)).collect();
     }
 
     /// Runs all phases of the plan for the awake parts in order; `host` runs the host phases.
@@ -95,11 +95,11 @@ impl Runner {
         columns: &mut Columns,
         host: impl FnMut(&mut Columns) + Send,
     ) {
-        let Self { sequences, times, step } = self;
+        let Self { orders, times, step } = self;
         let start = Stopwatch::start();
         // Waking the threads would be the whole cost of an empty scene.
-        if let Some(sequence) = sequences.get(awake.index()).filter(|sequence| !sequence.parts.is_empty()) {
-            cpu.enter(|| sequence.run((cpu, params), columns, host, times));
+        if let Some(order) = orders.get(awake.index()).filter(|order| !order.stages.is_empty()) {
+            cpu.enter(|| order.run((cpu, params), columns, host, times));
         }
         step.record(start);
     }
@@ -119,25 +119,25 @@ impl Runner {
     /// Whether there is nothing to run.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.sequences.iter().all(|sequence| sequence.parts.is_empty())
+        self.orders.iter().all(|order| order.stages.is_empty())
     }
 }
 
-impl Sequence {
+impl RunOrder {
     fn new(plan: &Plan, times: &mut Vec<PhaseTime>) -> Self {
         for line in plan.lines().iter().filter(|line| line.verdict == Verdict::Runs) {
             slot(times, line.name);
         }
-        let with_slots = |part: Part| {
-            let slots = match &part {
-                Part::Kernels(_, lines) => {
+        let with_slots = |stage: PlannedStage| {
+            let slots = match &stage {
+                PlannedStage::Kernels(_, lines) => {
                     lines.iter().map(|line| slot(times, plan.lines()[*line].name)).collect()
                 }
-                Part::Host(host) => vec![slot(times, host.name)],
+                PlannedStage::Host(host) => vec![slot(times, host.name)],
             };
-            (part, slots)
+            (stage, slots)
         };
-        Self { parts: plan.in_order().into_iter().map(with_slots).collect() }
+        Self { stages: plan.in_order().into_iter().map(with_slots).collect() }
     }
 
     fn run(
@@ -147,14 +147,14 @@ impl Sequence {
         mut host: impl FnMut(&mut Columns),
         times: &mut [PhaseTime],
     ) {
-        for (part, slots) in &self.parts {
-            match part {
-                Part::Kernels(stage, _) => stage.run(columns, |index, kernel, columns| {
+        for (stage, slots) in &self.stages {
+            match stage {
+                PlannedStage::Kernels(stage, _) => stage.run(columns, |index, kernel, columns| {
                     let start = Stopwatch::start();
                     (kernel.cpu)(cpu, params, columns);
                     times[slots[index]].record(start);
                 }),
-                Part::Host(_) => {
+                PlannedStage::Host(_) => {
                     let start = Stopwatch::start();
                     host(columns);
                     times[slots[0]].record(start);

@@ -20,7 +20,7 @@ use crate::{
 const JITTER: f32 = 0.01;
 /// Distance from a body, over the spacing, within which there are no initial particles.
 const CLEARANCE: f32 = 0.4;
-/// The same with a solve for the divergence, which counts the volume that bodies displace: particles are as many as fit beside
+/// The same with a solve for the divergence, which counts the volume that bodies displace. Particles are as many as fit beside
 /// them, and those nearer than this are moved away.
 const MARGIN: f32 = 0.1;
 
@@ -70,7 +70,7 @@ pub(super) fn seed_fluid(
 /// Distance of particles above each other over the spacing up to which they are one column of water.
 const GAP: f32 = 1.5;
 
-/// The kinematic pressure of water that rests on the floor of the container: a solve that begins at zero needs as many rounds as there are
+/// The kinematic pressure of water that rests on the floor of the container. A solve that begins at zero needs as many rounds as there are
 /// pairs of layers.
 fn rest_pressures(scene: &Scene, params: &Params, columns: &mut Columns) {
     let down = scene.gravity.abs().max_position();

@@ -12,8 +12,8 @@ use crate::{
 /// Whether a point of the unit cube of a block belongs to what is cut out of it.
 pub(crate) type Mask = Box<dyn Fn(Vec3) -> bool>;
 
-/// The shape of a body about its centre of mass, for water of particles at a spacing \[m\], and the place of the centre of mass in the
-/// frame of the scene's shape \[m\].
+/// The shape of a body about its centre of mass, for water of particles at a spacing \[m\]. Beside it the place of the centre of mass in
+/// the frame of the scene's shape \[m\].
 pub(super) fn shape_of(body: &Body, spacing: f32) -> Result<(Shape, Vec3), WorldError> {
     if let Some(shape) = body.shape.primitive() {
         return Ok((shape, Vec3::ZERO));

@@ -12,8 +12,8 @@ const _: () = assert!(COLORS == 2 * TET_CLASS_COUNT, "a colour for each class an
 /// Local frame of each class: columns `d`, `o e`, `s f` of a proper rotation, entries 0 and +-1.
 ///
 /// `d` is the axis of the A edge, `s f` points from the middle of the A edge to the middle of the B edge, `o e` runs
-/// along the B edge. `CLASS_FRAME[class][column][axis]`; it turns a local deformation gradient into a global one,
-/// `F = [f_d f_e f_f] P^T`, and is needed for anisotropic materials and for the output of stress only.
+/// along the B edge. The order is `CLASS_FRAME[class][column][axis]`. It turns a local deformation gradient into a global one,
+/// `F = [f_d f_e f_f] P^T`. Only anisotropic materials and the output of stress need it.
 pub const CLASS_FRAME: [[[i32; 3]; 3]; TET_CLASS_COUNT] = class_frames();
 
 /// Index offsets from the cell of a tet to its nodes: `CLASS_OFFSET[class][slot][axis]`.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3, Vec3};
 
-/// How far outside of a tet a point may lie to count as in it, over its size: points on faces between tets are in one of them.
+/// How far outside of a tet a point may lie to count as in it, over its size. Points on faces between tets are in one of them.
 const TOLERANCE: f64 = 1e-6;
 
 /// Cells that a tet may meet, else it is asked for every point: nothing but a torn sponge has larger ones.

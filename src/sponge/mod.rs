@@ -3,20 +3,19 @@
 //! A block of `[nx, ny, nz]` cubic cells of edge `a` has sublattice A on the cell corners, `A(i,j,k)` with `0 <= i <= nx`,
 //! and sublattice B on the cell centres, `B(i,j,k)` with `0 <= i < nx`. Every tet has one long edge A-A and one long edge
 //! B-B, both of length `a` and perpendicular to each other. All tets are therefore congruent, with volume `a^3/12`. A block
-//! keeps the tets that lie wholly inside it. Every boundary square is then a pit, a pyramid of depth `a/2` without a tet,
-//! and the tets fill `1 - 1/n` of the box with `n^3` cells. The tets around a pit stand for it ([`Lattice::tet_weight`]) and
-//! its corners have its mass ([`Lattice::node_volume`]). A block then has the weight, stiffness and pore volume of its box.
-//! [`SpongeSummary::rest_volume`] is the sum.
+//! keeps the tets that lie wholly inside it. Every boundary square is then a pit, a pyramid of depth `a/2` without a tet. The tets fill `1
+//! - 1/n` of the box with `n^3` cells. The tets around a pit stand for it ([`Lattice::tet_weight`]) and its corners have its mass
+//! ([`Lattice::node_volume`]). A block then has the weight, stiffness and pore volume of its box. [`SpongeSummary::rest_volume`] is the
+//! sum.
 //!
 //! [`Lattice::new`] packs any number of sponges into one set of rows in an order that the sweeps rely on:
 //!
 //! - nodes by vertex colour (A even, A odd, B even, B odd; parity of `i + j + k`), then sponge, then `k`, `j`, `i`;
 //! - tets by colour (`class * 2 + parity` of their cell), then sponge, then `k`, `j`, `i` of their cell.
 //!
-//! A class has constant offsets from its cell to its four nodes. In one colour each slot therefore always holds the same
-//! vertex colour ([`SLOT_VERTEX_COLOR`]), and the node indices of each slot strictly increase from tet to tet. Any range of
-//! tets of one colour touches four node ranges, one in each vertex colour. No other tet of that colour touches these nodes.
-//! [`chunks`] cuts such ranges.
+//! A class has constant offsets from its cell to its four nodes. In one colour each slot therefore always holds the same vertex colour
+//! ([`SLOT_VERTEX_COLOR`]). The node indices of each slot strictly increase from tet to tet. Any range of tets of one colour touches four
+//! node ranges, one in each vertex colour. No other tet of that colour touches these nodes. [`chunks`] cuts such ranges.
 
 mod chunk;
 mod class;

@@ -6,9 +6,9 @@
 //! lacks of its box. Where a node is missing because a body occupies its place, the same halves count if there is room for
 //! the middle of the edge.
 //!
-//! A half belongs to the tet behind its inner face, which then stands for more than its own volume. Where there is none, as
-//! at the edges of a box, it belongs to all tets with a face on the same pit, and otherwise to all tets at the node below
-//! it. Its mass belongs to its own corners: a quarter each, and that of the middle of the edge to the corners of the square.
+//! A half belongs to the tet behind its inner face, which then stands for more than its own volume. Where there is none, as at the edges of
+//! a box, it belongs to all tets with a face on the same pit. If there are none either, it belongs to all tets at the node below it. Its
+//! mass belongs to its own corners: a quarter each, and that of the middle of the edge to the corners of the square.
 //!
 //! Where a mask ends a sponge only the halves that the mask keeps count. There a tet belongs to the shape by its centroid,
 //! so that on average as much sticks out as is missing.

@@ -1,8 +1,8 @@
 //! The whole state of a world: as bytes for digests and files, and as a copy to roll back to.
 //!
-//! The state is everything that decides the future and does not follow from the scene: the columns of the lives that are saved
-//! ([`Life::is_saved`](sorb_kernels::column::Life::is_saved)), the engine of the bodies, the clock, sleep and commands. It is
-//! a list of sections. Each has a name and bytes, so that two states are compared section by section.
+//! The state is everything that decides the future and does not follow from the scene. It consists of the columns of the lives that are
+//! saved ([`Life::is_saved`](sorb_kernels::column::Life::is_saved)), the engine of the bodies, the clock, sleep and commands. It is a list
+//! of sections. Each has a name and bytes, so that two states are compared section by section.
 
 mod body;
 mod columns;
@@ -41,7 +41,7 @@ use xxhash_rust::xxh3::Xxh3;
 use crate::{rigid::RigidError, world::World};
 
 impl World {
-    /// Digest of everything that decides the future: equal digests mean equal bits, now and after every further step, on any
+    /// Digest of everything that decides the future. Equal digests mean equal bits, now and after every further step, on any
     /// machine, with any threads and SIMD level. On a GPU the state is read back.
     ///
     /// A rigid-body engine of a host that cannot be saved is left out; [`World::try_digest`] refuses it.

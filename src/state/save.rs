@@ -38,7 +38,7 @@ pub struct Save {
 
 impl World {
     /// Writes the state with its scene. A world that is [restored](Self::restore) from it continues with the same bits: with
-    /// any threads, at any SIMD level, in another process. On a GPU the state is read back; it continues with the same bits
+    /// any threads, at any SIMD level, in another process. On a GPU the state is read back. It continues with the same bits
     /// on the same device, and on others within the bounds of parity.
     ///
     /// ```

@@ -150,7 +150,7 @@ impl World {
         self.origin.clone_from(&kept.origin);
         self.params.asleep.clone_from(&kept.asleep);
         if let Some(device) = &mut self.stores.device {
-            device.leave_behind();
+            device.discard_state();
         }
         self.leave_out(&self.sleep.dormant());
         Ok(())

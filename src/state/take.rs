@@ -70,7 +70,7 @@ impl World {
         self.follow_frame();
         self.loads.take(fluid_forces, &loads);
         if let Some(device) = &mut self.stores.device {
-            device.leave_behind();
+            device.discard_state();
         }
         self.resume_sleep(constant);
         Ok(())

@@ -59,8 +59,8 @@ pub(super) fn of_scene(scene: &Scene) -> Vec<Flow> {
     (0..).zip(kinds).map(|(number, kind)| Flow::new(number, kind, 0.0)).collect()
 }
 
-/// Part of an interval by which a place of the disc is ahead of its layer: evenly spread over places that are near each other (Roberts's
-/// sequence in two dimensions). Layers in which all places are equal fall apart into discs.
+/// Part of an interval by which a place of the disc is ahead of its layer. The parts are evenly spread over places that are near each other
+/// (Roberts's sequence in two dimensions). Layers in which all places are equal fall apart into discs.
 fn phase(row: i32, column: i32) -> f32 {
     let number = 0.754_877_7 * row as f32 + 0.569_840_3 * column as f32;
     number - number.floor()

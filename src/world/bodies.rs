@@ -1,7 +1,7 @@
 //! Bodies that come, go and change their kind while a world runs.
 //!
 //! A body has a number, which is its row and its number in the engine. What is removed leaves a body behind that nothing can meet, until
-//! another one takes its number: rows and numbers of all others stay, and so do the nodes that they hold.
+//! another one takes its number. Rows and numbers of all others stay, and so do the nodes that they hold.
 
 use glam::{Quat, Vec3};
 use sorb_kernels::{body::Body, reduce::Wrenches, rounding::Rounding};
@@ -202,8 +202,8 @@ impl World {
         Ok(())
     }
 
-    /// Gives the engine a body. One that knows no dynamic bodies makes place for one that does, and one without any bodies, for which no
-    /// time has passed, for one of the present time.
+    /// Gives the engine a body. An engine without dynamic bodies is replaced by one that has them. An engine without any bodies is replaced
+    /// by one of the present time.
     fn put_in_engine(&mut self, index: usize, setup: &BodySetup) -> Result<(), RigidError> {
         let is_dynamic = setup.kind == BodyKind::Dynamic;
         let has_dynamics = self.origin.as_ref().is_some_and(|origin| origin.has_dynamics);

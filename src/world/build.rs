@@ -50,7 +50,7 @@ impl World {
 
     /// Builds a scene whose bodies an engine of the host moves. It has the bodies of the scene in their order, of the same kinds:
     /// [`rigid::body_setups`](crate::rigid::body_setups) lists them with shapes and states. Contacts between bodies and with the walls of
-    /// the container are up to the engine; fluid and sponges push its bodies through the wrenches of
+    /// the container are up to the engine. Fluid and sponges push its bodies through the wrenches of
     /// [`RigidEngine::step`](crate::rigid::RigidEngine::step).
     ///
     /// Saves, recordings and commands need the methods of the engine that have defaults; without them they are refused. A save is
@@ -120,7 +120,7 @@ impl World {
         let cpu = if few { Cpu::serial(cpu.simd())? } else { cpu };
         let Setup { params, columns, lattice, engine } = Setup::new(scene, &cpu, begin)?;
         let step = if params.solid.is_some() { POROUS_STEP } else { STEP };
-        let plans = Plans::new(step, &Contents::new(&params, &columns), &options.observed)?;
+        let plans = Plans::new(step, &Contents::new(&params, &columns), &[])?;
         let bodies = &columns.bodies.states.0;
         let steps = Steps::new(scene, &params, bodies, engine.as_ref(), &Dormant::default());
         let mut world = Self {
@@ -144,6 +144,7 @@ impl World {
             loads: forces::Loads::default(),
             failed: None,
             options: options.clone(),
+            observed: Vec::new(),
             #[cfg(feature = "gpu")]
             placed_by: options.clone(),
             water: Water::default(),
@@ -154,7 +155,7 @@ impl World {
         world.follow_frame();
         world.place()?;
         world.begin_clock();
-        world.look();
+        world.compute_measured();
         Ok(world)
     }
 

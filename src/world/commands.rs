@@ -70,7 +70,7 @@ impl World {
             return Ok(());
         }
         // A device that cannot be read is lost, which the step reports.
-        if self.commands.pending.iter().any(changes_columns) && !self.stores.bring_home() {
+        if self.commands.pending.iter().any(changes_columns) && !self.stores.move_to_host() {
             return Ok(());
         }
         let pending = std::mem::take(&mut self.commands.pending);

@@ -51,7 +51,7 @@ impl World {
             FlowKind::Drain(_) => flow.due < time,
         };
         // A device that cannot be read is lost, which the step reports.
-        if !self.water.flows.iter().any(is_due) || !self.stores.bring_home() {
+        if !self.water.flows.iter().any(is_due) || !self.stores.move_to_host() {
             return Ok(());
         }
         let mut flows = std::mem::take(&mut self.water.flows);

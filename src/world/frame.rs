@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The last term is a gravity that is the same everywhere; mean accelerations over the step give exact impulses. The others, Euler's,
-//! Coriolis's and the centrifugal acceleration, are added to the velocities before the step. The square of R is Coriolis's: one turns the
+//! Coriolis's and the centrifugal acceleration, are added to the velocities before the step. The square of R is Coriolis's. One turns the
 //! velocity with the axes, and one is the change of `w x r` by the way of the step.
 
 use glam::{DMat3, DQuat, DVec3, Vec3};

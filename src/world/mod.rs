@@ -11,8 +11,9 @@ pub(crate) mod forces;
 pub(crate) mod frame;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
-mod look;
+
 mod material;
+mod measured;
 mod moving;
 mod placing;
 #[cfg(test)]
@@ -21,6 +22,7 @@ pub(crate) mod sleep;
 mod slots;
 mod sponges;
 mod start;
+pub(crate) mod tally;
 mod views;
 mod water;
 
@@ -52,6 +54,7 @@ pub use forces::{BodyLoads, Load};
 pub(crate) use material::{Origin, digest_of};
 pub(crate) use moving::{Pushes, fastest_body, move_bodies, take_masses};
 use moving::{column_pressure, fastest, wrenches};
+use tally::FrameTally;
 
 /// Threads, SIMD level and backend of a world.
 #[derive(Clone, Debug, Default)]
@@ -60,9 +63,6 @@ pub struct Options {
     pub threads: Option<usize>,
     /// SIMD level; default: the best of the machine. Has no effect on results.
     pub simd: Option<SimdLevel>,
-    /// Columns to keep up to date although no phase reads them: of `internal`, without any promise.
-    #[doc(hidden)]
-    pub observed: Vec<Column>,
     /// Kernels that run on a GPU; by default none.
     pub offload: Offload,
     /// The GPU; default: the best of the machine. Worlds can share one, and it can use a device of the host. There is none
@@ -131,6 +131,8 @@ pub struct World {
     pub(crate) loads: forces::Loads,
     pub(crate) failed: Option<StepError>,
     pub(crate) options: Options,
+    /// Columns to keep up to date although no phase reads them, for tests.
+    pub(crate) observed: Vec<Column>,
     /// The options by which the step is placed, after [`Self::move_to`] as well.
     #[cfg(feature = "gpu")]
     pub(crate) placed_by: Options,
@@ -161,7 +163,7 @@ impl World {
             return Err(error.clone());
         }
         self.begin_step()?;
-        let end = (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate);
+        let end = self.end_of_frame();
         let is_over = self.sleep_until(end);
         // What is slept through leaves the forces as they were.
         if !is_over {
@@ -170,33 +172,23 @@ impl World {
         if !is_over && let Some(report) = self.frame_on_device() {
             return self.remember(report);
         }
-        let mut report = FrameReport {
-            time: self.clock.time,
-            steps: 0,
-            shortest_step: f32::INFINITY,
-            bound: if is_over { Bound::Asleep } else { Bound::Frame },
-            maximum_speed: 0.0,
-        };
-        let mut bounds: Vec<(Bound, u32)> = Vec::new();
+        let mut tally = FrameTally::new(if is_over { Bound::Asleep } else { Bound::Frame });
         // The end is reached exactly: the last step is cut to what is left, and time is summed in f64.
         while end - self.clock.time > TIME_RESOLUTION {
-            let step = self.step_within(end - self.clock.time)?;
-            // Sleep is no step.
-            if step.bound != Bound::Asleep {
-                report.steps += 1;
-                report.shortest_step = report.shortest_step.min(step.step);
-            }
-            report.maximum_speed = report.maximum_speed.max(step.maximum_speed);
-            match bounds.iter_mut().find(|(bound, _)| *bound == step.bound) {
-                Some((_, count)) => *count += 1,
-                None => bounds.push((step.bound, 1)),
-            }
+            tally.add(&self.step_within(end - self.clock.time)?);
         }
+        Ok(self.end_frame(tally))
+    }
+
+    /// When the present frame ends \[s\].
+    pub(crate) fn end_of_frame(&self) -> f64 {
+        (self.clock.frames + 1) as f64 / f64::from(self.scene.time.frame_rate)
+    }
+
+    /// Ends the present frame.
+    pub(crate) fn end_frame(&mut self, tally: FrameTally) -> FrameReport {
         self.clock.frames += 1;
-        report.time = self.clock.time;
-        report.bound =
-            bounds.iter().rev().max_by_key(|(_, count)| *count).map_or(report.bound, |best| best.0);
-        Ok(report)
+        tally.finish(self.clock.time)
     }
 
     pub(crate) fn step_within(&mut self, left: f64) -> Result<StepReport, StepError> {

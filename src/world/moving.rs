@@ -22,7 +22,7 @@ pub(crate) fn fastest_body(bodies: &[Body]) -> f32 {
     bodies.iter().map(Body::fastest).fold(0.0, f32::max)
 }
 
-/// Root mean square of the kinematic pressure in a column at rest that is as deep as the fluid \[m^2/s^2\]: the estimate of
+/// Root mean square of the kinematic pressure in a column at rest that is as deep as the fluid \[m^2/s^2\]. It is the estimate of
 /// the first step, before any pressure solve.
 pub(super) fn column_pressure(positions: &[[f32; 4]], gravity: Vec3) -> f32 {
     let depths = positions.iter().map(|p| gravity.dot(Vec3::new(p[0], p[1], p[2])));
@@ -65,8 +65,8 @@ pub(crate) struct Pushes<'a> {
     pub(crate) carried: &'a [Wrench],
 }
 
-/// Passes the wrenches of fluid and sponges, the forces of commands and what a turn of the container gives, if it turns, to the engine, and
-/// stores the new states of the bodies.
+/// Passes wrenches to the engine: those of fluid and sponges, the forces of commands, and those by a turn of the container. Stores the new
+/// states of the bodies.
 pub(crate) fn move_bodies(
     engine: &mut dyn RigidEngine,
     light: &LightBodies,

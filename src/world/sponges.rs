@@ -41,7 +41,7 @@ impl World {
         SpongeHandle::new(index, generation)
     }
 
-    /// The surface of the mesh that a sponge was made of, which follows it; none for a sponge of another shape, and for a stale handle.
+    /// The surface of the mesh that a sponge was made of, which follows it. None for a sponge of another shape, and for a stale handle.
     #[must_use]
     pub fn skin(&self, sponge: SpongeHandle) -> Option<&Skin> {
         self.has_sponge(sponge).then(|| self.skins().get(sponge.index())?.as_ref()).flatten()

@@ -143,7 +143,7 @@ impl World {
     ///
     /// With `wcsph` that of the equation of state, with `divergence` that of the solve. The solve of `dfsph` computes multipliers: the
     /// value here is the stress that pairs of neighbours transmit where water fills the space, see
-    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill only the pores: the
+    /// [`pressure_moments`](sorb_kernels::sph::obstacles::pressure_moments). Inside sponges neighbours fill only the pores. The
     /// pore pressure is this times the porosity with both, `1 - (1 - phi) / J` at a volume ratio J of the sponge.
     #[must_use]
     pub fn particle_pressures(&self) -> Vec<f32> {
@@ -252,7 +252,7 @@ impl World {
         Measures::of(self)
     }
 
-    /// Digest of the state columns, the clock and what sleeps: a part of [`Self::digest`], without the contacts of bodies, and
+    /// Digest of the state columns, the clock and what sleeps. A part of [`Self::digest`], without the contacts of bodies, and
     /// the one in the snapshots of this project. Equal digests may diverge later.
     #[must_use]
     pub fn state_digest(&self) -> u64 {

@@ -188,7 +188,7 @@ impl World {
     pub(crate) fn plan_anew(&mut self) -> Result<(), WorldError> {
         let step = if self.params.solid.is_some() { POROUS_STEP } else { STEP };
         let contents = Contents::new(&self.params, &self.stores.host);
-        self.plans = Plans::new(step, &contents, &self.options.observed)?;
+        self.plans = Plans::new(step, &contents, &self.observed)?;
         self.runner.follow(&self.plans.0);
         self.place_again()
     }

@@ -1,4 +1,4 @@
-//! The presets, changed so that everything in them interacts from the first steps: for tests of single steps and benches,
+//! The presets, changed so that everything in them interacts from the first steps. For tests of single steps and benches,
 //! where the scenes themselves take a while.
 
 #![allow(dead_code, reason = "benches and tests use a part of it each")]

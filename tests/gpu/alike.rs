@@ -13,7 +13,7 @@ use super::{
     DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, busy, common, difference, gpu, world, worst,
 };
 
-/// Largest difference of quantities that do not depend on single particles: place of water and sponges, absorbed water, and
+/// Largest difference of quantities that do not depend on single particles. Place of water and sponges, absorbed water, and
 /// energies, over the energy that the scene had to lose.
 fn bulk_difference(a: &World, b: &World, energy: f64) -> (f64, &'static str) {
     let centre = |world: &World| {
@@ -193,7 +193,7 @@ cases! {
     three_seconds_of_ball_drop: "ball_drop_paper", 0.2, SOFT, 180, 1e-3;
 }
 
-/// Passes that are one dispatch do what they do one after the other: where kernels are timed every pass is alone, and with the
+/// Passes that are one dispatch do what they do one after the other. Where kernels are timed every pass is alone, and with the
 /// limits that every adapter has fewer are one.
 #[test]
 fn dispatches_of_several_passes_change_nothing() {

@@ -1,4 +1,4 @@
-//! Sponges and bodies that come, go and change on a device: the same bits twice and after a restore, and within the
+//! Sponges and bodies that come, go and change on a device. The same bits twice and after a restore, and within the
 //! bounds of parity those of the CPU.
 
 use sorb::{

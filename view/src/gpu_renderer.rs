@@ -22,7 +22,7 @@ impl GpuRenderer {
         Self(Some(Renderer::new(gpu)))
     }
 
-    /// On the device of the worlds, or on the best of the machine; none if that is a program on the CPU, which is slower than
+    /// On the device of the worlds, or on the best of the machine. None if that is a program on the CPU, which is slower than
     /// [`CpuRenderer`].
     #[must_use]
     pub fn best(own: Option<&Arc<Gpu>>) -> Option<Self> {

@@ -46,7 +46,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         for (row, node) in controls.node.iter().enumerate() {
             let node = *node as usize;
             let wetting = &params.sponges[nodes.sponge[node] as usize].wetting;
-            let size = wetting.size(nodes.wetting[node][0]);
+            let size = wetting.size(nodes.wetting[node][lane::nodes::wetting::WETNESS]);
             controls.position[row][lane::controls::position::VOLUME] *= size * size * size;
         }
     }

@@ -9,7 +9,7 @@
 //! s_i = 2 |v_i - u_i| / (1 + h beta_i + sqrt((1 + h beta_i)^2 + 4 h gamma_i |v_i - u_i|))
 //! ```
 //!
-//! with the speed s that the drag leaves, `s (1 + h beta + h gamma s) = |v - u|`: with the speed before the drag, drag would
+//! with the speed s that the drag leaves, `s (1 + h beta + h gamma s) = |v - u|`. With the speed before the drag, drag would
 //! grow with the step.
 //!
 //! `couple::drag_target` computes the targets of the nodes from it, and `couple::drag_kick` applies it to the particles.

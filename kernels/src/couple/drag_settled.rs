@@ -16,7 +16,7 @@ declare! {
     writes: [NodeDrag, NodeDragMoment],
     oracle: crate::oracle::porous::drag_settled,
     bound: 2e-5,
-    twin: [pass(NAME, Controls)],
+    twin: [pass("couple::drag_reaction", Controls).from("settled")],
 }
 
 fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {

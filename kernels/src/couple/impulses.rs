@@ -75,7 +75,7 @@ pub(super) fn received<S: Simd>(
     sum
 }
 
-/// Drag impulses on the nodes and their moments, and the mass of fluid that moves with a node; no mass if the drag no longer
+/// Drag impulses on the nodes and their moments, and the mass of fluid that moves with a node. There is no mass if the drag no longer
 /// responds to the nodes.
 pub(super) fn on_nodes(cpu: &Cpu, columns: &mut Columns, responds: bool) {
     let (particles, drag) = (&columns.fluid.position, &columns.fluid.drag);

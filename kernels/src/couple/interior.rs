@@ -6,13 +6,13 @@
 //!
 //! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. chi is 1 deep inside and 0 outside; beta and gamma are those
 //! of `couple::pores`. In partly filled pores the permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i`
-//! (`couple::wetting`): the rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of parallel conductors, so
+//! (`couple::wetting`). The rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of parallel conductors, so
 //! that dry pores ahead of a front do not hold the water behind it.
 
 use super::compliance::following;
 use crate::{
     column::{FAR_ROW, padded},
-    columns::{Columns, Fluid, lane},
+    columns::{Columns, Fluid, Nodes, lane},
     cpu::Cpu,
     grid::{cells::Cells, neighbors::Neighbors, sort::permute},
     kernel::declare,
@@ -34,18 +34,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, controls: lists, control_weights, interior, drag_rate, .. } = &mut columns.fluid;
     let controls = &columns.controls.position;
     // In the order of the controls; padding rows have zero weight.
-    let mut pores = vec![[0.0; 4]; controls.len()];
-    for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
-        *pores = columns.nodes.pores[*node as usize];
-        pores[0] *= following(pores[lane::nodes::pores::POROSITY]);
+    let mut traits = vec![[0.0; 4]; controls.len()];
+    for (traits, node) in traits.iter_mut().zip(&columns.controls.node) {
+        *traits = traits_of(&columns.nodes, *node as usize);
     }
     let has_wetting = !columns.nodes.wetting.is_empty();
-    if has_wetting {
-        for (pores, node) in pores.iter_mut().zip(&columns.controls.node) {
-            pores[lane::nodes::pores::POROSITY] =
-                columns.nodes.wetting[*node as usize][lane::nodes::wetting::MOBILITY];
-        }
-    }
     interior.resize(position.len(), 0.0);
     drag_rate.resize(position.len(), [0.0; 4]);
     let rows = (&mut interior[..], &mut drag_rate[..], control_weights.match_lists(lists));
@@ -65,10 +58,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     let weight = volume * kernel.value_scale() * shape;
                     lanes::store(stored, 0, weight);
                     sum += weight;
-                    let [following, rate, per_speed, mobility] = lanes::gather_rows(simd, &pores, entry);
+                    let [following, drag_rate, inertial_drag_rate, mobility] =
+                        lanes::gather_rows(simd, &traits, entry);
                     follows += weight * following;
-                    linear += weight * rate;
-                    inertial += weight * per_speed;
+                    linear += weight * drag_rate;
+                    inertial += weight * inertial_drag_rate;
                     if has_wetting {
                         mobile += weight * mobility;
                     }
@@ -85,6 +79,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             }
         });
     });
+}
+
+/// What a control adds to means over controls: how far its material follows the water, both drag rates, and the mobility of the water.
+fn traits_of(nodes: &Nodes, node: usize) -> [f32; 4] {
+    let [volume_ratio, drag_rate, inertial_drag_rate, porosity] = nodes.pores[node];
+    let mobility = nodes.wetting.get(node).map_or(1.0, |row| row[lane::nodes::wetting::MOBILITY]);
+    [volume_ratio * following(porosity), drag_rate, inertial_drag_rate, mobility]
 }
 
 /// Sum of node volumes times W at every node, at the present positions; set-up calls it at rest.

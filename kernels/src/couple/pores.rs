@@ -69,8 +69,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Sum of the volumes of the tets of eight nodes over those at rest, with the weights of the tets, and the sum of the
-/// weights.
+/// Sum of the volumes of the tets of eight nodes over those at rest, with the weights of the tets. Beside it the sum of the weights.
 #[inline(always)]
 fn volumes<S: Simd>(
     simd: S,

@@ -1,5 +1,5 @@
-//! What nodes bring into the solve for the pressure: their velocities, the impulses that they are expected to receive from everything but
-//! the pressure, and the volume of their material.
+//! What nodes bring into the solve for the pressure. These are their velocities, the impulses that they are expected to receive from
+//! everything but the pressure, and the volume of their material.
 //!
 //! ```text
 //! u_a = u,   Q_a = m_a (h / h') (u - u'),   V_s = (1 - phi) V_a

@@ -1,13 +1,13 @@
-//! After the pressure solve: nodes receive the force of the pressure, the exact opposite of that on the particles, and particles have
-//! velocities without the drag again.
+//! After the pressure solve nodes receive the force of the pressure, the exact opposite of that on the particles. Particles have velocities
+//! without the drag again.
 //!
 //! ```text
 //! a_a += F_a / m_a,   u'_a = u_a + I_a / m_a
 //! ```
 //!
-//! The force is Archimedes' force on the material and the pressure of pores under compression: a part of the load of the elastic solve that
-//! follows. Drag acts within that, on both. The velocity `u'` by the whole impulse of the pressure, with the water that drag holds, is
-//! for the next step (`couple::solid_expect`).
+//! The force is Archimedes' force on the material and the pressure of pores under compression. It is a part of the load of the elastic
+//! solve that follows. Drag acts within that, on both. The velocity `u'` by the whole impulse of the pressure, with the water that drag
+//! holds, is for the next step (`couple::solid_expect`).
 
 use crate::{
     columns::{Columns, Controls, lane},

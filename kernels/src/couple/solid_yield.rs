@@ -14,7 +14,7 @@
 //! At rest the pressure change is zero, and so is the compliance term.
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
@@ -39,7 +39,7 @@ fn cpu(cpu: &Cpu, _: &Params, columns: &mut Columns) {
             for row in (0..solid_yield.len()).step_by(LANES) {
                 let own = &drag_rate[first + row..first + row + LANES];
                 let mut sum = lanes::splat(simd, 0.0);
-                if own.iter().any(|rate| rate[2] > 0.0) {
+                if own.iter().any(|rate| rate[lane::fluid::drag_rate::COMPLIANCE] > 0.0) {
                     let [_, _, _, change] = lanes::load_rows(simd, predicted, first + row);
                     for (entry, c) in lists.group(row).iter().zip(&pairs[lists.range(row)]) {
                         let [_, _, _, change_j] = lanes::gather_rows(simd, predicted, entry);

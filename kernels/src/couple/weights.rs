@@ -32,7 +32,7 @@ pub fn sources(column: Column) -> Option<(Column, &'static [Column])> {
 }
 
 /// Computes node volume times W for all entries of the lists that a column of weights belongs to, as `couple::interior` and
-/// `couple::saturation` do; other columns are left alone.
+/// `couple::saturation` do. Other columns are left alone.
 pub fn weigh(params: &Params, columns: &mut Columns, column: Column) {
     if column == Column::FluidPairs {
         return pairs(params, columns);

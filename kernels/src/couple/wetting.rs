@@ -15,7 +15,7 @@
 //! The volume flux of water at saturation S is `K k_r / mu` times the pressure gradient. Its velocity is the flux over
 //! `phi S`: as in full pores of permeability `K m`.
 //!
-//! Suction depends on the saturation of the node alone: `sum_i V_0 dW_ia` times the volume of the node is the change of its
+//! Suction depends on the saturation of the node alone. `sum_i V_0 dW_ia` times the volume of the node is the change of its
 //! filled pore volume. The work over a cycle is therefore that of `-p_a` along S. Energy is lost where r is at one of its
 //! ends, because pores empty against the higher pressure. In between r is a function of S without a jump, so that small
 //! changes of S within the band B lose nothing.

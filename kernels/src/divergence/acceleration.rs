@@ -5,7 +5,7 @@
 //! a_i = T_i + P_i B_i + sum_g c_ig P_s Q L_s Q (x_i - x_g) + sum_g' R_g'^T T_g',   w_i = v_i + h a_i
 //! ```
 //!
-//! over the images g in walls, and the own images g' in bodies. It is the transpose of the divergence, images and bodies included: images
+//! over the images g in walls, and the own images g' in bodies. It is the transpose of the divergence, images and bodies included. Images
 //! in walls mirror the pressure of their particle, which is the same by symmetry and needs no pass over images. What an image in a body
 //! receives, less what it hands on to its particle, acts on the body. Momentum is exact after any number of rounds.
 

@@ -17,8 +17,8 @@ pub(super) struct Closing<'a> {
 }
 
 impl Closing<'_> {
-    /// `sum_j c_ij (v_j - v_i) . x_ij x_ij` of eight particles, the first of which is `row` of the chunk that begins at `first`: over
-    /// particles, and over images.
+    /// `sum_j c_ij (v_j - v_i) . x_ij x_ij` of eight particles, the first of which is `row` of the chunk that begins at `first`. One sum is
+    /// over particles, one over images.
     #[inline(always)]
     pub(super) fn sums<S: Simd>(
         &self,

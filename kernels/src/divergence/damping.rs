@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with the mean approach F of the neighbours (`divergence::approach`), the spacing d and the speed c of waves or of the flow. F is the
-//! operator of the viscosity along the lines between particles, applied twice: both momenta are kept, energy falls, and a flow of wave
+//! operator of the viscosity along the lines between particles, applied twice. Both momenta are kept, energy falls, and a flow of wave
 //! number K is damped as `(K d)^4`. Particles in no order have nothing else by which to lose the energy of what they do to each other.
 //! Bodies receive the opposite of what their images do.
 

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! over the images g in the list of the particle, and its own images g'. An image has the pressure of its particle, although it is higher
-//! or lower by the weight of the water in between: this is what that lacks. The lattice at rest is exact with it. Without it pressures
+//! or lower by the weight of the water in between. This is what that lacks. The lattice at rest is exact with it. Without it pressures
 //! alternate from layer to layer at a floor, and buoyancy is 4 % too large. Bodies receive the opposite.
 
 use crate::{

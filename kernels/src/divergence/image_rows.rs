@@ -13,6 +13,8 @@ use crate::{
 };
 
 constants! {
+    /// Lane of the position of an image: its volume over that of its particle.
+    pub(crate) const IMAGE_RATIO: usize = 3;
     /// No body: the image is one in walls alone.
     pub(crate) const NO_BODY: u32 = u32::MAX;
 }

@@ -7,14 +7,14 @@
 //! R = -1/J n n^T + q_1/J t_1 t_1^T + q_2/J t_2 t_2^T
 //! ```
 //!
-//! J is the volume of the image over that of the point. R is the Piola map of velocities: `J R v` is the flux that the mirror carries, so
-//! that a field without divergence has an image without divergence. For a plane R is the reflection, for a sphere the volume alone would
-//! leave 6 % of the buoyancy out (docs/pressure-solve.md).
+//! J is the volume of the image over that of the point. R is the Piola map of velocities: `J R v` is the flux that the mirror carries.
+//! Therefore a field without divergence has an image without divergence. For a plane R is the reflection, for a sphere the volume alone
+//! would leave 6 % of the buoyancy out (docs/pressure-solve.md).
 
 use glam::{Mat3, Vec3};
 
 use crate::{
-    body::{Body, Compound, Part, Shape},
+    body::{Body, Compound, ConvexPart, Shape},
     layout::constants,
 };
 
@@ -124,8 +124,8 @@ impl<'a> Mirror<'a> {
     }
 }
 
-/// From the closest point of the core of a shape to a point in its frame, and the curvature there; none if it is farther than `range`
-/// for certain.
+/// From the closest point of the core of a shape to a point in its frame, and the curvature there. There is none if it is farther than
+/// `range` for certain.
 fn closest(shape: &Shape, core: Vec3, local: Vec3, range: f32) -> Option<(Vec3, Curvature)> {
     match shape {
         Shape::Plane => Some((Vec3::Y * local.y.max(0.0), Curvature::Flat)),
@@ -156,7 +156,7 @@ fn closest(shape: &Shape, core: Vec3, local: Vec3, range: f32) -> Option<(Vec3, 
 }
 
 /// The same for a part of a compound, and a point in the frame of the body that has to be nearer than `reach`.
-fn closest_of_part(part: &Part, local: Vec3, reach: f32) -> Option<(Vec3, Curvature)> {
+fn closest_of_part(part: &ConvexPart, local: Vec3, reach: f32) -> Option<(Vec3, Curvature)> {
     closest(&part.core, Vec3::ONE, local - part.centre, part.radius + reach)
 }
 
@@ -281,8 +281,8 @@ mod tests {
         Shape::Hull { planes, vertices, triangles }
     }
 
-    /// Largest differences of the map of velocities times the volume ratio from the derivative of the image by the point, and of the volume
-    /// ratio from its determinant; and the same of a plain reflection.
+    /// Largest differences of the map of velocities times the volume ratio from the derivative of the image by the point. The second is
+    /// that of the volume ratio from its determinant. The last two are those of a plain reflection.
     fn differences(shape: Shape) -> (f32, f32) {
         let (body, mut random) = (body(shape), Random(3));
         let mirror = Mirror::new(&body);

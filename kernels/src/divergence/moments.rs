@@ -9,10 +9,9 @@
 //! h t_i = clamp(e_i, 1/4) / 5,   B_i = -L_i z_i
 //! ```
 //!
-//! **Why L.** With it the divergence of velocities that are linear in the position is exact, whatever the arrangement of the particles,
-//! and the force by its transpose keeps energy and both momenta. Without it pairs under a uniform pressure carry shear stress, as in a
-//! pile of spheres, and bodies stick in water (docs/history.md). Where M is far from that of a lattice, L is that of a neighbourhood in
-//! between.
+//! **Why L.** With it the divergence of velocities that are linear in the position is exact, whatever the arrangement of the particles. The
+//! force by its transpose keeps energy and both momenta. Without it pairs under a uniform pressure carry shear stress, as in a pile of
+//! spheres, and bodies stick in water (docs/history.md). Where M is far from that of a lattice, L is that of a neighbourhood in between.
 //!
 //! **Surfaces.** z is zero inside, `z_1` in the first layer of a lattice below a flat surface, which lacks k of its neighbours. There the
 //! error is zero as well, so that a surface is neither drawn together nor blown up.
@@ -121,7 +120,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         [&mut *along, between, moment, factors].into_iter().for_each(|rows| rows[used..].fill([0.0; 4]));
         pressure[used..].fill([0.0, 0.0, 1.0, 0.0]);
         let is_in_pores = moment.iter().map(|row| row[lane::fluid::moment::MATERIAL] > MINIMUM_MATERIAL);
-        beginning.0[0] = Beginning::of(&velocity[first..first + used], factors, is_in_pores);
+        let targets = factors.iter().map(|row| row[lane::fluid::factors::TARGET]);
+        beginning.0[0] = Beginning::of(&velocity[first..first + used], targets, is_in_pores);
         mirror(images, first, [along, between], mirrored);
     });
     pressure_solve.begin_divergence(count, params);

@@ -1,13 +1,13 @@
 //! Lists of the images that particles see.
 //!
-//! The image of j in walls is nowhere nearer to i than j itself: along a mirrored axis they are apart by the sum of both distances from
+//! The image of j in walls is nowhere nearer to i than j itself. Along a mirrored axis they are apart by the sum of both distances from
 //! the wall instead of by their difference. Images in walls are therefore found among the neighbours, without a search. Images in
 //! bodies can be nearer than their particle, and are searched for.
 
 use glam::Vec3;
 
 use super::{
-    image_rows::{Images, NO_BODY},
+    image_rows::{IMAGE_RATIO, Images, NO_BODY},
     walls::{MIRRORS, NearWalls, mirrors_of, rank},
 };
 use crate::{
@@ -158,7 +158,7 @@ impl Seekers<'_> {
         let fluid = &self.params.fluid;
         let apart = Vec3::new(point[0] - image[0], point[1] - image[1], point[2] - image[2]);
         let apart = self.params.periodic.map_or(apart, |periodic| periodic.nearest(apart));
-        image[3] * (fluid.rest_volume() * fluid.smoothing.gradient_at(apart.length()))
+        image[IMAGE_RATIO] * (fluid.rest_volume() * fluid.smoothing.gradient_at(apart.length()))
     }
 }
 

@@ -6,7 +6,7 @@
 //!
 //! with `alpha` from `divergence::residual`. Images have the pressure of their particle. Enclosed water yields at a pressure of `rho_0
 //! c^2`, with c ten times the fastest
-//! expected speed: the pressure that keeps its volume would be infinite. The pressure is written beside the position, where
+//! expected speed. The pressure that keeps its volume would be infinite. The pressure is written beside the position, where
 //! neighbours read both at once.
 
 use super::image_rows::OfParticles;
@@ -50,8 +50,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let next = pressure + length * compression / diagonal;
             let next = if next > 0.0 { next } else { 0.0 };
             let next = if next < maximum { next } else { maximum };
-            row[0] = next;
-            row[1] = next - pressure;
+            row[lane::fluid::pressure_rows::PRESSURE] = next;
+            row[lane::fluid::pressure_rows::CHANGE] = next - pressure;
             *predicted = *position;
             predicted[lane::fluid::predicted::PRESSURE] = next;
         }

@@ -59,7 +59,7 @@ pub(super) fn count(near: NearWalls) -> u32 {
     (0..3).map(|axis| 1 + (near >> (2 * axis) & 3).count_ones()).product()
 }
 
-/// The walls that are near a point. Images reach so far that a particle that sees one has one of its own: only then is the force by
+/// The walls that are near a point. Images reach so far that a particle that sees one has one of its own. Only then is the force by
 /// mirrored pressures the transpose of the divergence.
 #[inline(always)]
 pub(super) fn near_walls(params: &Params, point: Vec3) -> NearWalls {
@@ -78,8 +78,8 @@ pub(crate) fn walls_within(params: &Params, point: Vec3, reach: f32) -> NearWall
     near
 }
 
-/// Calls `visit` with the places of all images of a point near the walls, in the order of their ranks, and with the axes whose walls
-/// mirror them, a bit each. The first is the point itself.
+/// Calls `visit` with the places of all images of a point near the walls, in the order of their ranks. It gives the axes whose walls mirror
+/// them as well, a bit each. The first is the point itself.
 #[inline(always)]
 pub(crate) fn visit(params: &Params, point: Vec3, near: NearWalls, mut visit: impl FnMut(Vec3, u32)) {
     let (low, high) = params.walls.unwrap_or_default();

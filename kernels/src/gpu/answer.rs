@@ -1,10 +1,10 @@
-//! What is said to the device before steps, and what it says after them: its clock, and what bodies were given.
+//! The clock of the device: what the host writes before steps, and what it reads after them with the wrenches on bodies.
 
 use super::{
-    form::vector,
-    layout::{Value, place_of, zero},
-    pack::Capacities,
-    program::REPETITIONS,
+    capacities::Capacities,
+    groups::{WRENCH_FLOATS, WRENCH_ROWS, rows_bytes},
+    layout::{Value, WORD_BYTES, place_of, zero},
+    vectors::wrench,
 };
 use crate::{
     body::Wrench,
@@ -14,11 +14,14 @@ use crate::{
 
 /// Bytes that come back after steps, beside 64 a body.
 pub const CLOCK_BYTES: u64 = Clock::BYTES;
-pub(super) const WRENCH_BYTES: u64 = 64;
+/// Bytes of the wrenches of fluid and sponges on a body: one after the other.
+pub(super) const WRENCH_BYTES: u64 = 2 * rows_bytes(WRENCH_ROWS);
+/// Most repetitions of a step that end when they have converged: the clock counts the rounds of each.
+pub(super) const REPETITIONS: usize = 4;
 /// Bytes of the clock before the largest speed of a body's surface, which the host finds.
-pub(super) const BODY_SPEED_AT: u64 = 4 * place_of::<Clock>("body_speed") as u64;
+pub(super) const BODY_SPEED_AT: u64 = WORD_BYTES * place_of::<Clock>("body_speed") as u64;
 
-/// What happened to the last step of a batch.
+/// How the last step of a batch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// All that was asked for was done, or there is time left for more steps.
@@ -31,7 +34,7 @@ pub enum Outcome {
     TooSmall(f32, Bound),
 }
 
-/// What the device says after a batch of steps.
+/// Clock and wrenches of the device after a batch of steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// What happened to the last step.
@@ -64,7 +67,7 @@ pub struct Answer {
     pub rounds: u32,
     /// Most rounds that each of them took in these steps, in their order.
     pub(super) maximum_rounds: [u32; REPETITIONS],
-    /// The repetition, counted from 1, of which more rounds are needed than were handed in, and how many it had.
+    /// The repetition, counted from 1, of which more rounds are needed than were submitted, and how many it had.
     pub(super) unfinished: Option<(usize, u32)>,
     /// Lengths of lists that did not fit.
     pub(super) longest: Option<Capacities>,
@@ -99,7 +102,7 @@ enumeration! {
         TooSmall,
         /// A list did not fit.
         ListFull,
-        /// A repetition needs more rounds than were handed in.
+        /// A repetition needs more rounds than were submitted.
         Unfinished,
     }
 }
@@ -143,7 +146,7 @@ layout! {
     pub(super) struct Clock {
         step: f32,
         inverse_step: f32,
-        /// Without it nothing is to be done; every kernel leaves at once.
+        /// Without it nothing is to be done; every kernel returns at once.
         running: bool,
         /// Why nothing is to be done.
         status: Status,
@@ -162,7 +165,7 @@ layout! {
         last_bound: Bound,
         /// The step that stability asks for, where it is too small.
         needed: f32,
-        /// Longest lists that did not fit, in the order of [`Capacities`].
+        /// Longest lists that did not fit, in the order of [`List`](super::capacities::List).
         longest: Capacities,
         /// How many steps every bound limited, in the order of [`Bound::ALL`].
         bounds: [[u32; 4]; 3],
@@ -170,9 +173,9 @@ layout! {
         maximum_rounds: [u32; REPETITIONS],
         /// Rounds of the present repetition so far, see `rounds.wgsl`.
         rounds: u32,
-        /// Whether it has converged; what is left of its rounds leaves at once.
+        /// Whether it has converged; the rounds that are left return at once.
         is_converged: bool,
-        /// The repetition, counted from 1, that needs more rounds than were handed in.
+        /// The repetition, counted from 1, that needs more rounds than were submitted.
         unfinished: u32,
         /// Rounds of all steps since the time was set.
         all_rounds: u32,
@@ -201,8 +204,6 @@ impl Clock {
 
 impl Answer {
     pub(super) fn new(clock: &Clock, wrenches: &[f32]) -> Self {
-        let wrench =
-            |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
         let has_status = |status| clock.status == status;
         Self {
             outcome: match clock.status {
@@ -223,8 +224,9 @@ impl Answer {
             fluid_pressure: clock.fluid_pressure,
             bounds: std::array::from_fn(|bound| clock.bounds[bound / 4][bound % 4]),
             wrenches: wrenches
-                .chunks_exact(16)
-                .map(|body| (wrench(&body[..8]), wrench(&body[8..])))
+                .chunks_exact(2 * WRENCH_FLOATS)
+                .map(|body| body.split_at(WRENCH_FLOATS))
+                .map(|(by_fluid, by_sponges)| (wrench(by_fluid), wrench(by_sponges)))
                 .collect(),
             rounds: clock.all_rounds,
             maximum_rounds: clock.maximum_rounds,

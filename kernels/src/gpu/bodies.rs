@@ -4,13 +4,13 @@ use glam::{Mat3, Vec3};
 
 use super::layout::Value;
 use crate::{
-    body::{Body, Part, Shape},
+    body::{Body, ConvexPart, Shape},
     layout::{constants, enumeration, layout},
 };
 
 constants! {
-    /// Rows of a part of a compound: its centre; radius of the ball of its core, first plane and number of planes of the hull, first
-    /// triangle of the core; number of triangles. Numbers of rows are exact as f32.
+    /// Rows of a part of a compound. The first is its centre. The second has the radius of the ball of its core, first plane and number of
+    /// planes, and the first triangle of the core. The third has the number of triangles. Numbers of rows are exact as f32.
     const PART_ROWS: u32 = 3;
 }
 
@@ -18,9 +18,9 @@ constants! {
 pub const BODY_BYTES: u64 = DeviceBody::BYTES;
 
 enumeration! {
-    /// Shapes of bodies.
+    /// Shapes of bodies, by the numbers that shaders have for them.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub(super) enum ShapeKind {
+    pub enum ShapeKind {
         /// Solid half-space.
         Plane,
         /// Ball.
@@ -156,7 +156,7 @@ impl Faces {
 }
 
 /// Puts the table of the parts behind other rows, and their faces behind it.
-fn put_parts(parts: &[Part], rows: &mut Vec<[f32; 4]>) {
+fn put_parts(parts: &[ConvexPart], rows: &mut Vec<[f32; 4]>) {
     let first = rows.len();
     rows.resize(first + parts.len() * PART_ROWS as usize, [0.0; 4]);
     for (index, part) in parts.iter().enumerate() {

@@ -39,8 +39,8 @@ const CELLS_PER_POINT: u64 = 16;
 const SMALLEST_TORUS: u32 = 64;
 
 impl Grid {
-    /// Cells of half the radius: a dense grid over a box, or a torus where there is no box or it has more cells than the
-    /// points are worth, or than `most` allows.
+    /// Cells of half the radius. They are a dense grid over a box. Without a box, or where it has more cells than `most` or than the points
+    /// are worth, they are a torus.
     pub(super) fn new(domain: Domain, radius: f32, points: usize, maximum: u64) -> Self {
         let edge = 0.5 * radius;
         let maximum = maximum.min(CELLS_PER_POINT * points as u64).max(u64::from(SMALLEST_TORUS).pow(3));

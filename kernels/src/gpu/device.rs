@@ -64,7 +64,7 @@ fn kind(info: &AdapterInfo) -> &'static str {
 /// Features for timing kernels; used if they are there.
 const TIMESTAMPS: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_PASSES);
 
-/// The features that a host should request for a device that it hands in; those the adapter has of the ones that sorb
+/// The features that a host should request for a device that it provides; those the adapter has of the ones that sorb
 /// can use. None is necessary.
 #[must_use]
 pub fn required_features(adapter: &Adapter) -> Features {
@@ -76,7 +76,7 @@ const STORAGE_BUFFERS: u32 = 32;
 const UNIFORM_BUFFERS: u32 = 4;
 const GROUP_BYTES: u32 = 32_768;
 
-/// The limits that a host should request for a device that it hands in: WebGPU's defaults, with buffers as large as the
+/// The limits that a host should request for a device that it provides: WebGPU's defaults, with buffers as large as the
 /// adapter allows, and what permits more passes in one dispatch.
 #[must_use]
 pub fn required_limits(adapter: &Adapter) -> Limits {
@@ -184,8 +184,8 @@ impl Gpu {
 
     /// The same device with prefix sums by subgroup operations, if it has them and its subgroups are runs of threads.
     ///
-    /// Not the default: on an H200 sorts went wrong with them. WGSL does not promise that the threads of a subgroup are
-    /// together again after a branch, and the sums of those that are not leave out the others.
+    /// Not the default: on an H200 sorts went wrong with them. WGSL does not promise that the threads of a subgroup converge after a
+    /// branch. Sums over threads that have not converged are incomplete.
     #[must_use]
     pub fn with_subgroups(mut self) -> Self {
         self.has_subgroups = self.device.features().contains(Features::SUBGROUP) && self.subgroups_are_runs();

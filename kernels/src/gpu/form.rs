@@ -3,20 +3,21 @@
 use super::{
     answer::Extreme as Word,
     bodies::DeviceBody,
-    groups::wrench_bytes,
-    images,
-    layout::Value,
-    pack::Capacities,
-    transfer::{take_plain, take_rows},
+    capacities::{Capacities, List},
+    groups::{WRENCH_FLOATS, wrench_bytes},
+    image_layout,
+    layout::{ROW, Value, WORD_BYTES},
+    vectors::wrench,
 };
 use crate::{
     body::Wrench,
-    column::{Plain, padded},
+    column::{Plain, PlainMut, padded},
     columns::{Column, Columns, RowCounts},
     cpu::CHUNK,
     grid::neighbors::Neighbors,
     reduce::{Extreme, Extremes, Wrenches},
     sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
+    tets::rows::TET_CORNERS,
 };
 
 /// Particles as `sph::advect` leaves them, which the next step sorts.
@@ -31,8 +32,8 @@ pub(super) const NEXT: [(Column, &str); 3] = [
 pub(super) enum Form {
     /// The rows of a plain array.
     Plain,
-    /// Lists of rows, by the index of their capacity.
-    Lists(usize),
+    /// Lists of rows.
+    Lists(List),
     /// Rows of this many words.
     Wide(usize),
     /// The lists of the corners that controls are.
@@ -59,12 +60,12 @@ impl Form {
         match column {
             _ if column.is_on_host_only() => Self::Nowhere,
             _ if column.element().bytes() > 0 => Self::Plain,
-            Column::FluidNeighbors => Self::Lists(0),
-            Column::FluidControls => Self::Lists(1),
-            Column::ControlFluid => Self::Lists(2),
-            Column::NodePairs => Self::Lists(3),
-            Column::FluidCorners => Self::Wide(4),
-            Column::FluidShares => Self::Wide(16),
+            Column::FluidNeighbors => Self::Lists(List::Neighbors),
+            Column::FluidControls => Self::Lists(List::Controls),
+            Column::ControlFluid => Self::Lists(List::ControlFluid),
+            Column::NodePairs => Self::Lists(List::Pairs),
+            Column::FluidCorners => Self::Wide(TET_CORNERS),
+            Column::FluidShares => Self::Wide(TET_CORNERS * ROW),
             Column::ControlCorners => Self::Corners,
             Column::FluidExtremes | Column::NodeExtremes => Self::Extremes,
             Column::FluidPressureSolve => Self::PressureSolve,
@@ -98,14 +99,14 @@ impl Form {
         let count = rows.of(column.store());
         match self {
             Self::Plain => count * column.element().bytes(),
-            Self::Lists(which) => count * (capacities[which] as usize + 1) * 4,
-            Self::Wide(words) => count * words * 4,
-            Self::Corners => corner_words(rows) * 4,
-            Self::Extremes => 4 * Word::ALL.len(),
+            Self::Lists(which) => which.bytes(rows, capacities) as usize,
+            Self::Wide(words) => count * words * WORD_BYTES as usize,
+            Self::Corners => corner_words(rows) * WORD_BYTES as usize,
+            Self::Extremes => Word::ALL.len() * WORD_BYTES as usize,
             Self::PressureSolve => Solve::BYTES as usize,
             Self::ViscositySolve => ViscositySolve::BYTES as usize,
             Self::Wrenches => wrench_bytes(pushing(column, rows), rows.bodies),
-            Self::Images => images::bytes(rows, capacities) as usize,
+            Self::Images => image_layout::bytes(rows, capacities) as usize,
             Self::Bodies => count * DeviceBody::BYTES as usize,
             Self::Nowhere => 0,
         }
@@ -129,7 +130,7 @@ impl Form {
 
 /// Words of the lists of the corners that controls are: where each begins, the end of the last, and an entry for every corner.
 fn corner_words(rows: RowCounts) -> usize {
-    rows.nodes + 1 + 4 * rows.fluid
+    rows.nodes + 1 + TET_CORNERS * rows.fluid
 }
 
 /// The words of those lists.
@@ -138,7 +139,7 @@ pub(super) fn corners(columns: &Columns) -> Vec<u32> {
     let (mut words, mut entries) = (vec![0], Vec::new());
     for control in 0..rows.nodes {
         if control < columns.controls.node.len() {
-            entries.extend(columns.controls.corners.of(control, 4 * rows.fluid));
+            entries.extend(columns.controls.corners.of(control, TET_CORNERS * rows.fluid));
         }
         words.push(entries.len() as u32);
     }
@@ -152,16 +153,16 @@ fn take_corners(columns: &mut Columns, words: &[u32]) {
     let list = |ends: &[u32]| entries[ends[0] as usize..ends[1] as usize].to_vec();
     let mut lists: Vec<Vec<u32>> = starts.windows(2).map(list).collect();
     lists.resize_with(padded(rows.nodes), Vec::new);
-    columns.controls.corners = Neighbors::from_lists(&lists, 4 * rows.fluid as u32);
+    columns.controls.corners = Neighbors::from_lists(&lists, (TET_CORNERS * rows.fluid) as u32);
 }
 
 /// Takes over rows of several words, and pads them with rows outside of sponges.
 fn take_wide(columns: &mut Columns, column: Column, words: &[u32]) {
-    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; 4]);
+    let (rows, outside) = (padded(columns.rows.fluid), [columns.rows.nodes as u32; TET_CORNERS]);
     if column == Column::FluidCorners {
         take_rows(&mut columns.fluid.corners.0, words, outside, rows);
     } else {
-        take_rows(&mut columns.fluid.shares.0, words, [[0.0; 4]; 4], rows);
+        take_rows(&mut columns.fluid.shares.0, words, [[0.0; ROW]; TET_CORNERS], rows);
     }
 }
 
@@ -188,28 +189,28 @@ pub(super) fn plain_bytes(columns: &Columns, column: Column, rows: usize) -> &[u
 }
 
 /// Lists, their number, and the number of rows that they are of.
-pub(super) fn lists(columns: &mut Columns, which: usize) -> (&mut Neighbors, usize, usize) {
+pub(super) fn lists(columns: &mut Columns, which: List) -> (&mut Neighbors, usize, usize) {
     let rows = columns.rows;
     match which {
-        0 => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
-        1 => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
-        2 => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
+        List::Neighbors => (&mut columns.fluid.neighbors, rows.fluid, rows.fluid),
+        List::Controls => (&mut columns.fluid.controls, rows.fluid, rows.nodes),
+        List::ControlFluid => (&mut columns.controls.fluid, rows.nodes, rows.fluid),
         _ => (&mut columns.nodes.pairs, rows.nodes, rows.nodes),
     }
 }
 
-/// Where a list has its length (0) and its entries (from 1): one line for all k-th entries, but a line a list for controls,
+/// Where a list has its length (0) and its entries (from 1). There is one line for all k-th entries, but a line a list for controls,
 /// whose threads share a list.
 pub(super) fn list_layout(
-    which: usize,
+    which: List,
     rows: usize,
     capacities: Capacities,
 ) -> impl Fn(usize, usize) -> usize {
-    let length = capacities[which] as usize + 1;
-    move |k, row| if which == 2 { row * length + k } else { k * rows + row }
+    let length = which.capacity(capacities) + 1;
+    move |k, row| if which == List::ControlFluid { row * length + k } else { k * rows + row }
 }
 
-fn take_lists(columns: &mut Columns, which: usize, words: &[u32], capacities: Capacities) {
+fn take_lists(columns: &mut Columns, which: List, words: &[u32], capacities: Capacities) {
     let (lists, rows, targets) = lists(columns, which);
     let place = list_layout(which, rows, capacities);
     let length = |row: usize| words[place(0, row)] as usize;
@@ -221,9 +222,7 @@ fn take_lists(columns: &mut Columns, which: usize, words: &[u32], capacities: Ca
 
 fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
     let words: &[f32] = bytemuck::cast_slice(words);
-    let wrench =
-        |words: &[f32]| Wrench { impulse: vector(&words[..3]), angular_impulse: vector(&words[4..7]) };
-    let mut wrenches: Vec<Wrench> = words.chunks_exact(8).map(wrench).collect();
+    let mut wrenches: Vec<Wrench> = words.chunks_exact(WRENCH_FLOATS).map(wrench).collect();
     // Chunks of the CPU, which may go on with them, are smaller than groups.
     let chunks = padded(pushing(column, columns.rows)).div_ceil(CHUNK);
     wrenches.resize(chunks * columns.rows.bodies, Wrench::default());
@@ -236,8 +235,29 @@ fn take_wrenches(columns: &mut Columns, column: Column, words: &[u32]) {
     *to = Wrenches(wrenches);
 }
 
-pub(super) fn vector(words: &[f32]) -> glam::DVec3 {
-    glam::DVec3::new(f64::from(words[0]), f64::from(words[1]), f64::from(words[2]))
+/// Takes over the words of rows, and pads them.
+fn take_rows<T: bytemuck::Pod>(data: &mut Vec<T>, words: &[u32], padding: T, to: usize) {
+    data.resize(size_of_val(words) / size_of::<T>(), padding);
+    bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
+    data.resize(to, padding);
+}
+
+/// Takes over a column that is a plain array.
+pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) {
+    if words.is_empty() && column.need().is_some() {
+        // The scene does without.
+        return;
+    }
+    let rows = columns.rows.of(column.store());
+    // The one column that the CPU does not pad.
+    let to = if column == Column::ControlNode { rows } else { padded(rows) };
+    let padding = column.padding();
+    match columns.data_mut(column).plain_mut() {
+        Some(PlainMut::Rows(data)) => take_rows(data, words, padding.row(), to),
+        Some(PlainMut::Values(data)) => take_rows(data, words, 0.0, to),
+        Some(PlainMut::Words(data)) => take_rows(data, words, padding.word(), to),
+        None => {}
+    }
 }
 
 fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {

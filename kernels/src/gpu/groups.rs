@@ -1,5 +1,6 @@
 //! Threads of the groups of a pass.
 
+use super::layout::{ROW, ROW_BYTES};
 use crate::layout::constants;
 
 constants! {
@@ -11,6 +12,12 @@ constants! {
     pub(super) const CONTROLS_PER_GROUP: u32 = GROUP_THREADS / CONTROL_THREADS;
     /// Threads of a group for each sponge.
     pub(super) const SPONGE_THREADS: u32 = 256;
+    /// Rows of a wrench: impulse and angular impulse.
+    pub(super) const WRENCH_ROWS: u32 = 2;
+    /// Rows of the sums of a group in a pressure solve.
+    pub(super) const SOLVE_SUM_ROWS: u32 = 2;
+    /// Rows of the box around a sponge: its corners.
+    pub(super) const BOX_ROWS: u32 = 2;
     /// Rows of the motion of a sponge: centre, velocity and angular velocity.
     pub(super) const MOTION_ROWS: u32 = 3;
     /// Rows of the sums over a part of a sponge.
@@ -27,13 +34,11 @@ pub(crate) const fn sponge_parts(nodes: usize) -> usize {
     if parts > 1 { parts } else { 1 }
 }
 
-/// Bytes of the motions of sponges, and of the sums over their parts if there are several.
-pub(super) const fn motion_bytes(sponges: usize, nodes: usize) -> usize {
-    /// Four floats.
-    const BYTES: usize = 16;
+/// Rows of the motions of sponges, and of the sums over their parts if there are several.
+pub(super) const fn motion_rows(sponges: usize, nodes: usize) -> usize {
     let parts = sponge_parts(nodes);
     let sums = if parts > 1 { parts * SUM_ROWS as usize } else { 0 };
-    sponges * (MOTION_ROWS as usize + sums) * BYTES
+    sponges * (MOTION_ROWS as usize + sums)
 }
 
 /// Threads of a group where there are fewer rows than keep a device busy in groups of [`GROUP_THREADS`].
@@ -69,9 +74,15 @@ pub(super) fn maximum_groups(rows: u64) -> u64 {
 
 /// Bytes of the wrenches on bodies: one for every body and group of a pass over this many rows.
 pub(super) const fn wrench_bytes(rows: usize, bodies: usize) -> usize {
-    /// A vector each, padded to four floats.
-    const BYTES: usize = 32;
-    groups_of(rows) * bodies * BYTES
+    groups_of(rows) * bodies * rows_bytes(WRENCH_ROWS) as usize
+}
+
+/// Floats of a wrench.
+pub(super) const WRENCH_FLOATS: usize = WRENCH_ROWS as usize * ROW;
+
+/// Bytes of rows.
+pub(super) const fn rows_bytes(rows: u32) -> u64 {
+    rows as u64 * ROW_BYTES
 }
 
 #[cfg(test)]

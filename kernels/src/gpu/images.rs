@@ -5,11 +5,11 @@ use glam::Vec3;
 use wgpu::BufferUsages;
 
 use super::{
+    capacities::{Capacities, List},
     cells::{Grid, PAGE_CELLS},
     error::GpuError,
-    layout::{Value, place_of},
-    lists::{IMAGE_PARTICLES, IMAGES, NEAR_IMAGES},
-    pack::Capacities,
+    image_layout::{DeviceImage, ROWS},
+    layout::{ROW_BYTES, Value, WORD_BYTES, place_of},
     resident::Resident,
 };
 use crate::{
@@ -17,45 +17,14 @@ use crate::{
     columns::{Columns, Fluid, RowCounts},
     divergence::{
         collect::lift,
-        image_rows::{Images, NO_BODY, along_open_axes},
+        image_rows::{IMAGE_RATIO, Images, NO_BODY, along_open_axes},
     },
     grid::{
         cells::Domain,
         neighbors::{ListValues, Neighbors},
     },
-    layout::layout,
     params::Params,
 };
-
-layout! {
-    /// An image but for its position.
-    #[derive(Clone, Copy, Debug)]
-    pub(super) struct DeviceImage as Image {
-        /// Its position in the body, before the walls.
-        foot: [f32; 3],
-        /// Row of its particle.
-        source: u32,
-        /// Map of velocities by the body: xx, yy, zz.
-        along: [f32; 3],
-        body: u32,
-        /// yz, zx, xy.
-        between: [f32; 3],
-        /// Axes whose walls mirror it, a bit each.
-        axes: u32,
-    }
-}
-
-/// Buffers of a row for every image that there is room for, and the bytes of a row.
-const ROWS: [(&str, u64); 8] = [
-    ("image_position", 16),
-    ("images", DeviceImage::BYTES),
-    ("fluid_image_vectors", 16),
-    ("image_forces", 16),
-    ("image_cells", 4),
-    ("image_slots", 4),
-    ("image_grouped", 4),
-    ("image_order", 4),
-];
 
 /// Cells over the images of as many particles.
 pub(super) fn cells(params: &Params, rows: RowCounts, maximum: u64) -> Grid {
@@ -70,39 +39,29 @@ pub(super) fn cells(params: &Params, rows: RowCounts, maximum: u64) -> Grid {
     Grid::new(domain, radius, if has_images { rows.fluid } else { 0 }, maximum)
 }
 
-/// Bytes of images and their lists.
-pub(super) fn bytes(rows: RowCounts, capacities: Capacities) -> u64 {
-    let capacities = capacities.map(u64::from);
-    let row: u64 = ROWS.iter().map(|(_, bytes)| bytes).sum();
-    let list =
-        |rows: u64, which: usize| if capacities[which] > 0 { rows * (capacities[which] + 1) * 4 } else { 0 };
-    let images = capacities[IMAGES];
-    images * row + list(rows.fluid as u64, NEAR_IMAGES) + list(images, IMAGE_PARTICLES)
-}
-
 impl Resident {
     /// Name, bytes and use of the buffers of images.
     pub(super) fn image_buffers(&self) -> Vec<(&'static str, u64, BufferUsages)> {
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
-        let images = u64::from(self.capacities[IMAGES]);
+        let images = List::Images.capacity(self.capacities) as u64;
         let has_images = images > 0;
         let cells = |grid: &Grid| if has_images { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
         let [of_images, of_line] = [cells(&self.grids[3]), cells(&self.grids[4])];
-        let sums = |cells: u64| 4 * cells / u64::from(PAGE_CELLS);
-        let list = |rows: u64, which: usize| rows * (u64::from(self.capacities[which]) + 1) * 4;
+        let sums = |cells: u64| WORD_BYTES * cells / u64::from(PAGE_CELLS);
+        let list = |list: List| if has_images { list.bytes(self.rows, self.capacities) } else { 0 };
         let fluid = if has_images { self.rows.fluid as u64 } else { 0 };
         let mut all = vec![
             ("image_grid", Grid::BYTES, uniform | plain),
             ("image_line", Grid::BYTES, uniform | plain),
-            ("image_line_counts", of_line * 4, plain),
+            ("image_line_counts", of_line * WORD_BYTES, plain),
             ("image_line_sums", sums(of_line), plain),
-            ("fluid_image_first", of_line * 4, plain),
-            ("image_counts", of_images * 4, plain),
-            ("image_starts", of_images * 4, plain),
+            ("fluid_image_first", of_line * WORD_BYTES, plain),
+            ("image_counts", of_images * WORD_BYTES, plain),
+            ("image_starts", of_images * WORD_BYTES, plain),
             ("image_page_sums", sums(of_images), plain),
-            ("fluid_near_images", list(fluid, NEAR_IMAGES), plain),
-            ("image_particles", list(images, IMAGE_PARTICLES), plain),
-            ("fluid_rate", fluid * 4, plain),
+            ("fluid_near_images", list(List::NearImages), plain),
+            ("image_particles", list(List::ImageParticles), plain),
+            ("fluid_rate", fluid * WORD_BYTES, plain),
         ];
         all.extend(ROWS.map(|(name, bytes)| (name, images * bytes, plain)));
         all
@@ -110,12 +69,13 @@ impl Resident {
 
     /// Makes room for more images.
     pub(super) fn renew_image_rows(&mut self) -> Result<(), GpuError> {
-        let images = u64::from(self.capacities[IMAGES]);
-        let list = u64::from(self.capacities[IMAGE_PARTICLES]) + 1;
-        for (name, bytes) in ROWS.into_iter().chain([("image_particles", 4 * list)]) {
+        let images = List::Images.capacity(self.capacities) as u64;
+        let of_lists = List::ImageParticles.bytes(self.rows, self.capacities);
+        let of_rows = ROWS.into_iter().map(|(name, bytes)| (name, images * bytes));
+        for (name, size) in of_rows.chain([("image_particles", of_lists)]) {
             // The old one first: both may not fit.
             self.buffers.remove(name);
-            self.allocate(name, images * bytes, BufferUsages::STORAGE)?;
+            self.allocate(name, size, BufferUsages::STORAGE)?;
         }
         Ok(())
     }
@@ -133,13 +93,15 @@ impl Resident {
         let particles: Vec<Vec<u32>> =
             (0..count).map(|image| if is_in_body(image) { of_image(image) } else { Vec::new() }).collect();
         let longest = |lists: &[Vec<u32>]| lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
-        let mut needed = [0; 8];
-        for (which, own) in
-            [(NEAR_IMAGES, longest(&near)), (IMAGE_PARTICLES, longest(&particles)), (IMAGES, count as u32)]
-        {
-            needed[which] = if own > self.capacities[which] { own } else { 0 };
+        let mut needed = Capacities::default();
+        for (list, own) in [
+            (List::NearImages, longest(&near)),
+            (List::ImageParticles, longest(&particles)),
+            (List::Images, count as u32),
+        ] {
+            needed[list as usize] = if own as usize > list.capacity(self.capacities) { own } else { 0 };
         }
-        if needed != [0; 8] {
+        if needed != Capacities::default() {
             self.lengthen(needed)?;
         }
         self.write(
@@ -153,12 +115,12 @@ impl Resident {
         let mut grid = self.grids[3].words();
         grid[place_of::<Grid>("rows")] = count as u32;
         self.write("image_grid", bytemuck::cast_slice(&grid));
-        let capacity = self.capacities[IMAGES] as usize;
+        let capacity = List::Images.capacity(self.capacities);
         for (name, lists, lines, which) in [
-            ("fluid_near_images", &near, rows, NEAR_IMAGES),
-            ("image_particles", &particles, capacity, IMAGE_PARTICLES),
+            ("fluid_near_images", &near, rows, List::NearImages),
+            ("image_particles", &particles, capacity, List::ImageParticles),
         ] {
-            let mut words = vec![0_u32; lines * (self.capacities[which] as usize + 1)];
+            let mut words = vec![0_u32; which.words(self.rows, self.capacities)];
             for (row, list) in lists.iter().enumerate() {
                 words[row] = list.len() as u32;
                 list.iter().enumerate().for_each(|(k, target)| words[(k + 1) * lines + row] = *target);
@@ -170,19 +132,19 @@ impl Resident {
 
     /// Reads the images back.
     pub(super) fn download_images(&self, columns: &mut Columns) -> Result<(), GpuError> {
-        let (rows, lines) = (self.rows.fluid, self.capacities[IMAGES] as usize);
+        let (rows, lines) = (self.rows.fluid, List::Images.capacity(self.capacities));
         if lines == 0 {
             return Ok(());
         }
-        let list = |lines: usize, which: usize| (lines * (self.capacities[which] as usize + 1) * 4) as u64;
+        let list = |list: List| list.bytes(self.rows, self.capacities);
         let data = self.read(&[
             ("image_grid", Grid::BYTES),
-            ("image_position", 16 * lines as u64),
+            ("image_position", ROW_BYTES * lines as u64),
             ("images", DeviceImage::BYTES * lines as u64),
-            ("fluid_image_first", 4 * (rows as u64 + 1)),
-            ("fluid_near_images", list(rows, NEAR_IMAGES)),
-            ("image_particles", list(lines, IMAGE_PARTICLES)),
-            ("fluid_position", 16 * rows as u64),
+            ("fluid_image_first", WORD_BYTES * (rows as u64 + 1)),
+            ("fluid_near_images", list(List::NearImages)),
+            ("image_particles", list(List::ImageParticles)),
+            ("fluid_position", ROW_BYTES * rows as u64),
         ])?;
         let [grid, position, images, first, near, particles, points] = &data[..] else { return Ok(()) };
         let count = grid[place_of::<Grid>("rows")] as usize;
@@ -220,11 +182,12 @@ impl Resident {
             all
         };
         found.near = Neighbors::from_lists(&lists(near, rows, rows, padded(rows)), count as u32);
-        found.pairs = values(&self.params, &found.near, (points, &found.position), |_, image| image[3]);
+        found.pairs =
+            values(&self.params, &found.near, (points, &found.position), |_, image| image[IMAGE_RATIO]);
         let of = if found.has_bodies { to } else { 0 };
         found.particles = Neighbors::from_lists(&lists(particles, lines, count.min(of), of), rows as u32);
         found.particle_pairs =
-            values(&self.params, &found.particles, (&found.position, points), |image, _| image[3]);
+            values(&self.params, &found.particles, (&found.position, points), |image, _| image[IMAGE_RATIO]);
         Ok(())
     }
 }
@@ -287,7 +250,7 @@ mod tests {
         let mut columns = scene.columns.clone();
         let mut resident =
             Resident::new(&gpu, &columns, &scene.params, LIMITS).unwrap_or_else(|error| fail(error));
-        for which in [NEAR_IMAGES, IMAGE_PARTICLES, IMAGES] {
+        for which in [List::NearImages, List::ImageParticles, List::Images].map(|list| list as usize) {
             resident.capacities[which] = room.unwrap_or(resident.capacities[which]);
         }
         resident.fill_params();

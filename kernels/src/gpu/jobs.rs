@@ -1,10 +1,10 @@
 //! The passes of a step before they are bound: which, over how many rows, by how many threads.
 
 use super::{
+    capacities::List,
     cells::ONE_GROUP_PAGES,
     fusion::{Dispatched, dispatched},
     groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of, sponge_parts},
-    lists::IMAGES,
     pack::BATCHES,
     pipeline::{Threads, has_any_group, has_shares},
     resident::Resident,
@@ -146,8 +146,10 @@ impl Resident {
             Rows::ImageLinePages => groups(self.grids[4].pages()),
             Rows::ImageScan => groups(u64::from(self.grids[3].pages() > u64::from(ONE_GROUP_PAGES))),
             Rows::ImagePages => groups(self.grids[3].pages()),
-            Rows::Images => threads(self.capacities[IMAGES] as usize),
-            Rows::ImagesOfBodies => threads(if bodies > 0 { self.capacities[IMAGES] as usize } else { 0 }),
+            Rows::Images => threads(List::Images.capacity(self.capacities)),
+            Rows::ImagesOfBodies => {
+                threads(if bodies > 0 { List::Images.capacity(self.capacities) } else { 0 })
+            }
             Rows::FluidBesideBodies => threads(if bodies > 0 { fluid } else { 0 }),
             Rows::Bodies => groups(bodies as u64),
         }

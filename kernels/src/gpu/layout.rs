@@ -104,7 +104,11 @@ fn upper_case(name: &str) -> String {
 }
 
 /// Words of four bytes that structs and vectors begin at a multiple of.
-const ROW: usize = 4;
+pub(crate) const ROW: usize = 4;
+/// Bytes of a word.
+pub(crate) const WORD_BYTES: u64 = 4;
+/// Bytes of a row of four floats.
+pub(crate) const ROW_BYTES: u64 = WORD_BYTES * ROW as u64;
 
 /// A value of a buffer.
 pub(crate) trait Value: Sized {
@@ -115,7 +119,7 @@ pub(crate) trait Value: Sized {
     /// Words of which its place is a multiple.
     const ALIGN: usize = 1;
     /// Bytes.
-    const BYTES: u64 = 4 * Self::WORDS as u64;
+    const BYTES: u64 = WORD_BYTES * Self::WORDS as u64;
 
     /// Writes it to as many words.
     fn put(&self, words: &mut [u32]);

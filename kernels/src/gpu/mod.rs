@@ -2,20 +2,21 @@
 //!
 //! A [`Gpu`] is a device with the pipelines compiled for it; it can be shared, and it can be the host's. A [`Resident`]
 //! holds the columns of one world on it. A [`Program`] is a list of kernels bound to those columns. State stays on the
-//! device: [`Resident::advance`] takes many steps in one submission and gives back a few hundred bytes, because the
+//! device. [`Resident::advance`] takes many steps in one submission and gives back a few hundred bytes, because the
 //! device chooses the length of the steps itself.
 //!
 //! # Determinism
-//! The same device gives the same bits on every run: there are no atomics on floats, sums have a fixed order, and the
+//! The same device gives the same bits on every run. There are no atomics on floats, sums have a fixed order, and the
 //! sort is stable. Another device, or the CPU, gives other bits within the bounds of the parity tests.
 //!
 //! # What differs from the CPU
-//! Lists of neighbours are one row of the k-th neighbours of all particles after the other; weights of the coupling
+//! Lists of neighbours are one row of the k-th neighbours of all particles after the other. Weights of the coupling
 //! are computed where they are needed and not kept; the search for neighbours sums up the density. The columns mean
 //! the same.
 
 mod answer;
 mod bodies;
+mod capacities;
 mod cells;
 mod device;
 mod dispatches;
@@ -24,6 +25,7 @@ mod facts;
 mod form;
 mod fusion;
 mod groups;
+mod image_layout;
 mod images;
 mod jobs;
 pub(crate) mod layout;
@@ -45,15 +47,16 @@ mod sums;
 mod transfer;
 mod turn;
 pub(crate) mod twins;
+mod vectors;
 mod wgsl;
 
-#[cfg(test)]
-pub(crate) use groups::sponge_parts;
 pub use answer::{Answer, CLOCK_BYTES, Outcome, Start};
-pub use bodies::BODY_BYTES;
+pub use bodies::{BODY_BYTES, ShapeKind};
 pub use device::{AdapterReport, Gpu, adapters, required_features, required_limits};
 pub use dispatches::{Dispatches, KernelDispatches};
 pub use error::GpuError;
+#[cfg(test)]
+pub(crate) use groups::sponge_parts;
 pub use pipeline::{Binding, Pipeline};
 pub use profile::Profile;
 pub use program::Program;

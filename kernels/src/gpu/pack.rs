@@ -1,6 +1,9 @@
 //! Parameters, sponges, bodies and batches as shaders have them.
 
-use super::layout::{Value, place_of, zero};
+use super::{
+    capacities::{Capacities, List},
+    layout::{Value, WORD_BYTES, place_of, zero},
+};
 use crate::{
     clock::{Bound, StepLimits},
     columns::RowCounts,
@@ -26,10 +29,6 @@ constants! {
 pub(super) const BATCHES: usize = COLORS + VERTEX_COLORS;
 /// Bytes from one batch to the next: the alignment that every device takes.
 pub(super) const BATCH_STRIDE: u64 = 256;
-
-/// Longest lists that fit: fluid to fluid, fluid to controls, controls to fluid, nodes to nodes that they may touch, fluid to images,
-/// images to fluid; images that fit; and a word that is unused.
-pub(super) type Capacities = [u32; 8];
 
 layout! {
     /// Parameters of a step; zero is what there is not. What is not said here is as in [`Params`].
@@ -123,16 +122,7 @@ impl StepParams {
         let fluid = &params.fluid;
         let [fluid_rows, node_rows, body_rows, tet_rows] =
             [rows.fluid, rows.nodes, rows.bodies, rows.tets].map(|rows| rows as u32);
-        let [
-            neighbor_capacity,
-            control_capacity,
-            control_fluid_capacity,
-            _,
-            near_image_capacity,
-            image_particle_capacity,
-            image_capacity,
-            _,
-        ] = capacities;
+        let capacity = |list: List| list.capacity(capacities) as u32;
         let mut all = Self {
             gravity: params.gravity.to_array(),
             fluid_rows,
@@ -156,12 +146,12 @@ impl StepParams {
             has_wetting: params.has_wetting(),
             pair_radius: pair_radius(params),
             list_radius: fluid.list_radius(),
-            neighbor_capacity,
-            control_capacity,
-            control_fluid_capacity,
-            near_image_capacity,
-            image_particle_capacity,
-            image_capacity,
+            neighbor_capacity: capacity(List::Neighbors),
+            control_capacity: capacity(List::Controls),
+            control_fluid_capacity: capacity(List::ControlFluid),
+            near_image_capacity: capacity(List::NearImages),
+            image_particle_capacity: capacity(List::ImageParticles),
+            image_capacity: capacity(List::Images),
             smoothing: fluid.smoothing,
             coupling: params.coupling,
             solid: params.solid.unwrap_or(params.coupling),
@@ -297,7 +287,7 @@ pub(super) fn batches(topology: &Topology) -> ([Batch; BATCHES], Vec<u32>) {
 pub(super) fn batch_words(batches: &[Batch; BATCHES]) -> Vec<u32> {
     let padded = |batch: &Batch| {
         let mut words = batch.words();
-        words.resize(BATCH_STRIDE as usize / 4, 0);
+        words.resize((BATCH_STRIDE / WORD_BYTES) as usize, 0);
         words
     };
     batches.iter().flat_map(padded).collect()

@@ -194,7 +194,7 @@ impl Gpu {
         Ok(Arc::clone(all.entry(key).or_insert(made)))
     }
 
-    /// Compiles the pipelines of dispatches that were not used before, side by side: most of the time of a first step is that of the
+    /// Compiles the pipelines of dispatches that were not used before, side by side. Most of the time of a first step is that of the
     /// compiler of the driver.
     pub(super) fn compile_all<'d>(&self, all: impl Iterator<Item = &'d Dispatched>) -> Result<(), GpuError> {
         let distinct: BTreeMap<_, _> = all.map(|own| ((own.key(), own.threads()), own)).collect();

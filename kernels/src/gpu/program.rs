@@ -5,6 +5,7 @@ use std::sync::Arc;
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 
 use super::{
+    answer::REPETITIONS,
     error::GpuError,
     fusion::Dispatched,
     jobs::{Job, Jobs},
@@ -16,8 +17,6 @@ use super::{
 };
 use crate::{kernel::Kernel, stage::Stage};
 
-/// Most repetitions of a step that end when they have converged: the clock counts the rounds of each.
-pub(super) const REPETITIONS: usize = 4;
 /// Rounds that are encoded before it is known how many are needed.
 pub(super) const FIRST_ROUNDS: u32 = 4;
 
@@ -30,19 +29,19 @@ pub(super) struct Dispatch {
     pub(super) groups: [u32; 3],
 }
 
-/// A part of a step.
+/// The passes of a stage, bound to their buffers.
 #[derive(Debug)]
-pub(super) enum Part {
+pub(super) enum BoundStage {
     Once(Vec<Dispatch>),
     Rounds(Rounds),
 }
 
-/// A repetition that ends when it has converged. The rounds after that are encoded as well, and leave at once.
+/// A repetition that ends when it has converged. The rounds after that are encoded as well, and return at once.
 #[derive(Debug)]
 pub(super) struct Rounds {
     pub(super) maximum: u32,
     /// Rounds that are encoded: a few more than were needed before. If they do not suffice the device stops, and the
-    /// host hands in more.
+    /// host submits more.
     pub(super) planned: u32,
     pub(super) round: Vec<Dispatch>,
     pub(super) end: Vec<Dispatch>,
@@ -54,7 +53,7 @@ pub struct Program {
     pub(super) stages: Vec<Stage>,
     pub(super) begin: Vec<Dispatch>,
     pub(super) resume: Vec<Dispatch>,
-    pub(super) step: Vec<Part>,
+    pub(super) step: Vec<BoundStage>,
     pub(super) finish: Vec<Dispatch>,
     /// A step that is encoded and waits for its turn.
     pub(super) prepared: Option<CommandBuffer>,
@@ -66,8 +65,8 @@ impl Program {
     /// Passes of a step, as many rounds of repetitions as are encoded at present.
     #[must_use]
     pub fn passes(&self) -> usize {
-        let parts = self.parts(0, 0);
-        parts.iter().map(|part| part.len()).sum::<usize>() + self.finish.len()
+        let bound = self.passes_from(0, 0);
+        bound.iter().map(|passes| passes.len()).sum::<usize>() + self.finish.len()
     }
 
     /// Whether a kernel with a property runs.
@@ -75,17 +74,17 @@ impl Program {
         self.stages.iter().flat_map(Stage::kernels).any(|kernel| has(kernel))
     }
 
-    /// The passes of a step in order, from the repetition `index` on if `index` is above 0: of that one `more` rounds.
-    pub(super) fn parts(&self, index: usize, more: u32) -> Vec<&[Dispatch]> {
+    /// The passes of a step in order, from the repetition `index` on if `index` is above 0: of that one `added` rounds.
+    pub(super) fn passes_from(&self, index: usize, added: u32) -> Vec<&[Dispatch]> {
         let mut all: Vec<&[Dispatch]> = Vec::new();
         let mut seen = 0;
-        for part in &self.step {
-            match part {
-                Part::Once(dispatches) if seen >= index => all.push(dispatches),
-                Part::Once(_) => {}
-                Part::Rounds(rounds) => {
+        for stage in &self.step {
+            match stage {
+                BoundStage::Once(dispatches) if seen >= index => all.push(dispatches),
+                BoundStage::Once(_) => {}
+                BoundStage::Rounds(rounds) => {
                     seen += 1;
-                    let count = if seen == index { more } else { rounds.planned };
+                    let count = if seen == index { added } else { rounds.planned };
                     if seen >= index {
                         all.extend((0..count).map(|_| &rounds.round[..]));
                         all.push(&rounds.end);
@@ -97,13 +96,13 @@ impl Program {
     }
 
     fn repetitions(&mut self) -> impl Iterator<Item = &mut Rounds> {
-        self.step.iter_mut().filter_map(|part| match part {
-            Part::Rounds(rounds) => Some(rounds),
-            Part::Once(_) => None,
+        self.step.iter_mut().filter_map(|stage| match stage {
+            BoundStage::Rounds(rounds) => Some(rounds),
+            BoundStage::Once(_) => None,
         })
     }
 
-    /// Plans one round more than were needed: one that leaves at once costs as much as its barriers, one that is missing costs
+    /// Plans one round more than were needed: one that returns at once costs as much as its barriers, one that is missing costs
     /// an answer. A step that is encoded already stays, unless more rounds were needed than it has.
     pub(super) fn expect(&mut self, needed: [u32; REPETITIONS]) {
         let mut grew = false;
@@ -116,8 +115,8 @@ impl Program {
         }
     }
 
-    /// Rounds to hand in for a repetition, counted from 1, of which some did not suffice.
-    pub(super) fn more(&mut self, index: usize, done: u32) -> u32 {
+    /// How many rounds to submit in addition for a repetition, counted from 1, that has not converged in those before.
+    pub(super) fn added_rounds(&mut self, index: usize, done: u32) -> u32 {
         let rounds = self.repetitions().nth(index - 1);
         rounds.map_or(1, |rounds| (done / 4).max(2).min(rounds.maximum.saturating_sub(done)).max(1))
     }
@@ -139,7 +138,7 @@ impl Resident {
     pub fn program_of(&self, stages: Vec<Stage>) -> Result<Program, GpuError> {
         let mut step = Vec::new();
         let mut repetitions = 0;
-        let parts: Vec<(Jobs, Vec<Dispatched>)> = self
+        let of_stages: Vec<(Jobs, Vec<Dispatched>)> = self
             .jobs_of(&stages)
             .into_iter()
             .map(|jobs| {
@@ -147,14 +146,14 @@ impl Resident {
                 (jobs, all)
             })
             .collect();
-        self.gpu.compile_all(parts.iter().flat_map(|(_, all)| all))?;
-        for (jobs, fused) in parts {
+        self.gpu.compile_all(of_stages.iter().flat_map(|(_, all)| all))?;
+        for (jobs, fused) in of_stages {
             let dispatches = fused.iter().map(|all| self.bind_fused(all)).collect::<Result<_, _>>()?;
             step.push(match jobs {
-                Jobs::Once(_) => Part::Once(dispatches),
+                Jobs::Once(_) => BoundStage::Once(dispatches),
                 Jobs::Rounds { maximum, .. } => {
                     repetitions += 1;
-                    Part::Rounds(self.rounds(maximum, repetitions, dispatches)?)
+                    BoundStage::Rounds(self.rounds(maximum, repetitions, dispatches)?)
                 }
             });
         }

@@ -15,6 +15,8 @@ use crate::layout::{constants, layout};
 constants! {
     /// Particles near one ray that there is room for.
     const NEAR_RAY: u32 = 4096;
+    /// Lane of the length of a ray, beside its origin.
+    const RAY_LENGTH: usize = 3;
     /// How far outside of a tet a point may lie to count as in it, over its size.
     const IN_TET: f32 = 1e-5;
     /// What stands for a coordinate of an image that there is not.

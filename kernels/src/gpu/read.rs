@@ -8,7 +8,7 @@ use std::{
 
 use wgpu::BufferUsages;
 
-use super::{device::Gpu, error::GpuError, resident::Resident, transfer::take_plain};
+use super::{device::Gpu, error::GpuError, form::take_plain, resident::Resident};
 use crate::columns::{Column, Columns, RowCounts};
 
 impl Resident {
@@ -87,7 +87,7 @@ impl Resident {
     ///
     /// # Errors
     /// The device was lost, or there is no memory to copy to.
-    pub fn ask(&self, columns: &[Column]) -> Result<Pending, GpuError> {
+    pub fn request_columns(&self, columns: &[Column]) -> Result<Pending, GpuError> {
         let wanted: Vec<_> = columns.iter().filter_map(|column| self.plain_buffer(*column)).collect();
         let parts: Vec<_> =
             wanted.iter().map(|(_, name, bytes)| (self.buffer(name), *bytes as u64)).collect();
@@ -179,8 +179,8 @@ impl Gpu {
         }
     }
 
-    /// Bytes that the host has waited for and read from the device so far, by all worlds on it: answers of steps, columns, answers to
-    /// questions. Those of [`Resident::ask`] do not count.
+    /// Bytes that the host has waited for and read from the device so far, by all worlds on it. These are answers of steps, columns, and
+    /// answers to questions. Those of [`Resident::ask`] do not count.
     #[must_use]
     pub fn bytes_read(&self) -> u64 {
         self.bytes_read.load(Ordering::Relaxed)

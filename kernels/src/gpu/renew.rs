@@ -2,7 +2,7 @@
 
 use wgpu::BufferUsages;
 
-use super::{error::GpuError, lists::capacities, resident::Resident, resident::grids};
+use super::{capacities::capacities, error::GpuError, resident::Resident, resident::grids};
 use crate::{clock::StepLimits, columns::Columns, params::Params};
 
 /// What follows from the lattice and never changes.

@@ -5,16 +5,17 @@ use std::{collections::BTreeMap, sync::Arc};
 use wgpu::{Buffer, BufferUsages};
 
 use super::{
-    answer::{BODY_SPEED_AT, CLOCK_BYTES, Extreme, WRENCH_BYTES},
+    answer::{BODY_SPEED_AT, CLOCK_BYTES, WRENCH_BYTES},
     bodies::{self, DeviceBody},
+    capacities::{Capacities, capacities},
     cells::{Grid, PAGE_CELLS},
     device::Gpu,
     error::GpuError,
-    groups::{maximum_groups, motion_bytes, wrench_bytes},
+    form::Form,
+    groups::{BOX_ROWS, SOLVE_SUM_ROWS, maximum_groups, motion_rows, rows_bytes},
     images,
-    layout::Value,
-    lists::capacities,
-    pack::{self, BATCH_STRIDE, BATCHES, Batch, Capacities, NodeTraits, SPONGES, StepParams},
+    layout::{ROW_BYTES, Value, WORD_BYTES},
+    pack::{self, BATCH_STRIDE, BATCHES, Batch, NodeTraits, SPONGES, StepParams},
     stars::{self, RANGES},
     sums::{GroupSums, sum_groups},
 };
@@ -25,7 +26,7 @@ use crate::{
     columns::{Column, Columns, RowCounts},
     params::{Params, SpongeParams},
     pbd::meeting::pair_radius,
-    sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
+    tets::rows::TET_CORNERS,
 };
 
 /// Most cells of a grid: their counts and starts are one binding each.
@@ -55,7 +56,7 @@ pub struct Resident {
     pub(super) replaced: u32,
     /// Whether passes that can be are one dispatch.
     pub(super) is_fused: bool,
-    /// Where the host reads what the device says after a batch.
+    /// Where the host reads clock and wrenches after a batch.
     pub(super) answer: Buffer,
 }
 
@@ -158,8 +159,9 @@ impl Resident {
         let coupled = fluid > 0 && nodes > 0;
         let (fluid, nodes, body_rows) = (fluid as u64, nodes as u64, bodies as u64);
         // Rows of what only a scene with both has.
-        let (inside, controls) = if coupled { (fluid, nodes) } else { (0, 0) };
-        let (cornered, corner_lists) = if self.params.is_barycentric { (inside, controls) } else { (0, 0) };
+        let controls = if coupled { nodes } else { 0 };
+        let is_barycentric = coupled && self.params.is_barycentric;
+        let (cornered, corner_lists) = if is_barycentric { (fluid, nodes) } else { (0, 0) };
         let solved = if self.params.fluid.incompressible.is_some() { fluid } else { 0 };
         let viscous_rows = if self.params.fluid.implicit_viscosity.is_some() { fluid } else { 0 };
         let cells = |grid: &Grid, rows: u64| if rows > 0 { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
@@ -167,12 +169,18 @@ impl Resident {
         let stars = stars::star_words(&columns.nodes, self.rows.nodes, self.params.has_touch());
         let [fluid_cells, control_cells] = [cells(&self.grids[0], fluid), cells(&self.grids[1], controls)];
         let pair_cells = cells(&self.grids[2], touching);
-        let page_sums = |cells: u64| 4 * cells / u64::from(PAGE_CELLS);
+        let page_sums = |cells: u64| WORD_BYTES * cells / u64::from(PAGE_CELLS);
         let sponges = self.params.sponges.len() as u64;
-        let list = |rows: u64, capacity: u32| rows * (u64::from(capacity) + 1) * 4;
         let mirrors = self.params.fluid.divergence().is_some();
         let planes = bodies::plane_count(&columns.bodies.states.0) as u64;
         let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
+        let column = |column: Column, is_there: bool| {
+            let form = Form::of(column);
+            let bytes = if is_there { form.bytes(column, self.rows, self.capacities) as u64 } else { 0 };
+            (form.buffer(column, true), bytes, plain)
+        };
+        let words = |name: &'static str, count: u64| (name, count * WORD_BYTES, plain);
+        let rows = |name: &'static str, count: u64| (name, count * ROW_BYTES, plain);
         let own = vec![
             ("params", StepParams::BYTES, uniform),
             ("clock", CLOCK_BYTES, uniform | plain),
@@ -181,59 +189,55 @@ impl Resident {
             ("control_grid", Grid::BYTES, uniform | plain),
             ("pair_grid", Grid::BYTES, uniform | plain),
             ("batch", BATCH_STRIDE * BATCHES as u64, uniform | plain),
-            ("extremes", 4 * Extreme::ALL.len() as u64, plain),
-            ("fluid_pressure_solve", Solve::BYTES, plain),
-            ("solve_sums", maximum_groups(solved) * 32, plain),
-            ("fluid_viscosity_solve", ViscositySolve::BYTES, plain),
-            ("viscosity_sums", maximum_groups(viscous_rows) * 16, plain),
-            ("fluid_cells", fluid * 4, plain),
-            ("fluid_slots", fluid * 4, plain),
-            ("fluid_grouped", fluid * 4, plain),
-            ("fluid_counts", fluid_cells * 4, plain),
-            ("fluid_starts", fluid_cells * 4, plain),
+            column(Column::FluidExtremes, true),
+            column(Column::FluidPressureSolve, true),
+            ("solve_sums", maximum_groups(solved) * rows_bytes(SOLVE_SUM_ROWS), plain),
+            column(Column::FluidViscositySolve, true),
+            rows("viscosity_sums", maximum_groups(viscous_rows)),
+            words("fluid_cells", fluid),
+            words("fluid_slots", fluid),
+            words("fluid_grouped", fluid),
+            words("fluid_counts", fluid_cells),
+            words("fluid_starts", fluid_cells),
             ("fluid_page_sums", page_sums(fluid_cells), plain),
-            ("fluid_neighbors", list(fluid, self.capacities[0]), plain),
-            ("fluid_controls", list(inside, self.capacities[1]), plain),
-            ("fluid_corners", cornered * 16, plain),
-            ("fluid_shares", cornered * 64, plain),
-            ("control_corners", (corner_lists + 1 + 4 * cornered) * 4, plain),
-            ("node_control", corner_lists * 4, plain),
-            ("corner_counts", corner_lists * 4, plain),
-            ("corner_places", cornered * 16, plain),
-            ("node_stars", stars as u64 * 4, plain),
-            ("node_rest", touching * 16, plain),
-            ("node_pairs", list(touching, self.capacities[3]), plain),
-            ("pair_cells", touching * 4, plain),
-            ("pair_slots", touching * 4, plain),
-            ("pair_grouped", touching * 4, plain),
-            ("pair_counts", pair_cells * 4, plain),
-            ("pair_starts", pair_cells * 4, plain),
+            column(Column::FluidNeighbors, true),
+            column(Column::FluidControls, coupled),
+            column(Column::FluidCorners, is_barycentric),
+            column(Column::FluidShares, is_barycentric),
+            column(Column::ControlCorners, is_barycentric),
+            words("node_control", corner_lists),
+            words("corner_counts", corner_lists),
+            words("corner_places", cornered * TET_CORNERS as u64),
+            words("node_stars", stars as u64),
+            rows("node_rest", touching),
+            column(Column::NodePairs, self.params.has_touch()),
+            words("pair_cells", touching),
+            words("pair_slots", touching),
+            words("pair_grouped", touching),
+            words("pair_counts", pair_cells),
+            words("pair_starts", pair_cells),
             ("pair_page_sums", page_sums(pair_cells), plain),
-            ("sponge_ranges", sponges * RANGES as u64 * 8, plain),
-            ("sponge_boxes", sponges * 32, plain),
-            ("sponge_motions", motion_bytes(self.params.sponges.len(), self.rows.nodes) as u64, plain),
+            words("sponge_ranges", sponges * RANGES as u64 * 2),
+            ("sponge_boxes", sponges * rows_bytes(BOX_ROWS), plain),
+            rows("sponge_motions", motion_rows(self.params.sponges.len(), self.rows.nodes) as u64),
             ("node_traits", nodes * NodeTraits::BYTES, plain),
-            ("tets", tets as u64 * 16, plain),
-            ("tet_sponge", tets as u64 * 4, plain),
-            ("tet_weight", tets as u64 * 4, plain),
-            ("control_cells", controls * 4, plain),
-            ("control_slots", controls * 4, plain),
-            ("control_grouped", controls * 4, plain),
-            ("control_counts", control_cells * 4, plain),
-            ("control_starts", control_cells * 4, plain),
+            rows("tets", tets as u64),
+            words("tet_sponge", tets as u64),
+            words("tet_weight", tets as u64),
+            words("control_cells", controls),
+            words("control_slots", controls),
+            words("control_grouped", controls),
+            words("control_counts", control_cells),
+            words("control_starts", control_cells),
             ("control_page_sums", page_sums(control_cells), plain),
-            ("control_fluid", list(controls, self.capacities[2]), plain),
-            ("body_states", body_rows * DeviceBody::BYTES, plain),
-            ("planes", planes * 16, plain),
-            ("body_fluid_wrenches", wrench_bytes(self.rows.fluid, self.rows.bodies) as u64, plain),
-            ("body_node_wrenches", wrench_bytes(self.rows.nodes, self.rows.bodies) as u64, plain),
-            (
-                "body_pressure_wrenches",
-                if mirrors { wrench_bytes(self.rows.fluid, self.rows.bodies) as u64 } else { 0 },
-                plain,
-            ),
+            column(Column::ControlFluid, coupled),
+            column(Column::BodyStates, true),
+            rows("planes", planes),
+            column(Column::BodyFluidWrenches, true),
+            column(Column::BodyNodeWrenches, true),
+            column(Column::BodyPressureWrenches, mirrors),
             ("body_wrenches", body_rows * WRENCH_BYTES, plain),
-            ("node_mass", nodes * 4, plain),
+            words("node_mass", nodes),
             ("partial_sums", sum_groups(self.rows) * GroupSums::BYTES, plain),
             ("totals", 3 * GroupSums::BYTES, plain),
         ];
@@ -352,7 +356,7 @@ impl Resident {
         self.has_begun = false;
         self.write("sponges", bytemuck::cast_slice(&pack::sponges(&self.params, &self.first_nodes)));
         self.fill_params();
-        // Nobody renews what was given by those whose phases are left out.
+        // Phases that are left out do not clear what they wrote before.
         let mut stale = vec!["body_fluid_wrenches", "body_node_wrenches"];
         if is_outside {
             stale.extend(["fluid_interior", "fluid_solid_yield"]);

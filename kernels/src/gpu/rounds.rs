@@ -7,7 +7,7 @@ use sorb_shaders::Shader;
 use super::{
     device::Gpu,
     pipeline::Threads,
-    program::{Dispatch, Part, Program},
+    program::{BoundStage, Dispatch, Program},
     resident::Resident,
     twins::{Pass, Rows},
     *,
@@ -73,9 +73,9 @@ fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
         resident.rounds(maximum, 1, dispatch(&resident, "halve")).unwrap_or_else(|error| fail(error));
     rounds.planned = planned;
     program.step = vec![
-        Part::Once(dispatch(&resident, "before")),
-        Part::Rounds(rounds),
-        Part::Once(dispatch(&resident, "after")),
+        BoundStage::Once(dispatch(&resident, "before")),
+        BoundStage::Rounds(rounds),
+        BoundStage::Once(dispatch(&resident, "after")),
     ];
     resident.set_time(&Start {
         left: f32::MAX,
@@ -92,8 +92,8 @@ fn halved(maximum: u32, planned: u32, steps: u32) -> (Vec<u32>, Answer) {
 
 fn planned_at_most(program: &mut Program, maximum: u32) -> bool {
     program.step.iter().all(|part| match part {
-        Part::Rounds(rounds) => rounds.planned <= maximum,
-        Part::Once(_) => true,
+        BoundStage::Rounds(rounds) => rounds.planned <= maximum,
+        BoundStage::Once(_) => true,
     })
 }
 

@@ -74,14 +74,14 @@ impl Resident {
             self.keep_bound(program)?;
             self.set_step(step);
             self.clear_extremes(program);
-            self.submit(&program.parts(0, 0), true, None)?;
-            let mut answer = self.listen()?;
+            self.submit(&program.passes_from(0, 0), true, None)?;
+            let mut answer = self.read_answer()?;
             while let Some((index, done)) = answer.unfinished {
-                let more = program.more(index, done);
-                let mut parts = vec![&program.resume[..]];
-                parts.extend(program.parts(index, more));
-                self.submit(&parts, true, None)?;
-                answer = self.listen()?;
+                let added = program.added_rounds(index, done);
+                let mut passes = vec![&program.resume[..]];
+                passes.extend(program.passes_from(index, added));
+                self.submit(&passes, true, None)?;
+                answer = self.read_answer()?;
             }
             program.expect(answer.maximum_rounds);
             let Some(longest) = answer.longest else { break };
@@ -96,10 +96,10 @@ impl Resident {
         Ok(())
     }
 
-    /// Takes up to `steps` steps (1 or more) of the time that was set; fewer if that is filled, or something went wrong.
+    /// Takes up to `steps` steps (1 or added) of the time that was set; fewer if that is filled, or something went wrong.
     ///
     /// # Errors
-    /// The device was lost, or lists that have to be longer do not fit its memory: no state of a half-finished step is
+    /// The device was lost, or lists that have to be longer do not fit its memory. No state of a half-finished step is
     /// left behind.
     pub fn advance(
         &mut self,
@@ -115,7 +115,7 @@ impl Resident {
                 From::Begin if to_do == 1 && profile.is_none() => self.submit_step(program)?,
                 _ => self.submit_steps(program, from, to_do, profile.as_deref_mut())?,
             }
-            let answer = self.listen()?;
+            let answer = self.read_answer()?;
             to_do -= to_do.min(answer.steps - self.steps);
             self.steps = answer.steps;
             program.expect(answer.maximum_rounds);
@@ -124,7 +124,7 @@ impl Resident {
                 self.has_begun = false;
                 from = From::Begin;
             } else if let Some((index, done)) = answer.unfinished {
-                from = From::Rounds(index, program.more(index, done));
+                from = From::Rounds(index, program.added_rounds(index, done));
             } else {
                 // The last step has begun the next one.
                 self.has_begun = answer.outcome == Outcome::Done;
@@ -139,20 +139,20 @@ impl Resident {
             Some(buffer) => buffer,
             None => self.encode_step(program)?,
         };
-        self.hand_in(buffer)?;
+        self.submit_buffer(buffer)?;
         self.has_begun = true;
         program.prepared = Some(self.encode_step(program)?);
         Ok(())
     }
 
     fn encode_step(&self, program: &Program) -> Result<CommandBuffer, GpuError> {
-        let mut parts = Vec::new();
+        let mut passes = Vec::new();
         if !self.has_begun {
-            parts.push(&program.begin[..]);
+            passes.push(&program.begin[..]);
         }
-        parts.extend(program.parts(0, 0));
-        parts.push(&program.finish);
-        self.gpu.guarded(None, || self.encode(&parts, true, None))
+        passes.extend(program.passes_from(0, 0));
+        passes.push(&program.finish);
+        self.gpu.guarded(None, || self.encode(&passes, true, None))
     }
 
     /// Submits steps, a few at a time: the device works on some while the host encodes the next.
@@ -164,38 +164,38 @@ impl Resident {
         mut profile: Option<&mut Profile>,
     ) -> Result<(), GpuError> {
         let at_once = if profile.is_some() { steps } else { STEPS_AT_ONCE };
-        let (mut parts, mut index, more): (Vec<&[Dispatch]>, _, _) = match from {
+        let (mut passes, mut index, added): (Vec<&[Dispatch]>, _, _) = match from {
             From::Begin => (vec![&program.begin], 0, 0),
-            From::Rounds(index, more) => (vec![&program.resume], index, more),
+            From::Rounds(index, added) => (vec![&program.resume], index, added),
         };
         for step in 1..=steps {
-            parts.extend(program.parts(index, more));
-            parts.push(&program.finish);
+            passes.extend(program.passes_from(index, added));
+            passes.push(&program.finish);
             index = 0;
             if step % at_once == 0 || step == steps {
-                self.submit(&parts, step == steps, profile.as_deref_mut())?;
-                parts.clear();
+                self.submit(&passes, step == steps, profile.as_deref_mut())?;
+                passes.clear();
             }
         }
         Ok(())
     }
 
-    /// Encodes and submits passes, all in one, and the copy of what [`Self::listen`] waits for.
+    /// Encodes and submits passes, all in one, and the copy of what [`Self::read_answer`] waits for.
     pub(super) fn submit(
         &self,
-        parts: &[&[Dispatch]],
+        passes: &[&[Dispatch]],
         answers: bool,
         mut profile: Option<&mut Profile>,
     ) -> Result<(), GpuError> {
-        let buffer = self.gpu.guarded(None, || self.encode(parts, answers, profile.as_deref_mut()))?;
-        self.hand_in(buffer)?;
+        let buffer = self.gpu.guarded(None, || self.encode(passes, answers, profile.as_deref_mut()))?;
+        self.submit_buffer(buffer)?;
         match profile {
             Some(profile) => profile.collect(&self.gpu),
             None => Ok(()),
         }
     }
 
-    fn hand_in(&self, buffer: CommandBuffer) -> Result<(), GpuError> {
+    fn submit_buffer(&self, buffer: CommandBuffer) -> Result<(), GpuError> {
         self.gpu.guarded(None, || {
             self.gpu.queue.submit([buffer]);
         })
@@ -203,7 +203,7 @@ impl Resident {
 
     fn encode(
         &self,
-        parts: &[&[Dispatch]],
+        passes: &[&[Dispatch]],
         answers: bool,
         mut profile: Option<&mut Profile>,
     ) -> CommandBuffer {
@@ -213,7 +213,7 @@ impl Resident {
             if let Some(profile) = profile.as_deref_mut() {
                 profile.start(&mut pass);
             }
-            let mut dispatches = parts.iter().copied().flatten().peekable();
+            let mut dispatches = passes.iter().copied().flatten().peekable();
             while let Some(dispatch) = dispatches.next() {
                 pass.set_pipeline(&dispatch.pipeline.pipeline);
                 pass.set_bind_group(0, &dispatch.bind, &[]);
@@ -241,8 +241,8 @@ impl Resident {
         self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sorb") })
     }
 
-    /// What the device has to say: a few hundred bytes.
-    pub(super) fn listen(&self) -> Result<Answer, GpuError> {
+    /// Waits for the clock and the wrenches after a batch, a few hundred bytes.
+    pub(super) fn read_answer(&self) -> Result<Answer, GpuError> {
         let bytes = self.gpu.map(&self.answer)?;
         self.answer.unmap();
         let words: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
@@ -286,8 +286,8 @@ mod tests {
         // Negative control: without clearing, the step stops for a list that is too long.
         resident.write_extreme(Extreme::Neighbors, 1 << 12);
         resident.set_step(1e-4);
-        resident.submit(&program.parts(0, 0), true, None).unwrap_or_else(|error| fail(error));
-        let answer = resident.listen().unwrap_or_else(|error| fail(error));
+        resident.submit(&program.passes_from(0, 0), true, None).unwrap_or_else(|error| fail(error));
+        let answer = resident.read_answer().unwrap_or_else(|error| fail(error));
         assert!(answer.longest.is_some());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::pack::SPONGES;
 use crate::{
-    columns::Nodes,
+    columns::{Nodes, lane},
     layout::constants,
     pbd::{
         lattice::VERTEX_COLORS,
@@ -58,7 +58,7 @@ pub(super) fn stars(nodes: &Nodes, rows: usize, has_touch: bool) -> Vec<u32> {
     }
     words.resize(row_words(has_touch) * rows, 0);
     for (node, neighbors, weights) in nodes.stars.each() {
-        let wetness = nodes.wetting.get(node as usize).map_or(0.0, |row| row[0]);
+        let wetness = nodes.wetting.get(node as usize).map_or(0.0, |row| row[lane::nodes::wetting::WETNESS]);
         let tets = (0..TETS).map(|tet| u32::from(weights[tet] > 0.0) << tet).sum();
         let table = if is_weighted(&weights) { words.len() as u32 } else { 0 };
         let star = &mut words[node as usize * STAR_WORDS..][..STAR_WORDS];
@@ -74,8 +74,8 @@ pub(super) fn stars(nodes: &Nodes, rows: usize, has_touch: bool) -> Vec<u32> {
     words
 }
 
-/// First node and end of the nodes of every sponge in each vertex colour; then which others it touches, directly or through others,
-/// a bit each.
+/// First node and end of the nodes of every sponge in each vertex colour. Behind them is which others it touches, directly or through
+/// others, a bit each.
 pub(super) fn sponge_ranges(nodes: &Nodes, sponges: usize) -> Vec<[u32; 2]> {
     let mut ranges = vec![[0, 0]; sponges * RANGES];
     let stars = &nodes.stars;

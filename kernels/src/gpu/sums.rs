@@ -2,12 +2,12 @@
 
 use super::{
     error::GpuError,
-    form::vector,
     groups::groups_of,
     layout::Value,
     pack::Summands,
     resident::Resident,
     twins::{SUMS, TOTAL},
+    vectors::vector,
 };
 use crate::{
     columns::RowCounts,

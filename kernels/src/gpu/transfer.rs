@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use super::{
     answer::Extreme as Word,
+    capacities::{Capacities, List, capacities},
     error::GpuError,
     form::{Form, NEXT, corners, list_layout, lists, plain_bytes, wide_words},
-    layout::Value,
-    lists::capacities,
+    groups::WRENCH_FLOATS,
+    layout::{ROW, Value, WORD_BYTES},
     resident::Resident,
     stars,
 };
@@ -20,18 +21,6 @@ use crate::{
     reduce::Wrenches,
 };
 
-/// Whether a column is a plain array that devices hold.
-fn is_plain(column: Column) -> bool {
-    Form::of(column) == Form::Plain
-}
-
-/// Takes over the words of rows, and pads them.
-pub(super) fn take_rows<T: bytemuck::Pod>(data: &mut Vec<T>, words: &[u32], padding: T, to: usize) {
-    data.resize(size_of_val(words) / size_of::<T>(), padding);
-    bytemuck::cast_slice_mut(&mut data[..]).copy_from_slice(words);
-    data.resize(to, padding);
-}
-
 /// Columns that the passes of vertex block descent find beside the stars, for want of bindings.
 fn is_beside_stars(column: Column) -> bool {
     let touch = [Column::NodeTouch, Column::NodeTouchStiffness, Column::NodeTouchBetween];
@@ -42,6 +31,11 @@ fn is_beside_stars(column: Column) -> bool {
 fn is_there(params: &Params, rows: RowCounts, column: Column) -> bool {
     let contents = Contents { params, rows, bodies: &[], touch: params.has_touch() };
     column.need().is_none_or(|need| need.missing(&contents).is_none())
+}
+
+/// Whether a column is a plain array that devices hold.
+fn is_plain(column: Column) -> bool {
+    Form::of(column) == Form::Plain
 }
 
 impl Resident {
@@ -93,18 +87,18 @@ impl Resident {
         &mut self,
         columns: &mut Columns,
         name: &'static str,
-        which: usize,
+        which: List,
     ) -> Result<(), GpuError> {
         let (lists, rows, targets) = lists(columns, which);
         let lists: Vec<Vec<u32>> = (0..rows).map(|query| lists.of(query, targets).collect()).collect();
         let longest = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
-        if longest > self.capacities[which] {
-            let mut needed = [0; 8];
-            needed[which] = longest;
+        if longest as usize > which.capacity(self.capacities) {
+            let mut needed = Capacities::default();
+            needed[which as usize] = longest;
             self.lengthen(needed)?;
         }
         let place = list_layout(which, rows, self.capacities);
-        let mut words = vec![0_u32; rows * (self.capacities[which] as usize + 1)];
+        let mut words = vec![0_u32; which.words(self.rows, self.capacities)];
         for (row, list) in lists.iter().enumerate() {
             words[place(0, row)] = list.len() as u32;
             list.iter().enumerate().for_each(|(k, target)| words[place(k + 1, row)] = *target);
@@ -137,12 +131,12 @@ impl Resident {
             Column::BodyPressureWrenches => &store.pressure_wrenches,
             _ => &store.node_wrenches,
         };
-        let mut words = vec![0.0_f32; self.buffer(name).size() as usize / 4];
+        let mut words = vec![0.0_f32; (self.buffer(name).size() / WORD_BYTES) as usize];
         for body in 0..bodies {
             let total = wrenches.total(body, bodies);
             let rows = [total.impulse, total.angular_impulse].map(glam::DVec3::as_vec3);
             for (half, vector) in rows.into_iter().enumerate() {
-                let first = (body * 2 + half) * 4;
+                let first = body * WRENCH_FLOATS + half * ROW;
                 if let Some(slot) = words.get_mut(first..first + 3) {
                     slot.copy_from_slice(&vector.to_array());
                 }
@@ -217,25 +211,7 @@ pub fn make_room(columns: &mut Columns, column: Column) {
     }
 }
 
-/// Takes over a column that is a plain array.
-pub(super) fn take_plain(columns: &mut Columns, column: Column, words: &[u32]) {
-    if words.is_empty() && column.need().is_some() {
-        // The scene does without.
-        return;
-    }
-    let rows = columns.rows.of(column.store());
-    // The one column that the CPU does not pad.
-    let to = if column == Column::ControlNode { rows } else { padded(rows) };
-    let padding = column.padding();
-    match columns.data_mut(column).plain_mut() {
-        Some(PlainMut::Rows(data)) => take_rows(data, words, padding.row(), to),
-        Some(PlainMut::Values(data)) => take_rows(data, words, 0.0, to),
-        Some(PlainMut::Words(data)) => take_rows(data, words, padding.word(), to),
-        None => {}
-    }
-}
-
-/// Bytes of a column on a device, in a scene of these parameters: lists as long as those of a fluid and a lattice at
+/// Bytes of a column on a device, in a scene of these parameters. Lists count as long as those of a fluid and a lattice at
 /// rest, 0 for columns that a device does not hold.
 #[must_use]
 pub fn column_bytes(params: &Params, rows: RowCounts, column: Column) -> u64 {

@@ -141,7 +141,7 @@ pub(crate) const LAST: &str = "last";
 /// After the last round of such a repetition.
 pub(crate) const END_ROUNDS: Pass =
     Pass { shader: "clock::rounds", entry: "end_rounds", rows: Rows::One, names: &[] };
-/// Before more rounds, where those that were handed in did not suffice.
+/// Before more rounds, where those that were submitted did not suffice.
 pub(crate) const RESUME: Pass = Pass { shader: "clock::clock", entry: "resume", rows: Rows::One, names: &[] };
 /// Before bodies can move.
 pub(crate) const BODY_WRENCHES: Pass = pass("sph::body_wrenches", Rows::Bodies);

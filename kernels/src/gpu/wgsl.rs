@@ -1,13 +1,14 @@
-//! What shaders know without saying it: the constants, enumerations and structs that Rust declares.
+//! Constants, enumerations and structs that Rust declares, as WGSL text that is appended to every shader.
 
 use std::sync::LazyLock;
 
 use super::{
     answer::{Clock, Extreme, Status},
     bodies::{self, DeviceBody, ShapeKind},
+    capacities::List,
     cells::{self, Grid},
     groups,
-    images::DeviceImage,
+    image_layout::{self, DeviceImage},
     layout::{Constant, Enumeration, Shape, Struct},
     pack::{self, Batch, NodeTraits, Repetition, StepParams, Summands},
     query::{self, QueryAnswer, Question},
@@ -17,12 +18,14 @@ use super::{
 use crate::{
     KERNELS,
     clock::{self, Bound},
-    column, couple, divergence,
+    column::{self, Element},
+    columns::Column,
+    couple, divergence,
     params::{self, EquationOfState, Solver, SpongeParams, WettingParams},
     pbd,
     smoothing::{self, Wendland},
     sph::{self, pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
-    surface, sweep,
+    surface, sweep, tets,
     turn::Turn,
 };
 
@@ -41,6 +44,7 @@ const CONSTANTS: &[&[Constant]] = &[
     divergence::rate::CONSTANTS,
     divergence::walls::CONSTANTS,
     groups::CONSTANTS,
+    image_layout::CONSTANTS,
     pack::CONSTANTS,
     params::CONSTANTS,
     pbd::descent::CONSTANTS,
@@ -58,11 +62,25 @@ const CONSTANTS: &[&[Constant]] = &[
     sums::CONSTANTS,
     surface::CONSTANTS,
     sweep::CONSTANTS,
+    tets::rows::CONSTANTS,
 ];
 
 /// All constants.
 fn constants() -> impl Iterator<Item = &'static Constant> {
     CONSTANTS.iter().copied().chain(KERNELS.iter().map(|kernel| kernel.constants)).flatten()
+}
+
+/// The lanes of all columns: `INVERSE_MASS` of `node_position` is `NODE_POSITION_INVERSE_MASS`.
+fn lanes() -> String {
+    let mut text = String::new();
+    for column in Column::ALL {
+        let Element::Rows(lanes) = column.element() else { continue };
+        for lane in lanes.iter().filter(|lane| !lane.name.is_empty()) {
+            let name = format!("{}_{}", column.buffer().to_uppercase(), lane.name);
+            text.push_str(&format!("const {name}: u32 = {}u;\n", lane.index));
+        }
+    }
+    text
 }
 
 /// Declarations of all of them.
@@ -72,12 +90,13 @@ static DECLARATIONS: LazyLock<String> = LazyLock::new(|| {
         Bound::wgsl(),
         EquationOfState::wgsl(),
         Extreme::wgsl(),
+        List::wgsl(),
         ShapeKind::wgsl(),
         Solver::wgsl(),
         Status::wgsl(),
     ];
     let structs: String = STRUCTS.iter().map(Shape::wgsl).collect();
-    [constants, enumerations.concat(), structs].concat()
+    [constants, lanes(), enumerations.concat(), structs].concat()
 });
 
 /// Structs.

@@ -1,6 +1,6 @@
 //! Neighbour lists: for every query point, the target points within a radius.
 //!
-//! Lists are interleaved by groups of eight queries, so that a pass over neighbours has one particle per lane and sums each
+//! Lists are interleaved by groups of eight queries. A pass over neighbours then has one particle per lane and sums each
 //! particle's list in order. The vector width therefore cannot change the sum. A padding row, which adds exact zeros, fills
 //! up the shorter lists of a group.
 

@@ -1,7 +1,7 @@
 //! Eight lanes of f32, with the scalar level written out lane by lane.
 //!
 //! The scalar emulation of the SIMD library makes an operation on eight lanes from two on four, and copies arrays in loops
-//! for that: five loops for each sum. They vanish only after all of a kernel is inlined into one function. That took four
+//! for that. Each sum has five loops. They vanish only after all of a kernel is inlined into one function. That took four
 //! fifths of the time to build the kernels.
 
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub, SubAssign};

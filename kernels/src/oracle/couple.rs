@@ -136,10 +136,10 @@ pub(crate) fn interior(params: &Params, columns: &mut Columns) {
             chi += weight;
             let node = columns.controls.node[control] as usize;
             let pores = columns.nodes.pores[node];
-            let porosity = f64::from(pores[lane::nodes::pores::POROSITY]);
-            follows += weight * f64::from(pores[0]) * (0.7 * (1.0 - porosity) / porosity).min(1.0).sqrt();
-            linear += weight * f64::from(pores[1]);
-            inertial += weight * f64::from(pores[2]);
+            let [volume_ratio, drag_rate, inertial_drag_rate, porosity] = pores.map(f64::from);
+            follows += weight * volume_ratio * (0.7 * (1.0 - porosity) / porosity).min(1.0).sqrt();
+            linear += weight * drag_rate;
+            inertial += weight * inertial_drag_rate;
             mobile += weight
                 * columns
                     .nodes
@@ -222,7 +222,8 @@ pub(crate) fn drag(params: &Params, columns: &mut Columns) {
             shared +=
                 weight * f64::from(columns.controls.velocity[control][lane::controls::velocity::DRAG_SHARE]);
         }
-        let rate = f64::from(params.step) * f64::from(columns.fluid.drag_rate[particle][0]);
+        let rate = f64::from(params.step)
+            * f64::from(columns.fluid.drag_rate[particle][lane::fluid::drag_rate::DRAG_RATE]);
         let strength = mass * rate / (1.0 + rate);
         // The column holds J_i over the interior value.
         let old = vector(columns.fluid.drag[particle]);

@@ -263,8 +263,8 @@ pub(crate) fn update(params: &Params, columns: &mut Columns) {
     for i in 0..columns.rows.fluid {
         let [pressure, _, diagonal, compression] = fluid.pressure_rows[i].map(f64::from);
         let next = (pressure + length * compression / diagonal).clamp(0.0, maximum);
-        fluid.pressure_rows[i][0] = next as f32;
-        fluid.pressure_rows[i][1] = (next - pressure) as f32;
+        fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE] = next as f32;
+        fluid.pressure_rows[i][lane::fluid::pressure_rows::CHANGE] = (next - pressure) as f32;
         fluid.predicted[i] = fluid.position[i];
         fluid.predicted[i][lane::fluid::predicted::PRESSURE] = next as f32;
     }
@@ -338,7 +338,7 @@ pub(crate) fn residual(params: &Params, columns: &mut Columns) {
     let (h, scale) = (f64::from(params.step), f64::from(fluid.pressure_solve.target_scale()));
     let mut sums = [0.0; 6];
     for (i, rate) in rates.into_iter().enumerate() {
-        let of_solid = f64::from(fluid.correction[i][3]);
+        let of_solid = f64::from(fluid.correction[i][lane::fluid::correction::COMPRESSION_RATE]);
         let is_in_pores = fluid.moment[i][lane::fluid::moment::MATERIAL] > 0.02;
         let target = f64::from(fluid.factors[i][lane::fluid::factors::TARGET]);
         let left = if is_in_pores { target } else { target * scale } + h * (rate + of_solid);

@@ -4,18 +4,18 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::{apart, incompressible::factor, row, shapes, vector, vectors};
 use crate::{
-    body::{Body, Part, Shape},
+    body::{Body, ConvexPart, Shape},
     columns::{Columns, Fluid},
     divergence::{
-        image_rows::{Image, Images, NO_BODY},
+        image_rows::{IMAGE_RATIO, Image, Images, NO_BODY},
         mirror::Mirrored,
     },
     grid::neighbors::Neighbors,
     params::Params,
 };
 
-/// The closest point of a core, the direction in which the surface is straight there if there is one alone, and whether it is curved
-/// at all.
+/// The closest point of a core, and the curvature of the surface there: its only straight direction, if there is one, and whether it is
+/// curved at all.
 type Closest = (DVec3, Option<DVec3>, bool);
 
 /// Where the image of a point in a body is, its map of velocities, and its volume over that of the point.
@@ -117,13 +117,13 @@ fn in_body(params: &Params, body: &Body, x: DVec3) -> Vec<InBody> {
         return found.and_then(|found| mirrored(params, &rotation, x, &found)).into_iter().collect();
     };
     let reached =
-        |part: &Part| Reached::of(&part.core, (Vec3::ONE, part.radius), local - part.centre.as_dvec3());
+        |part: &ConvexPart| Reached::of(&part.core, (Vec3::ONE, part.radius), local - part.centre.as_dvec3());
     let cover = 0.06 * 1.6 * f64::from(params.fluid.spacing);
     let mut found = Vec::new();
     for (index, part) in compound.parts.iter().enumerate() {
         let Some(own) = reached(part) else { continue };
         let foot = local - own.away * (own.distance() / own.away.length());
-        let covers = |(other, part): (usize, &Part)| {
+        let covers = |(other, part): (usize, &ConvexPart)| {
             let depth = shapes::local(&part.hull, foot - part.centre.as_dvec3()).0;
             let distance = reached(part).map_or(f64::MIN, |of| of.distance());
             let is_nearer = distance < own.distance() || distance == own.distance() && other < index;
@@ -217,7 +217,7 @@ pub(crate) fn images(params: &Params, columns: &mut Columns) {
     let at: Vec<DVec3> = images.position[..used].iter().map(|row| vector(*row)).collect();
     let radius = params.fluid.smoothing.support_radius;
     images.near = super::grid::lists(params, &x, &at, rows, radius);
-    let volume = |image: usize| f64::from(images.position[image][3]);
+    let volume = |image: usize| f64::from(images.position[image][IMAGE_RATIO]);
     let c = |row: usize, image: usize| volume(image) * factor(params, apart(params, x[row], at[image]));
     images.pairs.fill(
         &images.near,
@@ -271,7 +271,7 @@ pub(super) fn seen(images: &Images) -> Vec<Seen> {
             foot,
             source: images.source[image] as usize,
             body: (images.body[image] != NO_BODY).then_some(images.body[image] as usize),
-            volume: f64::from(images.position[image][3]),
+            volume: f64::from(images.position[image][IMAGE_RATIO]),
             map: DMat3::from_diagonal(signs) * along,
             signs,
         }

@@ -223,8 +223,8 @@ pub(crate) fn pressure_update(params: &Params, columns: &mut Columns) {
     for i in 0..columns.rows.fluid {
         let [pressure, _, diagonal, compression] = fluid.pressure_rows[i].map(f64::from);
         let next = (pressure + length * compression / diagonal).clamp(0.0, maximum);
-        fluid.pressure_rows[i][0] = next as f32;
-        fluid.pressure_rows[i][1] = (next - pressure) as f32;
+        fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE] = next as f32;
+        fluid.pressure_rows[i][lane::fluid::pressure_rows::CHANGE] = (next - pressure) as f32;
         fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE] = (next
             - density * f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY]))
             as f32;
@@ -255,7 +255,7 @@ pub(crate) fn solid_yield(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let near = pairs(params, fluid, count);
     fluid.solid_yield.resize(fluid.position.len(), 0.0);
-    let follows = |row: usize| f64::from(fluid.drag_rate[row][2]);
+    let follows = |row: usize| f64::from(fluid.drag_rate[row][lane::fluid::drag_rate::COMPLIANCE]);
     let change = |row: usize| f64::from(fluid.predicted[row][lane::fluid::predicted::PRESSURE_CHANGE]);
     for (i, near) in near.iter().enumerate() {
         let sum: f64 = near.iter().map(|(j, c)| c * follows(*j) * (change(*j) - change(i))).sum();
@@ -302,7 +302,7 @@ pub(crate) fn pressure_kick(params: &Params, columns: &mut Columns) {
         let v = vector(fluid.velocity[i]) + f64::from(params.step) * vector(fluid.correction[i]);
         fluid.velocity[i] = keep(fluid.velocity[i], v);
         fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY] =
-            (f64::from(fluid.pressure_rows[i][0]) / density) as f32;
+            (f64::from(fluid.pressure_rows[i][lane::fluid::pressure_rows::PRESSURE]) / density) as f32;
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! An oracle is written from the formula in the documentation of its kernel, without lists, cells, lanes or threads. It
 //! writes to the same columns, rounded at the end. Rows in use are right; padding rows are not meant to be read. Where a
-//! kernel may choose an order (of rows or of a list), the oracle keeps the present order: compare by identity (`fluid.id`,
+//! kernel may choose an order (of rows or of a list), the oracle keeps the present order. Compare by identity (`fluid.id`,
 //! `controls.node`), not by row.
 
 use glam::DVec3;

@@ -29,7 +29,7 @@ fn carried(from: &Body, to: &Body, point: DVec3) -> DVec3 {
     shapes::rotation(to) * local + to.state.position.as_dvec3()
 }
 
-/// Follows a path to a body that stands still: the distance at its end, the distance of the end of the path from the plane
+/// Follows a path to a body that stands still. The result is the distance at its end, the distance of the end of the path from the plane
 /// there less that, and the normal.
 pub(super) fn met(body: &Body, margin: f64, from: DVec3, to: DVec3) -> (f64, f64, DVec3) {
     let length = (to - from).length();

@@ -6,7 +6,6 @@ use super::{apart, gradient, incompressible, row, smoothing, vector, vectors};
 use crate::{
     columns::{Columns, lane},
     params::Params,
-    sph::deficit,
 };
 
 pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
@@ -20,8 +19,14 @@ pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
         let volume_at = |other: &DVec3| volume * smoothing(radius, apart(params, x[i], *other).length());
         let there: f64 = x.iter().map(volume_at).sum();
         let share = incompressible::share(params, &columns.bodies.states.0, profile, x[i]);
-        fluid.deficit[i] = deficit::weight((f64::from(deficit::FULL_SHARE) - there - share).max(0.0)) as f32;
+        fluid.deficit[i] = weight((0.98 - there - share).max(0.0)) as f32;
     }
+}
+
+/// Weight of a deficit e: e (1 - 5/2 e), from its summit at e = 1/5 on at least a hundredth.
+fn weight(deficit: f64) -> f64 {
+    let falling = deficit - 2.5 * deficit.powi(2);
+    if deficit <= 0.2 { falling } else { falling.max(0.01) }
 }
 
 pub(crate) fn cohesion(params: &Params, columns: &mut Columns) {

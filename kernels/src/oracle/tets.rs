@@ -13,7 +13,7 @@ use crate::{
     columns::{Columns, lane},
     grid::neighbors::Neighbors,
     params::Params,
-    tets::rows::WEIGHT,
+    tets::rows::CORNER_WEIGHT,
 };
 
 /// For every slot of a tet as the nearest node: that node, its partner on the long edge, and the other two.
@@ -90,7 +90,9 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
 fn of(columns: &Columns, particle: usize) -> Vec<(usize, DVec3, f64)> {
     let corners = columns.fluid.corners.0[particle].iter().zip(&columns.fluid.shares.0[particle]);
     let inside = corners.filter(|(control, _)| (**control as usize) < columns.rows.nodes);
-    inside.map(|(control, share)| (*control as usize, vector(*share), f64::from(share[WEIGHT]))).collect()
+    inside
+        .map(|(control, share)| (*control as usize, vector(*share), f64::from(share[CORNER_WEIGHT])))
+        .collect()
 }
 
 /// Particles in the tets of a control: their rows, vectors, and weights.

@@ -8,7 +8,7 @@ use crate::{
 
 /// How wet a node is.
 pub(super) fn wetness(nodes: &Nodes, node: usize) -> f64 {
-    nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[0]))
+    nodes.wetting.get(node).map_or(0.0, |row| f64::from(row[lane::nodes::wetting::WETNESS]))
 }
 
 /// Length of the material of a node at rest over that of dry material.

@@ -7,8 +7,8 @@
 //! psi = mu / 2 (|F|^2 - 3) - mu ln J + (lambda - mu) / 2 (J - 1)^2
 //! ```
 //!
-//! Below a fifth of its volume, where a sponge is mostly solid, a tet uses the first three terms of the Taylor series of the
-//! logarithm there. With `K = max(J, 1/5)`,
+//! Below a fifth of its volume a sponge is mostly solid. There a tet uses the first three terms of the Taylor series of the logarithm. With
+//! `K = max(J, 1/5)`,
 //!
 //! ```text
 //! dpsi/dJ = p = (lambda - mu) (J - 1) - mu (2 K - J) / K^2,   dp/dJ = k = lambda - mu + mu / K^2

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The target z is the position without elastic forces. The first guess leaves out the share of the external acceleration a
-//! that the node did not follow in the last step, because something held it. In free fall `s = 1`, at rest `s = 0`. A sponge
+//! that the node did not follow in the last step. Something held it then. In free fall `s = 1`, at rest `s = 0`. A sponge
 //! at rest therefore begins in its equilibrium, and stays there at any number of sweeps.
 //!
 //! With fluid, `couple::drag_target` shifts the target and adds mass. Contact between sponges is in `pbd::touch`.

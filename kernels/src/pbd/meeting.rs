@@ -19,7 +19,7 @@ constants! {
     const PAIR_OVERLAP: f32 = 1.0;
     /// How far they may be from each other, in edges.
     const PAIR_GAP: f32 = 0.6;
-    /// Distance along the surface within which nodes push each other, in edges: nodes on a square of one edge then feel a surface
+    /// Distance along the surface within which nodes push each other, in edges. Nodes on a square of one edge then feel a surface
     /// that is stiff to 6 % everywhere.
     pub(super) const PAIR_REACH: f32 = 1.5;
 }

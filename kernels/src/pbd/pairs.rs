@@ -6,7 +6,7 @@
 //! A n_a = -sum over tets of (q - u) x (r - u) / 6
 //! ```
 //!
-//! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p, which is 1 on a face and next to nothing on a
+//! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p. That is 1 on a face and next to nothing on a
 //! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least
 //! `SELF_CONTACT_DISTANCE` edges from each other at rest, are a pair where their surfaces face each other:
 //!
@@ -16,12 +16,12 @@
 //! ```
 //!
 //! with e the larger of their edges. The normal of a node of a rim lies between those of two faces: where it meets a face,
-//! the normal of the face counts. With the mean of both, blocks on each other would be a twentieth of an edge inside each
-//! other there, many times the depth that carries their weight. Two rims must face each other squarely. The contact of a
-//! pair (`touch.rs`) is the same from both sides to the last bit except for its sign, because n is.
+//! the normal of the face counts. With the mean of both, blocks on each other would overlap by a twentieth of an edge there. That is many
+//! times the depth that carries their weight. Two rims must face each other squarely. The contact of a pair (`touch.rs`) is the same from
+//! both sides to the last bit except for its sign, because n is.
 //!
-//! All values are of the beginning of the step. No node moves by more than a quarter of an edge in a step (`src/clock.rs`),
-//! and two by at most half of one towards each other. No pair that would pass is therefore missed.
+//! All values are of the beginning of the step. No node moves by more than a quarter of an edge in a step (`src/clock.rs`). Two nodes
+//! approach each other by half an edge at most. No pair that would pass is therefore missed.
 
 use glam::Vec3;
 

@@ -1,22 +1,22 @@
 //! Impulses of walls, bodies and grips on the nodes of vertex block descent.
 //!
-//! After few sweeps the forces in a sponge do not balance, but the external ones are known. They are the force that keeps a
-//! node out of an obstacle (`obstacles.rs`), and that of a grip against the elastic force on a held node. Bodies receive the
-//! opposite. The fourth lane is the mass of the node in `pbd::momentum`.
+//! After few sweeps the forces in a sponge do not balance, but the external ones are known. One is the force that keeps a node out of an
+//! obstacle (`obstacles.rs`). The other is that of a grip against the elastic force on a held node. Bodies receive the opposite. The fourth
+//! lane is the mass of the node in `pbd::momentum`.
 
 use crate::{
-    body::{Body, Wrench, by_chunk},
-    columns::{Columns, Nodes},
+    body::{Wrench, by_chunk},
+    columns::Columns,
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     params::Params,
     pbd::{
-        descent::{Material, constants_of, local, minimum},
-        meeting::Touch,
+        descent::{Material, local, minimum},
+        lattice::VERTEX_COLORS,
         obstacles::{OBSTACLE_MARGIN, Obstacles, array, vector},
-        stars::{StarGroup, Stars},
-        wetted::Wet,
+        stars::StarGroup,
+        sweep::Sweep,
     },
     vector::{choose, dot, negative, plus, times},
 };
@@ -34,55 +34,29 @@ declare! {
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes {
-        position,
-        predicted,
-        target,
-        sponge,
-        stars,
-        wetting,
-        reaction,
-        touch,
-        touch_stiffness,
-        touch_between,
-        ..
-    } = &mut columns.nodes;
-    let touch = Touch { force: touch, stiffness: touch_stiffness, between: touch_between };
-    let bodies = &columns.bodies.states.0;
+    let mut reaction = std::mem::take(&mut columns.nodes.reaction);
+    let (nodes, bodies) = (&columns.nodes, &columns.bodies.states.0);
     let wrenches = &mut columns.bodies.node_wrenches.0;
     reaction.clear();
-    reaction.resize(position.len(), [0.0; 4]);
-    for color in 0..4 {
-        let rows = stars.rows(color);
-        let wet = Wet::new(params, sponge, wetting);
-        let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
+    reaction.resize(nodes.position.len(), [0.0; 4]);
+    let sweep = Sweep::new(cpu, params, bodies, nodes);
+    for color in 0..VERTEX_COLORS {
+        let rows = nodes.stars.rows(color);
         // A vertex colour does not begin with a chunk of rows: its chunks have separate wrenches.
         let chunks = rows.len().div_ceil(CHUNK);
         let mut own = vec![Wrench::default(); chunks * bodies.len()];
         let mut of_chunks = by_chunk(&mut own, chunks, bodies.len());
         cpu.for_chunks((&mut reaction[rows], PerChunk(&mut of_chunks)), |first, (reaction, wrenches)| {
-            with_lanes!(cpu, simd => task.chunk(simd, color, first, reaction, wrenches.0[0]));
+            with_lanes!(cpu, simd => sweep.react_chunk(simd, color, first, reaction, wrenches.0[0]));
         });
         wrenches.extend_from_slice(&own);
     }
+    columns.nodes.reaction = reaction;
 }
 
-struct Task<'a> {
-    cpu: &'a Cpu,
-    params: &'a Params,
-    bodies: &'a [Body],
-    position: &'a [[f32; 4]],
-    predicted: &'a [[f32; 4]],
-    target: &'a [[f32; 4]],
-    sponge: &'a [u32],
-    stars: &'a Stars,
-    wet: Wet<'a>,
-    touch: Touch<'a>,
-}
-
-impl Task<'_> {
+impl Sweep<'_> {
     #[inline(always)]
-    fn chunk<S: Simd>(
+    fn react_chunk<S: Simd>(
         &self,
         simd: S,
         color: usize,
@@ -90,19 +64,18 @@ impl Task<'_> {
         reaction: &mut [[f32; 4]],
         wrenches: &mut [Wrench],
     ) {
-        let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
+        let obstacles = self.obstacles();
         let groups = self.stars.groups_from(color, first);
         for (group, reaction) in groups.iter().zip(reaction.chunks_mut(LANES)) {
             if self.params.asleep.has_group(&group.own) {
                 continue;
             }
-            let constants = constants_of(self.params, self.sponge, &group.own);
-            let material = Material::new(simd, &constants);
+            let material = self.material(simd, group);
             // A short last group repeats its last node, which must not count twice.
             let mut counts = [0.0; LANES];
             counts[..reaction.len()].fill(1.0);
             let counts = lanes::load_array(simd, &counts) * material.own;
-            let found = self.look(simd, group, (&material, counts), &obstacles, wrenches);
+            let found = self.external_impulse(simd, group, (&material, counts), &obstacles, wrenches);
             let mut stored = [[0.0; 4]; LANES];
             lanes::store_rows(&mut stored, 0, found);
             reaction.copy_from_slice(&stored[..reaction.len()]);
@@ -111,7 +84,7 @@ impl Task<'_> {
 
     /// External impulse, and mass.
     #[inline(always)]
-    fn look<S: Simd>(
+    fn external_impulse<S: Simd>(
         &self,
         simd: S,
         group: &StarGroup,

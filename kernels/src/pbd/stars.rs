@@ -1,8 +1,8 @@
 //! The star of a node: the tets that meet in it and the nodes around it.
 //!
-//! On the lattice every inner node has the same star. It has six neighbours of its own sublattice one edge away along the
-//! axes, eight of the other sublattice at the corners of a cube around it, and 24 tets. Around each of the six lie four
-//! tets, whose other two nodes are consecutive corners of a ring of four. A node at the surface lacks some of them.
+//! On the lattice every inner node has the same star. It has six neighbours of its own sublattice, one edge away along the axes. Eight of
+//! the other sublattice are at the corners of a cube around it. It has 24 tets. Around each of the six lie four tets, whose other two nodes
+//! are consecutive corners of a ring of four. A node at the surface lacks some of them.
 //!
 //! Bits of a corner: x, y, z, set where it lies on the positive side. Directions: `2 axis + 1` for the positive one.
 //! Tet `4 direction + k` has the corners `k` and `k + 1` of the [`RINGS`].
@@ -46,7 +46,7 @@ const fn rings() -> [[usize; 4]; DIRECTIONS] {
     rings
 }
 
-/// For every slot of a tet as the centre: the centre, its partner on the long edge, and the opposite edge in the order
+/// For every slot of a tet as the centre. These are the centre, its partner on the long edge, and the opposite edge in the order
 /// that keeps the volume positive.
 const ROLES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
 
@@ -83,7 +83,7 @@ pub struct Stars {
     pub(crate) pieces: Vec<Piece>,
 }
 
-/// The tets of a full star. The lists have lengths that the compiler does not know: it would unroll the passes over the 24
+/// The tets of a full star. The lists have lengths that the compiler does not know. It would unroll the passes over the 24
 /// tets of eight nodes for every SIMD level.
 #[derive(Clone, Debug)]
 pub(crate) struct StarShape {

@@ -20,8 +20,8 @@
 //!
 //! V is the volume of the tet itself: pits count only in the masses.
 //!
-//! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\] instead of a stiffness between 0
-//! and 1 (compliance of \[MMC16\]). The sponge then does not stiffen when the step shrinks.
+//! Differs from the paper: a constraint has a modulus M \[Pa\] and a damping time tau \[s\], as the compliance of \[MMC16\]. There it has a
+//! stiffness between 0 and 1. The sponge then does not stiffen when the step shrinks.
 
 use crate::{
     columns::Columns,

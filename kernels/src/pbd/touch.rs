@@ -9,8 +9,8 @@
 //! ```
 //!
 //! so that surfaces of many nodes, or of few large ones, feel the same pressure. M is the harmonic mean of the moduli
-//! lambda + mu of both materials, e the larger edge. Where the pair slips by s along the surface in this step, friction of up to mu
-//! times the normal force acts against it, linear up to a speed `CREEP_SPEED`.
+//! lambda + mu of both materials, e the larger edge. Where the pair slips by s along the surface in this step, friction acts against it. It
+//! is at most mu times the normal force, and linear up to a speed `CREEP_SPEED`.
 //!
 //! ```text
 //! F_a = n k d (1 + 4 d^2 / e^2) - k_t s,   H_a = k (1 + 12 d^2 / e^2) n n^T + k_t (1 - n n^T),   k_t = mu |F_n| / max(|s|, h CREEP_SPEED)

@@ -15,18 +15,17 @@
 //! exact instead of a penalty. Over-relaxation takes the place of Chebyshev acceleration.
 
 use crate::{
-    body::Body,
-    columns::{Columns, Nodes},
+    columns::Columns,
     cpu::Cpu,
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},
     params::Params,
     pbd::{
-        descent::{Material, constants_of, local, minimum},
-        meeting::Touch,
+        descent::{Material, local, minimum},
+        lattice::VERTEX_COLORS,
         obstacles::{Obstacles, array, vector},
-        stars::{StarGroup, Stars},
-        wetted::Wet,
+        stars::StarGroup,
+        sweep::Sweep,
     },
     vector::{Vec3x8, choose, dot, minus, times},
 };
@@ -46,71 +45,43 @@ declare! {
         const FULL_RELAXATION_STRAIN: f32 = 0.2;
         /// The same from which on it goes no further than to its least energy \[1\].
         const NO_RELAXATION_STRAIN: f32 = 0.5;
-        /// Way, in edges, from which on a node goes no further than to its least energy; it goes all the way
+        /// Way, in edges, from which on a node goes no further than to its least energy. It goes all the way
         /// further up to half of that \[1\].
         const NO_RELAXATION_WAY: f32 = 0.1;
-        /// Parts of the last digit of a place that chance is taken from, see [`moved`] \[1\].
+        /// Parts of the last digit of a position from which the random number is taken, see [`moved`] \[1\].
         const ROUNDING_PARTS: f32 = 4096.0;
-        /// Smallest place that chance is scaled by, so that a way over its last digit is a number \[m\].
+        /// Least absolute coordinate in the unit of stochastic rounding: the unit of a coordinate of zero would be zero \[m\].
         const MINIMUM_COORDINATE: f32 = 1.0e-6;
         const EPSILON: f32 = f32::EPSILON;
     },
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Nodes {
-        position,
-        predicted,
-        target,
-        sponge,
-        stars,
-        wetting,
-        touch,
-        touch_stiffness,
-        touch_between,
-        ..
-    } = &mut columns.nodes;
-    let touch = Touch { force: touch, stiffness: touch_stiffness, between: touch_between };
-    let bodies = &columns.bodies.states.0;
+    let (nodes, bodies) = (&mut columns.nodes, &columns.bodies.states.0);
     let mut moved = Vec::new();
-    for color in 0..4 {
-        let rows = stars.rows(color);
+    for color in 0..VERTEX_COLORS {
+        let rows = nodes.stars.rows(color);
         for awake in params.asleep.awake_groups(rows.clone(), LANES) {
             moved.clear();
             moved.resize(awake.len(), [0.0; 4]);
-            let wet = Wet::new(params, sponge, wetting);
-            let task = Task { cpu, params, bodies, position, predicted, target, sponge, stars, wet, touch };
+            let sweep = Sweep::new(cpu, params, bodies, nodes);
             let before = awake.start - rows.start;
             cpu.for_chunks(&mut moved[..], |first, moved| {
-                with_lanes!(cpu, simd => task.chunk(simd, color, before + first, moved));
+                with_lanes!(cpu, simd => sweep.move_chunk(simd, color, before + first, moved));
             });
-            predicted[awake].copy_from_slice(&moved);
+            nodes.predicted[awake].copy_from_slice(&moved);
         }
     }
 }
 
-struct Task<'a> {
-    cpu: &'a Cpu,
-    params: &'a Params,
-    bodies: &'a [Body],
-    position: &'a [[f32; 4]],
-    predicted: &'a [[f32; 4]],
-    target: &'a [[f32; 4]],
-    sponge: &'a [u32],
-    stars: &'a Stars,
-    wet: Wet<'a>,
-    touch: Touch<'a>,
-}
-
-impl Task<'_> {
+impl Sweep<'_> {
     #[inline(always)]
-    fn chunk<S: Simd>(&self, simd: S, color: usize, first: usize, moved: &mut [[f32; 4]]) {
-        let obstacles = Obstacles::new(self.cpu, self.params, self.bodies);
+    fn move_chunk<S: Simd>(&self, simd: S, color: usize, first: usize, moved: &mut [[f32; 4]]) {
+        let obstacles = self.obstacles();
         let groups = self.stars.groups_from(color, first);
         for (group, moved) in groups.iter().zip(moved.chunks_mut(LANES)) {
-            let constants = constants_of(self.params, self.sponge, &group.own);
-            let material = Material::new(simd, &constants);
-            let solved = self.solve(simd, group, &material, &obstacles);
+            let material = self.material(simd, group);
+            let solved = self.minimise(simd, group, &material, &obstacles);
             let mut stored = [[0.0; 4]; LANES];
             lanes::store_rows(&mut stored, 0, solved);
             moved.copy_from_slice(&stored[..moved.len()]);
@@ -118,7 +89,7 @@ impl Task<'_> {
     }
 
     #[inline(always)]
-    fn solve<S: Simd>(
+    fn minimise<S: Simd>(
         &self,
         simd: S,
         group: &StarGroup,

@@ -11,6 +11,7 @@
 
 use crate::{
     columns::Columns,
+    columns::lane::nodes::wetting::WETNESS,
     lanes::{self, LANES, Simd, f32x8, select},
     params::{POLYNOMIAL_RATIO, Params, SpongeParams},
     pbd::{
@@ -121,7 +122,7 @@ pub fn of_tet(columns: &Columns, sponge: &SpongeParams, tet: &[u32; 4]) -> (f64,
     if wetting.is_empty() {
         return (1.0, 1.0);
     }
-    let mean = tet.iter().map(|node| f64::from(wetting[*node as usize][0])).sum::<f64>() * 0.25;
+    let mean = tet.iter().map(|node| f64::from(wetting[*node as usize][WETNESS])).sum::<f64>() * 0.25;
     let (swelling, softening) = (f64::from(sponge.wetting.swelling), f64::from(sponge.wetting.softening));
     (1.0 + swelling * mean, 1.0 - softening * mean)
 }

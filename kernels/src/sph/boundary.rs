@@ -4,9 +4,8 @@
 //! lambda(y) = s max(0, 1 - y / R)^6   at the distance y from a surface, added up over surfaces
 //! ```
 //!
-//! The first layer of a lattice, half a spacing from the surface, then has rest density, and the pressure of its neighbours
-//! does not push it into the wall. `boundary_profile` computes the value and slope for that. Nothing is stored on the
-//! surface.
+//! The first layer of a lattice, half a spacing from the surface, then has rest density. The pressure of its neighbours does not push it
+//! into the wall. `boundary_profile` computes the value and slope for that. Nothing is stored on the surface.
 
 use crate::{
     body::Body,

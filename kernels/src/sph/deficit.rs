@@ -44,7 +44,7 @@ declare! {
     },
 }
 
-/// Surface tension of drops that have settled, over that of the layers of a lattice that ends in a plane: measured on eight drops
+/// Surface tension of drops that have settled, over that of the layers of a lattice that ends in a plane. Measured on eight drops
 /// of 16 to 19 particles across.
 const SETTLED: f64 = 0.97;
 

@@ -15,7 +15,7 @@ pub fn moment(smoothing: &Wendland, spacing: f32) -> f32 {
 }
 
 /// Of the first layer of a lattice below a plane, the length of the sum of `c_ij x_ij` \[1/m\], and the part of a full neighbourhood
-/// that it lacks \[1\]; see `divergence::moments`.
+/// that it lacks \[1\]. See `divergence::moments`.
 #[must_use]
 pub fn surface(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     let moment = sum(smoothing, spacing, |c, x, _| if x > 0.0 { c * x } else { 0.0 });

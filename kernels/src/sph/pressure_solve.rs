@@ -12,7 +12,6 @@
 //! The tolerance falls with the speed of the fluid. The error that a step leaves becomes a velocity, and waves longer than a
 //! few spacings are hardly damped. With a fixed tolerance a pool would oscillate for ever at a speed in proportion to it.
 
-use crate::columns::lane;
 use crate::{
     clock::PEAK_PRESSURE,
     column::ColumnData,
@@ -27,24 +26,24 @@ constants! {
     pub(crate) const SOUND_SPEED_RATIO: f32 = 10.0;
     /// Length of the first step: a little more than relaxed Jacobi iteration is stable with.
     const FIRST_LENGTH: f32 = 0.6;
-    /// Mean error over the mean displacement of a step, in spacings, above which the fluid would not come to rest: what is
+    /// Mean error over the mean displacement of a step, in spacings, above which the fluid would not come to rest. What is
     /// left of an error becomes a velocity.
     const ERROR_PER_DISPLACEMENT: f32 = 0.02;
     /// Least tolerance: rounding to f32 leaves no less.
     const MINIMUM_TOLERANCE: f32 = 1.0e-6;
-    /// The same error of a solve for the divergence, which is left in a layer of one spacing: errors of one sign add up over the depth.
+    /// The same error of a solve for the divergence, which is left in a layer of one spacing. Errors of one sign add up over the depth.
     const DIVERGENCE_PER_DISPLACEMENT: f32 = 0.2;
     /// Least number of layers that it is divided by.
     const MINIMUM_LAYERS: f32 = 10.0;
     /// Least tolerance of a solve for the divergence.
     const MINIMUM_DIVERGENCE: f32 = 1.0e-5;
-    /// Fourth root of the mean fourth power of the error of that solve at most, over the tolerance: an impact on few particles is not
+    /// Fourth root of the mean fourth power of the error of that solve at most, over the tolerance. An impact on few particles is not
     /// seen in the mean, and must not decide about all of a scene.
     const UNEVENNESS: f32 = 20.0;
     /// Speed that the mean target of the divergence may give all of a pool at rest, over that of a shallow wave on it.
     const MAXIMUM_RISE: f32 = 0.05;
-    /// Weight of the pressure of a particle in pores in the bound of the step. Drag and material keep the order of particles there, so that
-    /// steps of 0.6 instead of 0.4 of the time in which pressure moves a particle by a spacing are stable.
+    /// Weight of the pressure of a particle in pores in the bound of the step. Drag and material keep the order of particles there. Steps
+    /// may be 0.6 instead of 0.4 of the time in which pressure moves a particle by a spacing.
     pub(crate) const PRESSURE_IN_PORES: f32 = 0.444_444_45;
     /// Least length of a step.
     const MINIMUM_LENGTH: f64 = 0.2;
@@ -81,18 +80,18 @@ pub(crate) struct Beginning {
 }
 
 impl Beginning {
-    /// Of velocities with the pressure beside them, and factors with the target beside them, of particles in pores or not.
+    /// Of velocities with the pressure beside them, and targets of the divergence, of particles in pores or not.
     pub(crate) fn of(
         velocity: &[[f32; 4]],
-        factors: &[[f32; 4]],
+        targets: impl Iterator<Item = f32>,
         is_in_pores: impl Iterator<Item = bool>,
     ) -> Self {
         let mut sums = Self::default();
-        for (([x, y, z, pressure], factors), is_in_pores) in velocity.iter().zip(factors).zip(is_in_pores) {
+        for (([x, y, z, pressure], target), is_in_pores) in velocity.iter().zip(targets).zip(is_in_pores) {
             sums.speed += x * x + y * y + z * z;
             if !is_in_pores {
                 sums.pressure += pressure * pressure;
-                sums.target += factors[lane::fluid::factors::TARGET];
+                sums.target += target;
             }
         }
         sums
@@ -104,8 +103,9 @@ impl Sums {
     pub(crate) fn of(rows: &mut [[f32; 4]], left: &[f32], weights: &[f32]) -> Self {
         let mut sums = Self::default();
         for ((row, left), weight) in rows.iter_mut().zip(left).zip(weights) {
-            let [pressure, change, diagonal, before] = *row;
-            let response = before - left;
+            let [pressure, change, diagonal, compression] = row;
+            let (pressure, change, diagonal) = (*pressure, *change, *diagonal);
+            let response = *compression - left;
             let slack = pressure * diagonal;
             let over = if -left < slack { -left } else { slack };
             let error = if *left > 0.0 { *left } else { over };
@@ -115,7 +115,7 @@ impl Sums {
             sums.mixed += change * response;
             sums.response += response * response / diagonal;
             sums.pressure += weight * pressure * (weight * pressure);
-            row[lane::fluid::pressure_rows::COMPRESSION] = *left;
+            *compression = *left;
         }
         sums
     }

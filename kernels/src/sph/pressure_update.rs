@@ -4,7 +4,7 @@
 //! P_i <- min(max(0, P_i + alpha r_i / M_i), c^2)
 //! ```
 //!
-//! Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest expected speed: the pressure that keeps
+//! Enclosed water yields at a pressure of `rho_0 c^2`, with c ten times the fastest expected speed. The pressure that keeps
 //! its density would be infinite.
 //!
 //! with `alpha` from `sph::pressure_residual`. Writes the change since the beginning of the step beside the predicted
@@ -40,8 +40,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let next = pressure + length * compression / diagonal;
             let next = if next > 0.0 { next } else { 0.0 };
             let next = if next < maximum { next } else { maximum };
-            row[0] = next;
-            row[1] = next - pressure;
+            row[lane::fluid::pressure_rows::PRESSURE] = next;
+            row[lane::fluid::pressure_rows::CHANGE] = next - pressure;
             predicted[lane::fluid::predicted::PRESSURE_CHANGE] =
                 next - density * position[lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY];
         }

@@ -10,7 +10,7 @@ pub enum Phase {
     /// A kernel.
     Run(&'static Kernel),
     /// Phases that belong together.
-    Part(&'static Block),
+    Named(&'static Block),
     /// Phases that are run several times.
     Repeat {
         /// How often.
@@ -123,41 +123,41 @@ pub static RIGID: HostPhase = HostPhase {
     reads: &[Column::BodyFluidWrenches, Column::BodyNodeWrenches],
 };
 
-use Phase::{Part, Run};
+use Phase::{Named, Run};
 use blocks::*;
 
 /// The step of the paper. Reads and writes of the kernels check this order; they do not define it.
 pub static STEP: &[Phase] = &[
-    Part(&SEARCH),
-    Part(&IMAGES),
+    Named(&SEARCH),
+    Named(&IMAGES),
     Run(&sph::pressure::KERNEL),
-    Part(&CONTROLS),
-    Part(&PORES),
-    Part(&ELASTIC),
-    Part(&FORCES),
+    Named(&CONTROLS),
+    Named(&PORES),
+    Named(&ELASTIC),
+    Named(&FORCES),
     Run(&sph::repulsion::KERNEL),
-    Part(&WALLS),
-    Part(&NOISE),
-    Part(&VISCOSITY),
-    Part(&PRESSURE),
-    Part(&DRAG),
-    Part(&MOTION),
+    Named(&WALLS),
+    Named(&NOISE),
+    Named(&VISCOSITY),
+    Named(&PRESSURE),
+    Named(&DRAG),
+    Named(&MOTION),
 ];
 
 /// The step with sponges as porous media: pressure and suction first, then elasticity, drag and contact as one solve. The
 /// sponge then bears the loads of the water in the same step, and drag slows suction and pressure alike (docs/porous.md).
 pub static POROUS_STEP: &[Phase] = &[
-    Part(&SEARCH),
-    Part(&CONTROLS),
+    Named(&SEARCH),
+    Named(&CONTROLS),
     Run(&couple::wetting::KERNEL),
-    Part(&PORES),
-    Part(&IMAGES),
-    Part(&FORCES),
-    Part(&WALLS),
-    Part(&NOISE),
+    Named(&PORES),
+    Named(&IMAGES),
+    Named(&FORCES),
+    Named(&WALLS),
+    Named(&NOISE),
     Run(&couple::solid_pressure::KERNEL),
-    Part(&VISCOSITY),
-    Part(&PRESSURE),
-    Part(&ELASTIC_WITH_DRAG),
-    Part(&MOTION),
+    Named(&VISCOSITY),
+    Named(&PRESSURE),
+    Named(&ELASTIC_WITH_DRAG),
+    Named(&MOTION),
 ];

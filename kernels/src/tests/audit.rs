@@ -1,7 +1,7 @@
 //! Declared = actual: a kernel writes the columns that it says, and reads no others.
 //!
 //! Undeclared writes are found by comparing all other columns before and after. Undeclared reads are found by
-//! poisoning all columns that are not declared as read, and demanding the same output; a written column that is
+//! poisoning all columns that are not declared as read, and demanding the same output. A written column that is
 //! not read is poisoned as well.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -29,7 +29,7 @@ enum Content {
 ///
 /// `found` and `oracle` are the columns after the kernel and after its oracle, `before` those before both.
 /// Where the kernel reads the column as well, or moves nodes, errors are over the largest change, not over the
-/// largest value: a wrong change must not hide in a large value.
+/// largest value. A wrong change must not hide in a large value.
 pub(super) fn errors(
     kernel: &Kernel,
     params: &Params,
@@ -40,7 +40,7 @@ pub(super) fn errors(
     errors_of(kernel, kernel.writes, 0.0, params, before, found, oracle)
 }
 
-/// [`errors`] of some of the columns that the kernel wrote; rounding of the values themselves by up to `ulps` units in
+/// [`errors`] of some of the columns that the kernel wrote. Rounding of the values themselves by up to `ulps` units in
 /// the last place of the largest one is no error.
 pub(super) fn errors_of(
     kernel: &Kernel,
@@ -311,7 +311,7 @@ fn images(images: &Images, order: &[usize], ids: &[u32], count: usize) -> Conten
     Content::Numbers(groups)
 }
 
-/// Difference of the images of two devices over the scale of each quantity. Pairs at the very radius are in the lists of one only: values
+/// Difference of the images of two devices over the scale of each quantity. Pairs at the very radius are in the lists of one only. Values
 /// are next to nothing there, and their sums are compared, plain and weighted by their targets.
 #[cfg(feature = "gpu")]
 pub(super) fn image_error(found: &Columns, expected: &Columns) -> f64 {

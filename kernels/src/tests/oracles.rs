@@ -61,7 +61,7 @@ fn points_outside_of_the_domain_are_found_too() {
     }
 }
 
-/// Contact of sponges is a small part of the forces on few nodes, and has labels beside them; places at rest only tell where
+/// Contact of sponges is a small part of the forces on few nodes, and has labels beside them. Places at rest only tell where
 /// neighbours are.
 const HARDLY_FELT: [Column; 4] =
     [Column::NodeTouch, Column::NodeTouchStiffness, Column::NodeTouchBetween, Column::NodeRest];

@@ -78,8 +78,8 @@ fn drag_in_partly_filled_pores_follows_the_relative_permeability() {
     assert!(inside > 100, "{inside} particles inside");
 }
 
-/// Moves the water through the sponges as a whole, there and back several times, and gives the work that suction does on it in
-/// the last cycle, and the largest amount of work done meanwhile \[J\].
+/// Moves the water through the sponges as a whole, there and back several times. Gives the work of suction on it in the last cycle, and the
+/// largest amount of work meanwhile \[J\].
 fn work_of_a_cycle(receding: f32, way: f32) -> (f64, f64) {
     const STEPS: usize = 60;
     let mut scene = free();

@@ -4,9 +4,9 @@
 //! x = sum_k b_k x_k,   sum_k b_k = 1,   grad b_k = (x_l - x_m) x (x_n - x_m) / (6 V)
 //! ```
 //!
-//! The tet is one of those around the nearest node: on the lattice at rest the tet of a point always has it. Where none of them contains
-//! the particle, at the face of the sponge or in a crushed lattice, it is the one whose smallest weight is largest. Its weights are
-//! then extrapolated: some are negative.
+//! The tet is one of those around the nearest node: on the lattice at rest the tet of a point always has it. At the face of the sponge or
+//! in a crushed lattice none of them may contain the particle. Then it is the one whose smallest weight is largest. Its weights are then
+//! extrapolated: some are negative.
 
 use super::rows::{CornerRows, Corners};
 use crate::{

@@ -1,5 +1,5 @@
-//! Drag impulses on the nodes, their moments, and the mass of fluid that moves with a node: `couple::drag_reaction` over the particles in
-//! the tets of the node.
+//! Drag impulses on the nodes, their moments, and the mass of fluid that moves with a node. This is `couple::drag_reaction` over the
+//! particles in the tets of the node.
 
 use crate::{columns::Columns, cpu::Cpu, kernel::declare, params::Params};
 

@@ -1,5 +1,5 @@
-//! Targets of the nodes by the drag of the fluid, for a sweep of vertex block descent: `couple::drag_target` over the particles in the tets
-//! of the node.
+//! Targets of the nodes by the drag of the fluid, for a sweep of vertex block descent. This is `couple::drag_target` over the particles in
+//! the tets of the node.
 
 use crate::{
     columns::Columns,

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with the velocity linear in the tet, `w_a = sum_k (b_k + grad b_k . (x_a - x_i)) w_k`. The sums `z_m` and `M_m` are those of
-//! `tets::moments` over the images by mirror m, which turns vectors by `R_m`, and `d_m` is the way from the particle to its own image.
+//! `tets::moments` over the images by mirror m, which turns vectors by `R_m`. `d_m` is the way from the particle to its own image.
 
 use super::rows::load;
 use crate::{

@@ -9,7 +9,7 @@
 //!
 //! See `couple::solid_moments` for what holds a node, and `couple::solid_diagonal` for the diagonal A.
 
-use super::rows::{CornerRows, WEIGHT, mean};
+use super::rows::{CORNER_WEIGHT, CornerRows, mean};
 use crate::{
     columns::{Columns, Controls, Fluid, lane},
     couple::compliance::response,
@@ -80,7 +80,7 @@ fn compliances(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let mut drawn = 0.0;
             for place in lists.of(first + row, 4 * particles) {
                 let particle = place as usize / 4;
-                drawn += shares.0.as_flattened()[place as usize][WEIGHT]
+                drawn += shares.0.as_flattened()[place as usize][CORNER_WEIGHT]
                     * (1.0 - pushed[particle][lane::fluid::pushed::MOBILITY]);
             }
             let own = node[first + row] as usize;

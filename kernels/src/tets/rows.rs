@@ -3,19 +3,24 @@
 use crate::{
     column::ColumnData,
     lanes::{self, LANES, Simd, f32x8},
+    layout::constants,
     vector::{Vec3x8, plus, splat, times},
 };
 
-/// Lane of the weight of a corner, behind a vector.
-pub(crate) const WEIGHT: usize = 3;
+constants! {
+    /// Corners of a tet, each with a row of shares.
+    pub(crate) const TET_CORNERS: usize = 4;
+    /// Lane of the weight of a corner in its shares, behind a vector.
+    pub(crate) const CORNER_WEIGHT: usize = 3;
+}
 
 /// Four control rows for every particle: those of the corners of its tet, or the padding row.
 #[derive(Clone, Debug, Default)]
-pub struct Corners(pub(crate) Vec<[u32; 4]>);
+pub struct Corners(pub(crate) Vec<[u32; TET_CORNERS]>);
 
 /// Four floats for every corner of the tet of every particle.
 #[derive(Clone, Debug, Default)]
-pub struct CornerRows(pub(crate) Vec<[[f32; 4]; 4]>);
+pub struct CornerRows(pub(crate) Vec<[[f32; 4]; TET_CORNERS]>);
 
 impl Corners {
     /// Whether none of eight particles has a tet: its corners differ.
@@ -41,8 +46,13 @@ impl CornerRows {
 
 /// The rows of one corner of eight particles.
 #[inline(always)]
-pub(super) fn load<S: Simd>(simd: S, rows: &[[[f32; 4]; 4]], row: usize, corner: usize) -> [f32x8<S>; 4] {
-    let entry = std::array::from_fn(|lane| (4 * (row + lane) + corner) as u32);
+pub(super) fn load<S: Simd>(
+    simd: S,
+    rows: &[[[f32; 4]; TET_CORNERS]],
+    row: usize,
+    corner: usize,
+) -> [f32x8<S>; 4] {
+    let entry = std::array::from_fn(|lane| (TET_CORNERS * (row + lane) + corner) as u32);
     lanes::gather_rows(simd, rows.as_flattened(), &entry)
 }
 
@@ -55,7 +65,7 @@ pub(super) fn mean<S: Simd>(
     row: usize,
 ) -> Vec3x8<S> {
     let mut sum = splat(simd, [0.0; 3]);
-    for corner in 0..4 {
+    for corner in 0..TET_CORNERS {
         let [x, y, z, _] = lanes::gather_rows(simd, rows, &corners.entry(row, corner));
         let [.., weight] = shares.load(simd, row, corner);
         sum = plus(sum, times([x, y, z], weight));

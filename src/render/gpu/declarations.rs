@@ -1,8 +1,9 @@
-//! What shaders know without saying it: the constants and structs that Rust declares.
+//! Constants and structs that Rust declares, as WGSL text that is appended to every shader of the renderer.
 
 use std::sync::LazyLock;
 
-use super::mesh::ShapeKind;
+use sorb_kernels::gpu::ShapeKind;
+
 use super::scene::{FAR_AWAY, Scene};
 use crate::render::{
     View, colour, rays,

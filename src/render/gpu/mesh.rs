@@ -1,6 +1,7 @@
 //! Sponges and bodies as shaders have them.
 
 use glam::Vec3;
+use sorb_kernels::gpu::ShapeKind;
 
 use super::declarations::{BODY_ROWS, TREE_NOTHING};
 use crate::render::{
@@ -14,17 +15,6 @@ use crate::rigid::Shape;
 
 /// A row of four numbers.
 pub(super) type Row = [f32; 4];
-
-/// Shapes of bodies.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum ShapeKind {
-    Plane,
-    Sphere,
-    Cuboid,
-    Capsule,
-    Hull,
-    Compound,
-}
 
 /// The bodies of a picture.
 #[derive(Debug, Default)]

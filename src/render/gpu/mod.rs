@@ -1,11 +1,11 @@
 //! The twin of the renderer on a GPU: the same passes and names as on the CPU, in WGSL.
 //!
-//! Particles stay on the device. What is one number per body, per node or per triangle of a sponge is made on the host and uploaded:
-//! the tree over the triangles, pieces of their surface for the closure, poses. A few bytes come back before the grid is laid: the
-//! boxes around the particles and their kernels.
+//! Particles stay on the device. What is one number per body, per node or per triangle of a sponge is made on the host and uploaded.
+//! That is the tree over the triangles, pieces of their surface for the closure, and poses. A few bytes come back before the grid is laid:
+//! the boxes around the particles and their kernels.
 //!
 //! Pictures differ from those of the CPU where that takes the mean of neighbours instead of a ray: here every pixel has one. The same
-//! device gives the same bits in every run: sums of many threads are in fixed point, and lists are sorted before they are summed.
+//! device gives the same bits in every run. Sums of many threads are in fixed point, and lists are sorted before they are summed.
 
 mod balls;
 mod buffers;

@@ -83,7 +83,7 @@ impl Resident {
     }
 }
 
-/// The nodes of a world that is on a device, if it is on this one and the view needs nothing of the particles on the host.
+/// The nodes of a world that is on this device; none if the view needs particles on the host.
 ///
 /// Pressures are computed on the host, and a section without sponges goes through the middle of the particles.
 pub(super) fn resident(world: &World, gpu: &Arc<Gpu>, view: View) -> Result<Option<Resident>, GpuError> {

@@ -15,7 +15,7 @@ use glam::Vec3;
 
 const FLOOR_COLOUR: Vec3 = Vec3::new(0.60, 0.591, 0.579);
 
-/// Light that a wet floor loses. Rays are widened as they leave water, by the square of its index; what the surface of the water
+/// Light that a wet floor loses. Rays are widened as they leave water, by the square of its index. What the surface of the water
 /// reflects back to the floor makes up for a part of it.
 const WET_FLOOR: f32 = 0.22;
 /// How far the surface of a film follows pores.

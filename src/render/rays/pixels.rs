@@ -1,6 +1,6 @@
 //! Pixels from rays: few where the picture is smooth, more at edges.
 //!
-//! A ray for every fourth pixel of every fourth row; between neighbours with equal paths and similar colours their mean, else
+//! A ray for every fourth pixel of every fourth row. Between neighbours with equal paths and similar colours their mean, else
 //! a ray; the same at every second pixel. Then more rays where neighbours differ. A pixel depends on its own surroundings
 //! only, so that bands may be drawn in any order.
 
@@ -39,8 +39,8 @@ impl Effort {
     };
 }
 
-/// Difference of neighbours, with equal and with different paths, from which on a pixel gets more rays, and where it takes
-/// them fully: a pixel at the limit must not jump from frame to frame.
+/// Differences of neighbours, with equal and with different paths: from the first on a pixel gets more rays, at the second it takes them
+/// fully. A pixel at the limit must not jump from frame to frame.
 const CONTRAST: (f32, f32) = (0.2, 0.32);
 const PATHS: (f32, f32) = (0.07, 0.12);
 /// A smaller difference has no effect, of [`MOST`].

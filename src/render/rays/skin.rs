@@ -78,7 +78,7 @@ pub(super) fn covered(sponge: &Surface, hit: &Hit<[f32; 2]>, films: &[f32]) -> f
     a * (1.0 - u - v) + b * u + c * v
 }
 
-/// Whether a ray that meets the outer surface in a pore leaves the sponge again, after a distance (m), before it meets a wall: pores
+/// Whether a ray that meets the outer surface in a pore leaves the sponge again, after a distance (m), before it meets a wall. Pores
 /// cut the outline.
 pub(super) fn is_notched(sponge: &Surface, hit: &Hit<[f32; 2]>, direction: Vec3, exit: f32) -> bool {
     let [u, v] = hit.place;

@@ -45,7 +45,7 @@ impl Surfel {
     }
 }
 
-/// Share of a kernel in front of a plane, with the middle of the kernel at a distance in front of it, in radii: the integral of
+/// Share of a kernel in front of a plane, with the middle of the kernel at a distance in front of it, in radii. It is the integral of
 /// `(315/256) (1 - x^2)^4`.
 pub(super) fn share(distance: f32) -> f32 {
     let x = distance.clamp(-1.0, 1.0);

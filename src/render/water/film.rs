@@ -8,15 +8,15 @@ use glam::Vec3;
 const THICKEST: f32 = 1.0;
 /// Distance from the sponge within which the surface of thicker water sinks, in spacings.
 pub(super) const REACH: f32 = 3.0;
-/// Distance from a sponge at which water makes a film, in spacings, and the densities, less the level of the surface, of none and
-/// of a whole one.
+/// Distance from a sponge at which water makes a film, in spacings. Then the densities of none and of a whole film, less the level of the
+/// surface.
 const HEIGHT: f32 = 0.4;
 const DENSITIES: (f32, f32) = (-0.4, 0.0);
 
 #[cfg(feature = "gpu")]
 shared_with_shaders!(FILM: THICKEST, REACH, HEIGHT, DENSITIES);
 
-/// Densities on the nodes of a grid after the surface has sunk towards sponges: a film sinks into them, water that is thicker
+/// Densities on the nodes of a grid after the surface has sunk towards sponges. A film sinks into them, water that is thicker
 /// than [`REACH`] keeps its surface, and water between them meets the sponge without a step.
 ///
 /// `distances` are those of the nodes from the sponges (m), infinite far from them; empty without a sponge.

@@ -27,7 +27,7 @@ const LOOK_AHEAD: Real = 1e3;
 
 /// Bodies moved by rapier3d: dynamic, fixed and kinematic.
 ///
-/// One step is one rapier3d step of four solver sub-steps, in which a free body follows `v += g h; x += v h` with
+/// One step is one rapier3d step of four solver sub-steps. In each of them a free body follows `v += g h; x += v h` with
 /// `h = dt / 4`. Where a body would move by more than the thickness of the thinnest dynamic body, the step is divided into
 /// equal rapier3d steps, 32 at most. Fast bodies then stop at a wall instead of inside it.
 ///
@@ -65,8 +65,8 @@ impl RapierEngine {
     /// infinite bound leaves that side open. The walls have no friction or restitution of their own.
     ///
     /// # Errors
-    /// A value out of its range, a key that does not fit the kind of the body, an unusable hull, a container
-    /// without interior, or a dynamic body that starts with its centre outside it.
+    /// A value out of its range, a key that does not fit the kind of the body, or an unusable hull. Also a container without interior, or a
+    /// dynamic body that starts with its centre outside it.
     pub fn new(
         gravity: Vec3,
         container: Option<(Vec3, Vec3)>,

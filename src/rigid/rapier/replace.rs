@@ -1,7 +1,7 @@
 //! Bodies that come, go and change while the engine runs.
 //!
-//! The sets of rapier3d are built anew from all bodies as they are: handles are then those of an engine that was built with these bodies,
-//! so that a restored one has the same. Impulses of contacts begin anew.
+//! The sets of rapier3d are built anew from all bodies as they are. Handles are then those of an engine that was built with these bodies,
+//! and a restored engine has the same. Impulses of contacts begin anew.
 
 use glam::Vec3;
 use rapier3d::prelude::{CoefficientCombineRule, ColliderBuilder, SharedShape};

@@ -5,8 +5,8 @@ use rapier3d::prelude::{SharedShape, TypedShape};
 
 use crate::scene::ShapeKind;
 
-/// The shape of a collider as a scene has it, for a body with it alone at its origin: balls, boxes, capsules along y, convex hulls and
-/// half-spaces below y. None for others.
+/// The shape of a collider as a scene has it, for a body with it alone at its origin. There are balls, boxes, capsules along y, convex
+/// hulls and half-spaces below y. None for others.
 #[must_use]
 pub fn shape_of(shape: &SharedShape) -> Option<ShapeKind> {
     match shape.as_typed_shape() {

@@ -158,8 +158,8 @@ fn every_node_and_tet_has_its_share_whatever_the_shape() {
     }
 }
 
-/// Sum of the gradients of a node's shape functions over the volume that its tets stand for, over the square of an edge: the
-/// force of a uniform stress on it.
+/// Sum of the gradients of a node's shape functions over the volume that its tets stand for, over the square of an edge. It is the force of
+/// a uniform stress on it.
 fn pull(built: &Lattice, weight: impl Fn(usize) -> f64) -> Vec<DVec3> {
     let mut pulls = vec![DVec3::ZERO; built.node_count()];
     for (index, &tet) in built.tets.iter().enumerate() {

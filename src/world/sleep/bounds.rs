@@ -68,7 +68,7 @@ impl Bounds {
         Self { low: self.low - by, high: self.high + by }
     }
 
-    /// Whether two boxes, or an image of one along periodic axes, have a point in common; `periods` are the lengths of the
+    /// Whether two boxes, or an image of one along periodic axes, have a point in common. `periods` are the lengths of the
     /// box of the scene along such axes, else zero.
     pub(super) fn meets(&self, other: &Self, periods: Vec3) -> bool {
         (0..3).all(|axis| {

@@ -29,12 +29,12 @@ use crate::{
 };
 use bounds::Bounds;
 pub(crate) use parts::Kind;
-use parts::{Part, Rules};
+use parts::{PartState, Rules};
 pub(crate) use saved::Saved;
 use stillness::{Places, Way};
 
-/// Parts of the time between two checks at which positions are recorded as well. A vibration with the period of the checks,
-/// or a fraction of it, has the same position at each of them, but not at both of these times (sampling alias).
+/// Parts of the time between two checks at which positions are recorded as well. A vibration with the period of the checks, or a fraction
+/// of it, has the same position at each of them (sampling alias). It has not at both of these times.
 const BETWEEN: [f64; 2] = [0.236, 0.618];
 
 /// Sleeping parts, and the data of the decision.
@@ -47,7 +47,7 @@ pub(crate) struct Sleep {
     motions: Vec<(usize, Motion)>,
     /// Intervals in which the container moves, or gravity changes \[s\]: everything is awake then.
     pub(crate) carried: Vec<(f64, f64)>,
-    parts: Vec<Part>,
+    parts: Vec<PartState>,
     /// Whether the scene sleeps as a whole.
     is_asleep: bool,
     /// Positions at the last check.
@@ -167,7 +167,7 @@ impl Sleep {
 
     /// Whether no body moves in a step that begins now, nor has a velocity to lose.
     pub(crate) fn are_bodies_still(&self, time: f64, step: f32) -> bool {
-        let is_dynamic = |part: &Part| matches!(part.kind, Kind::Body(_));
+        let is_dynamic = |part: &PartState| matches!(part.kind, Kind::Body(_));
         let touches = |(_, motion): &(usize, Motion)| {
             let (start, end) = interval(motion);
             start <= time + f64::from(step) && end >= time
@@ -249,8 +249,8 @@ impl World {
         slept.is_some() && end - self.clock.time <= TIME_RESOLUTION
     }
 
-    /// Sleeps for the length of a step, but no longer than `left`, nor until a script moves a body, if the scene is asleep;
-    /// returns the time \[s\].
+    /// Sleeps for the length of a step, but no longer than `left`, nor until a script moves a body, if the scene is asleep.
+    /// Returns the time \[s\].
     pub(super) fn sleep_within(&mut self, left: f64) -> Option<f64> {
         let left = if left.is_finite() { left } else { f64::from(self.scene.time.maximum_step) };
         let time = self.sleep.rest(self.clock.time, left);
@@ -276,7 +276,7 @@ impl World {
         let since = self.sleep.before.as_ref().map_or(f64::INFINITY, |before| time - before.time);
         let next = BETWEEN.get(self.sleep.between.len());
         if since >= self.sleep.after {
-            return self.look_for_rest() || has_woken;
+            return self.detect_rest() || has_woken;
         }
         if next.is_some_and(|part| since >= part * self.sleep.after) {
             let places = self.places();
@@ -288,7 +288,7 @@ impl World {
     }
 
     /// Lets islands fall asleep whose parts have not moved since the last check; returns whether there are any.
-    fn look_for_rest(&mut self) -> bool {
+    fn detect_rest(&mut self) -> bool {
         let now = self.places();
         if self.sleep.before.is_none() {
             self.sleep.parts = self.parts();
@@ -312,7 +312,7 @@ impl World {
         let is_carried = self.sleep.is_carried(before.time, now.time);
         let (sleep, as_a_whole) = (&self.sleep, self.sleeps_as_a_whole());
         let ways = self.ways(before, now);
-        let is_still = |index: usize, part: &Part| {
+        let is_still = |index: usize, part: &PartState| {
             let is_beside = if as_a_whole || is_carried {
                 is_moved
             } else {

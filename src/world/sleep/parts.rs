@@ -2,7 +2,7 @@
 //!
 //! The water, every sponge and every dynamic body is a part. Parts whose boxes, enlarged by their reach, meet are an island:
 //! they can touch, or are about to. Islands fall asleep as a whole. An awake part wakes the parts within its reach. Islands
-//! are joined at [`JOIN`] times the reach: a part that a neighbour has just woken then shares its island, and does not fall
+//! are joined at [`JOIN`] times the reach. A part that a neighbour has just woken then shares its island, and does not fall
 //! asleep while the neighbour moves.
 
 use glam::Vec3;
@@ -25,7 +25,7 @@ pub(crate) enum Kind {
 
 /// A part of a scene.
 #[derive(Clone, Debug)]
-pub(super) struct Part {
+pub(super) struct PartState {
     pub(super) kind: Kind,
     /// Distance beyond its box within which it can touch others; more than it moves in a step \[m\].
     pub(super) reach: f32,
@@ -47,14 +47,15 @@ pub(super) struct Rules {
 }
 
 impl Rules {
-    fn are_joined(&self, a: &Part, b: &Part) -> bool {
-        let is_wetting = |a: &Part, b: &Part| matches!((a.kind, b.kind), (Kind::Fluid, Kind::Sponge(_)));
+    fn are_joined(&self, a: &PartState, b: &PartState) -> bool {
+        let is_wetting =
+            |a: &PartState, b: &PartState| matches!((a.kind, b.kind), (Kind::Fluid, Kind::Sponge(_)));
         let (near, far) = (a.bounds.grown(JOIN * a.reach), b.bounds.grown(JOIN * b.reach));
         self.has_wetting && (is_wetting(a, b) || is_wetting(b, a)) || near.meets(&far, self.periods)
     }
 
     /// For every part the first of its island, among the parts that count.
-    pub(super) fn islands(&self, parts: &[Part], counts: impl Fn(&Part) -> bool) -> Vec<usize> {
+    pub(super) fn islands(&self, parts: &[PartState], counts: impl Fn(&PartState) -> bool) -> Vec<usize> {
         let mut first: Vec<usize> = (0..parts.len()).collect();
         for (a, part) in parts.iter().enumerate().filter(|(_, part)| counts(part)) {
             for (b, other) in parts[..a].iter().enumerate().filter(|(_, other)| counts(other)) {
@@ -79,12 +80,12 @@ impl Rules {
     }
 
     /// Whether an awake box comes within reach of a part.
-    pub(super) fn is_reached(&self, part: &Part, awake: &Bounds) -> bool {
+    pub(super) fn is_reached(&self, part: &PartState, awake: &Bounds) -> bool {
         part.bounds.grown(part.reach).meets(awake, self.periods)
     }
 
     /// Whether an awake box is so near that a part must not fall asleep.
-    pub(super) fn is_kept_awake(&self, part: &Part, awake: &Bounds) -> bool {
+    pub(super) fn is_kept_awake(&self, part: &PartState, awake: &Bounds) -> bool {
         part.bounds.grown(JOIN * part.reach).meets(awake, self.periods)
     }
 }
@@ -93,9 +94,9 @@ impl Rules {
 mod tests {
     use super::*;
 
-    fn part(kind: Kind, low: f32, high: f32) -> Part {
+    fn part(kind: Kind, low: f32, high: f32) -> PartState {
         let bounds = Bounds::of([[low, 0.0, 0.0, 0.0], [high, 0.0, 0.0, 0.0]].iter());
-        Part { kind, reach: 0.1, bounds, is_asleep: false, awake_since: 0.0 }
+        PartState { kind, reach: 0.1, bounds, is_asleep: false, awake_since: 0.0 }
     }
 
     #[test]

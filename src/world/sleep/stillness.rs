@@ -82,7 +82,7 @@ impl World {
     /// How far every part has moved, in the order of the parts.
     pub(super) fn ways(&self, before: &Places, now: &Places) -> Vec<Way> {
         let sleep = &self.sleep;
-        let way = |part: &super::Part| match part.kind {
+        let way = |part: &super::PartState| match part.kind {
             // Parts that sleep stay where they are.
             _ if part.is_asleep => Way::default(),
             Kind::Fluid => {

@@ -10,7 +10,7 @@ use sorb_kernels::{
     reduce::Wrenches,
 };
 
-use super::{Bounds, Kind, Part, is_active};
+use super::{Bounds, Kind, PartState, is_active};
 use crate::{
     clock::{Dormant, Steps},
     scene::Motion,
@@ -34,16 +34,16 @@ impl World {
     }
 
     /// All parts, awake, with boxes that were never computed.
-    pub(super) fn parts(&self) -> Vec<Part> {
+    pub(super) fn parts(&self) -> Vec<PartState> {
         self.parts_of(self.stores.host.rows.fluid > 0)
     }
 
     /// The same with or without water.
-    pub(super) fn parts_of(&self, has_water: bool) -> Vec<Part> {
+    pub(super) fn parts_of(&self, has_water: bool) -> Vec<PartState> {
         let (params, awake_since) = (&self.params, self.clock.time);
         let part = |kind, reach| {
             let bounds = Bounds::of(std::iter::empty());
-            Part { kind, reach, bounds, is_asleep: false, awake_since }
+            PartState { kind, reach, bounds, is_asleep: false, awake_since }
         };
         let mut parts = Vec::new();
         if has_water {
@@ -154,14 +154,14 @@ impl World {
                 Kind::Body(index) => self.body_bounds(index).grown(part.reach),
             });
         }
-        let is_reached = |part: &Part| awake.iter().any(|awake| sleep.rules.is_reached(part, awake));
+        let is_reached = |part: &PartState| awake.iter().any(|awake| sleep.rules.is_reached(part, awake));
         sleep.parts.iter().map(|part| part.is_asleep && is_reached(part)).collect()
     }
 
     /// Wakes the islands of parts of some kinds, and ends the sleep of the whole scene.
     pub(crate) fn wake_kinds(&mut self, is_meant: impl Fn(Kind) -> bool) {
         let as_a_whole = self.sleeps_as_a_whole();
-        let is_meant = |part: &Part| part.is_asleep && (as_a_whole || is_meant(part.kind));
+        let is_meant = |part: &PartState| part.is_asleep && (as_a_whole || is_meant(part.kind));
         let woken: Vec<bool> = self.sleep.parts.iter().map(is_meant).collect();
         if woken.contains(&true) {
             self.wake(&woken);

@@ -24,7 +24,7 @@ pub(super) static CASE: Case = Case {
     run,
 };
 
-/// Width of the vessel \[m\], and cells across it at full resolution and in a quick run; the height of the sponge is 1.5
+/// Width of the vessel \[m\], and cells across it at full resolution and in a quick run. The height of the sponge is 1.5
 /// times the width.
 const WIDTH: f64 = 0.04;
 const ACROSS: (u32, u32) = (6, 4);

@@ -44,7 +44,7 @@ const SWELL: f64 = 0.1;
 /// One sample in time.
 struct Sample {
     time: f64,
-    /// Pressure \[Pa\] within a support radius of the line through P2 across the face of the box: the sum over the particles
+    /// Pressure \[Pa\] within a support radius of the line through P2 across the face of the box. The sum over the particles
     /// there, over the number that fits.
     pressure: f64,
     /// Heights at H2 and H4 \[m\].

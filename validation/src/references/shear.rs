@@ -3,7 +3,7 @@
 /// Terms of the series. They reach double precision from a hundredth of the time in which viscosity crosses half of the gap.
 const TERMS: u32 = 40;
 
-/// Velocity over that of the upper plate, at a place between the plates, 0 to 1, which move opposite ways from time 0 on: a
+/// Velocity over that of the upper plate, at a place between the plates, 0 to 1, which move opposite ways from time 0 on. A
 /// sum of decaying sines \[Couette\].
 ///
 /// `time` is in units of the square of half of their distance over the kinematic viscosity.

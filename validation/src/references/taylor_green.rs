@@ -2,7 +2,7 @@
 //!
 //! In a square between free-slip walls, `0 <= x, y <= L`, the velocity
 //! `U (sin(pi x / L) cos(pi y / L), -cos(pi x / L) sin(pi y / L)) exp(-2 nu (pi / L)^2 t)` solves the Navier-Stokes
-//! equations: its advection is a gradient, which the pressure balances.
+//! equations. Its advection is a gradient, which the pressure balances.
 
 use std::f64::consts::PI;
 

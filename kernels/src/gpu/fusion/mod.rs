@@ -1,5 +1,5 @@
-//! Passes that are one dispatch: those of the same rows one after the other, and those that have nothing to do with each other side by
-//! side. A dispatch waits for the one before it, which costs a small scene more than the work.
+//! Passes that are one dispatch. Passes over the same rows run one after the other, and independent ones side by side. A dispatch waits for
+//! the one before it, which costs a small scene more than the work.
 
 mod access;
 #[cfg(test)]

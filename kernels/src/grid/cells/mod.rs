@@ -63,7 +63,7 @@ impl Cells {
         }
     }
 
-    /// Replaces `spans` by the runs of sorted rows that may lie in the box; runs do not overlap, and their order is
+    /// Replaces `spans` by the runs of sorted rows that may lie in the box. Runs do not overlap, and their order is
     /// a function of the box and the points alone.
     pub(crate) fn spans(&self, low: [f32; 3], high: [f32; 3], spans: &mut Vec<[u32; 2]>) {
         spans.clear();

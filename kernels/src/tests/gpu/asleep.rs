@@ -64,7 +64,7 @@ fn forget(rows: &[usize], found: &mut Columns, expected: &Columns) {
     }
 }
 
-/// Errors of what a kernel did to all that is awake, and whether what sleeps is as it was; `asleep` is what the device knows of it.
+/// Errors of what a kernel did to all that is awake, and whether what sleeps is as it was. `asleep` is what the device knows of it.
 fn found(kernel: &'static Kernel, asleep: impl Fn(&Scene) -> Asleep) -> (Vec<(Column, f64)>, bool) {
     let [mut on_device, on_the_cpu] = before(kernel);
     let rows = rows(&on_device);

@@ -1,4 +1,4 @@
-//! Known faults of drivers and of what is between them and us, as expectations: a test here fails when a fault is gone,
+//! Known faults of drivers and of what is between them and us, as expectations. A test here fails when a fault is gone,
 //! and with it the reason for what is done about it.
 
 use super::gpu;

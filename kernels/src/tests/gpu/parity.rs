@@ -22,7 +22,7 @@ use crate::{
     params::EquationOfState,
 };
 
-/// Rounding of a value that a kernel adds to, in units in the last place of the largest value of its column: adapters
+/// Rounding of a value that a kernel adds to, in units in the last place of the largest value of its column. Adapters
 /// may fuse a product with the sum, and divide within 2.5 units.
 const ULPS: f64 = 4.0;
 

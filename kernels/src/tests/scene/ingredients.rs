@@ -6,7 +6,7 @@ use glam::{EulerRot, Mat3, Quat, Vec3};
 
 use super::options::{Options, SPACING};
 use crate::{
-    body::{Body, BodyKind, BodyState, Compound, Part, Shape},
+    body::{Body, BodyKind, BodyState, Compound, ConvexPart, Shape},
     grid::cells::Domain,
     params::{
         Cohesion, Divergence, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
@@ -184,7 +184,7 @@ fn compound() -> Shape {
             vertices: (0..8).map(|index| corner(index) * (1.0 - by / half)).collect(),
             triangles: quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
         };
-        Part { centre, hull: hull(0.0), core: hull(0.001), radius: 0.001 }
+        ConvexPart { centre, hull: hull(0.0), core: hull(0.001), radius: 0.001 }
     };
     let parts = vec![
         part(Vec3::new(0.0, -0.004, 0.0), Vec3::new(0.01, 0.003, 0.008)),
@@ -193,7 +193,7 @@ fn compound() -> Shape {
     Shape::Compound(Arc::new(Compound { parts, ..Compound::default() }))
 }
 
-/// One body of every shape, each touching fluid and nodes, and one that grips; a compound in place of the hull if that is asked for.
+/// One body of every shape, each touching fluid and nodes, and one that grips. A compound is in place of the hull if that is asked for.
 pub(super) fn bodies(has_compound: bool) -> Vec<Body> {
     let corner = 0.006_f32;
     let signs = [-1.0_f32, 1.0];

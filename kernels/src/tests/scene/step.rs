@@ -41,7 +41,7 @@ fn add(names: &mut Vec<&'static str>, phases: &[Phase], way: Way) {
     for phase in phases {
         match phase {
             Phase::Run(kernel) => names.push(kernel.name),
-            Phase::Part(block) => add(names, block.phases, way),
+            Phase::Named(block) => add(names, block.phases, way),
             Phase::Repeat { times, phases } => {
                 let rounds = if matches!(times, Times::UntilConverged(_)) { 2 } else { 1 };
                 (0..rounds).for_each(|_| add(names, phases, way));
@@ -63,7 +63,7 @@ fn add(names: &mut Vec<&'static str>, phases: &[Phase], way: Way) {
 fn is_in_rounds(phases: &[Phase], name: &str) -> bool {
     phases.iter().any(|phase| match phase {
         Phase::Run(_) | Phase::Host(_) => false,
-        Phase::Part(block) => is_in_rounds(block.phases, name),
+        Phase::Named(block) => is_in_rounds(block.phases, name),
         Phase::Repeat { times: Times::UntilConverged(_), phases } => {
             phases.iter().any(|phase| matches!(phase, Phase::Run(kernel) if kernel.name == name))
         }
@@ -74,8 +74,8 @@ fn is_in_rounds(phases: &[Phase], name: &str) -> bool {
     })
 }
 
-/// Whether a kernel is compared at its second place in a step, because it has nothing to add to at its first: rounds of a
-/// solve, and sweeps of the drag.
+/// Whether a kernel is compared at its second place in a step, because it has nothing to add to at its first. These are rounds of a solve,
+/// and sweeps of the drag.
 pub(super) fn continues(name: &str) -> bool {
     name == "couple::drag" || is_in_rounds(STEP, name)
 }

@@ -190,7 +190,7 @@ fn jet_pushes(setting: &Setting) -> Result<Figure, Failure> {
     Ok(Figure::relative("force of a jet of 1 m/s on a plate", "N", arrives, force, 0.05))
 }
 
-/// A column of 100 Pa s on a floor without friction: a slice with the weight of a height h above it is stretched by
+/// A column of 100 Pa s on a floor without friction. A slice with the weight of a height h above it is stretched by
 /// `1 / (1 + k h t)`, `k = density gravity / (3 viscosity)` (Trouton).
 fn paste_spreads(setting: &Setting) -> Result<Figure, Failure> {
     let (height, viscosity, time) = (0.06, 100.0, 0.1);

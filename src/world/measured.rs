@@ -10,7 +10,7 @@ use sorb_kernels::{
 };
 
 use super::World;
-use crate::schedule::{PlanLine, Verdict};
+use crate::schedule::{PlannedPhase, Verdict};
 
 /// The moments of a solve for the divergence, in a scene with porous sponges and in others.
 static MOMENTS_WITH_SPONGES: &[&Kernel] = &[
@@ -39,7 +39,7 @@ static BOUNDARY: &[&Kernel] = &[&sph::predict::KERNEL, &sph::boundary::KERNEL];
 
 impl World {
     /// Runs the phases that measures depend on, so that they are valid at time zero as well.
-    pub(super) fn look(&mut self) {
+    pub(super) fn compute_measured(&mut self) {
         let phases = [
             &grid::sort_fluid::KERNEL,
             &grid::fluid_neighbors::KERNEL,
@@ -59,7 +59,7 @@ impl World {
 
     /// Whether a kernel is part of a step.
     fn runs(&self, kernel: &Kernel) -> bool {
-        let runs = |line: &PlanLine| line.name == kernel.name && line.verdict == Verdict::Runs;
+        let runs = |line: &PlannedPhase| line.name == kernel.name && line.verdict == Verdict::Runs;
         self.plan().lines().iter().any(runs)
     }
 
