@@ -50,5 +50,9 @@ fn main(
     let force = sum * (solid.w * params.solid.gradient * params.particle_mass);
     let node = control_node[row];
     let old = node_acceleration[node];
-    node_acceleration[node] = vec4<f32>(old.xyz + force * node_position[node].w, old.w);
+    let gained = force * node_position[node].w;
+    let length = sqrt(dot(gained, gained));
+    let most = params.correction_speed * clock.inverse_step;
+    let share = select(1.0, most / length, length > most);
+    node_acceleration[node] = vec4<f32>(old.xyz + gained * share, old.w);
 }
