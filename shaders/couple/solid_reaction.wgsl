@@ -50,5 +50,9 @@ fn main(
     let force = sum * (solid[CONTROL_SOLID_VOLUME] * params.solid.gradient * params.particle_mass);
     let node = control_node[row];
     let old = node_acceleration[node];
-    node_acceleration[node] = with_vector(old, old.xyz + force * node_position[node][NODE_POSITION_INVERSE_MASS]);
+    let gained = force * node_position[node][NODE_POSITION_INVERSE_MASS];
+    let length = sqrt(dot(gained, gained));
+    let most = params.correction_speed * clock.inverse_step;
+    let share = select(1.0, most / length, length > most);
+    node_acceleration[node] = with_vector(old, old.xyz + gained * share);
 }

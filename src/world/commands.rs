@@ -275,7 +275,7 @@ fn changes_water(command: &Command) -> bool {
 }
 
 /// Rows of nodes, in order.
-fn rows_of(columns: &Columns, nodes: &Nodes) -> Vec<usize> {
+pub(super) fn rows_of(columns: &Columns, nodes: &Nodes) -> Vec<usize> {
     match nodes {
         // Only in a state that was made up others have more.
         Nodes::Rows(rows) => {

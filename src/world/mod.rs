@@ -9,6 +9,7 @@ mod failing;
 mod flows;
 pub(crate) mod forces;
 pub(crate) mod frame;
+mod holding;
 #[cfg(all(test, feature = "serde", feature = "rigid"))]
 mod injected;
 

@@ -1,7 +1,7 @@
 //! Bodies that come, go and change their kind.
 
 use sorb::{
-    BodyHandle, Command, Region, World,
+    BodyHandle, Command, Nodes, Region, World,
     glam::{Quat, Vec3},
     rigid::BodyKind,
     scene::{Body, Fluid, FluidBlock, Motion, Scene, ShapeKind},
@@ -173,4 +173,24 @@ fn the_first_body_of_a_scene_follows_poses_when_it_comes_late() {
         "{}",
         world.bodies()[0].state.position
     );
+}
+
+#[test]
+fn a_small_ball_cannot_hold_nodes_many_radii_away() {
+    let mut world = common::world(&pool());
+    let nodes = Nodes::Sphere { centre: Vec3::new(-0.05, 0.03, -0.05), radius: 0.02 };
+    let (body, rule) = (0.into(), "a dynamic body cannot hold more than it has");
+    let text = refused(&mut world, Command::Grip { body, nodes: nodes.clone() });
+    assert!(text.contains(rule), "{text}");
+    // Negative control: a hand can, but cannot become free with them.
+    push(&mut world, Command::BodyKind { body, kind: BodyKind::Kinematic });
+    common::steps(&mut world, 1);
+    push(&mut world, Command::Grip { body, nodes: nodes.clone() });
+    common::steps(&mut world, 1);
+    let free = Command::BodyKind { body, kind: BodyKind::Dynamic };
+    let text = refused(&mut world, free.clone());
+    assert!(text.contains(rule), "{text}");
+    push(&mut world, Command::Release { nodes });
+    common::steps(&mut world, 1);
+    push(&mut world, free);
 }

@@ -6,6 +6,9 @@
 //!
 //! It is Archimedes' force on the material and the pressure of pores under compression. It is part of the load of the
 //! elastic solve that follows.
+//!
+//! A density error is corrected at a limited speed (`sph::factors`), of the material as well: h |a| is at most that speed. Nodes that lie
+//! scrambled between particles that weigh a hundred times as much would otherwise be shot.
 
 use crate::{
     columns::{Columns, lane},
@@ -33,6 +36,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (particles, predicted) = (&columns.fluid.position, &columns.fluid.predicted);
     let (controls, nodes) = (&columns.controls, &mut columns.nodes);
     let (mass, rest_density) = (params.fluid.particle_mass, params.fluid.rest_density);
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let fastest = solve.correction_speed / params.step;
     let mut force = vec![[0.0_f32; 4]; controls.position.len()];
     cpu.for_chunks(&mut force[..], |first, force| {
         let lists = controls.fluid.chunk(first);
@@ -63,6 +68,11 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     for (node, force) in controls.node.iter().zip(&force) {
         let node = *node as usize;
         let inverse_mass = nodes.position[node][lane::nodes::position::INVERSE_MASS];
-        (0..3).for_each(|axis| nodes.acceleration[node][axis] += force[axis] * inverse_mass);
+        let [x, y, z] = [0, 1, 2].map(|axis| force[axis] * inverse_mass);
+        let length = (x * x + y * y + z * z).sqrt();
+        let share = if length > fastest { fastest / length } else { 1.0 };
+        for (sum, own) in nodes.acceleration[node].iter_mut().zip([x, y, z]) {
+            *sum += own * share;
+        }
     }
 }

@@ -68,6 +68,8 @@ pub(crate) fn solid_share(params: &Params, columns: &mut Columns) {
 pub(crate) fn solid_reaction(params: &Params, columns: &mut Columns) {
     let pairs = Pairs::new(params, columns);
     let (mass, density) = (f64::from(params.fluid.particle_mass), f64::from(params.fluid.rest_density));
+    let Some(solve) = &params.fluid.incompressible else { return };
+    let most = f64::from(solve.correction_speed) / f64::from(params.step);
     for control in 0..columns.rows.nodes {
         let solid = columns.controls.solid[control];
         let mut force = DVec3::ZERO;
@@ -86,7 +88,7 @@ pub(crate) fn solid_reaction(params: &Params, columns: &mut Columns) {
         let inverse_mass = f64::from(columns.nodes.position[node][lane::nodes::position::INVERSE_MASS]);
         let gained = force * mass * f64::from(solid[lane::controls::solid::VOLUME]) * inverse_mass;
         let old = columns.nodes.acceleration[node];
-        columns.nodes.acceleration[node] = keep(old, vector(old) + gained);
+        columns.nodes.acceleration[node] = keep(old, vector(old) + gained.clamp_length_max(most));
     }
 }
 

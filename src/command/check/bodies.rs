@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Check;
 use crate::{
-    command::Command,
+    command::{Command, Nodes},
     handle::BodyHandle,
     rigid::{BodyKind, BodySetup, BodyState, Shape},
     scene::{Body, Problem, REMOVED},
@@ -54,10 +54,24 @@ impl Check<'_> {
         }
     }
 
+    /// Nodes that a body can hold.
+    pub(super) fn load(&mut self, body: BodyHandle, nodes: &Nodes) {
+        if !self.problems.is_empty() || !self.knows_flows {
+            return;
+        }
+        if let Some(rule) = self.world.grip_refusal(body, nodes) {
+            self.rule("grip.nodes", format!("{nodes:?}"), rule);
+        }
+    }
+
     /// A kind that a body can have.
     pub(super) fn body_kind(&mut self, body: BodyHandle, kind: BodyKind) {
         let is_there = self.world.slots().kind(body).is_some();
         if !self.problems.is_empty() || !is_there {
+            return;
+        }
+        if let Some(rule) = self.world.kind_refusal(body, kind) {
+            self.rule("body_kind.kind", format!("{kind:?}"), rule);
             return;
         }
         match self.world.described(body.index(), kind) {

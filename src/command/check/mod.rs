@@ -98,6 +98,7 @@ impl Check<'_> {
             Command::Grip { body, nodes } => {
                 self.body("grip.body", *body, None);
                 self.nodes("grip.nodes", nodes);
+                self.load(*body, nodes);
             }
             Command::Release { nodes } => self.nodes("release.nodes", nodes),
             Command::AddBody { body, description } => self.add_body(*body, description),
