@@ -292,8 +292,8 @@ matrix! {
 /// Sequences that have failed once, by their seeds.
 const FAILED_ONCE: &[u64] = &[11_468, 13_007, 16_721, 17_252, 19_538, 21_006];
 
-/// Sequences that still fail.
-const KNOWN_FAULTS: &[u64] = &[];
+/// Sequences of 100 000 that still fail, both with `divergence`: `docs/stress.md` says how.
+const KNOWN_FAULTS: &[u64] = &[83_385, 114_549];
 
 /// Seeds that are tried: 24 and those that have failed once; with `SORB_STRESS=1` many more. `SORB_SEEDS=4000..104000` tries those, and
 /// goes on after failures to name all of them.
