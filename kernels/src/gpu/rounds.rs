@@ -35,11 +35,17 @@ fn before() {
     fluid_density[0] = 1.0;
 }
 
+fn take_round(lane: u32) {
+    fluid_density[lane] *= 0.5;
+}
+
+fn has_converged() -> bool {
+    return fluid_density[0] <= 0.01;
+}
+
 @compute @workgroup_size(1)
-fn halve() {
-    if (clock.running == 0u) { return; }
-    fluid_density[0] *= 0.5;
-    end_of_round(fluid_density[0] <= 0.01);
+fn halve(@builtin(local_invocation_index) lane: u32) {
+    run_round(lane, true);
 }
 
 @compute @workgroup_size(1)
