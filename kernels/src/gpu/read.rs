@@ -180,7 +180,7 @@ impl Gpu {
     }
 
     /// Bytes that the host has waited for and read from the device so far, by all worlds on it. These are answers of steps, columns, and
-    /// answers to questions. Those of [`Resident::ask`] do not count.
+    /// answers to questions. Those of [`Resident::request_columns`] do not count.
     #[must_use]
     pub fn bytes_read(&self) -> u64 {
         self.bytes_read.load(Ordering::Relaxed)
