@@ -29,13 +29,12 @@ const PART_NODES: usize = 8 * SPONGE_THREADS as usize;
 
 /// Parts into which the nodes of every sponge are divided, in a scene with this many nodes. One where a second pass, which adds up the
 /// parts, would take longer than it saves.
-pub(crate) const fn sponge_parts(nodes: usize) -> usize {
-    let parts = nodes.div_ceil(PART_NODES);
-    if parts > 1 { parts } else { 1 }
+pub(crate) fn sponge_parts(nodes: usize) -> usize {
+    nodes.div_ceil(PART_NODES).max(1)
 }
 
 /// Rows of the motions of sponges, and of the sums over their parts if there are several.
-pub(super) const fn motion_rows(sponges: usize, nodes: usize) -> usize {
+pub(super) fn motion_rows(sponges: usize, nodes: usize) -> usize {
     let parts = sponge_parts(nodes);
     let sums = if parts > 1 { parts * SUM_ROWS as usize } else { 0 };
     sponges * (MOTION_ROWS as usize + sums)
