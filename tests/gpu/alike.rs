@@ -10,7 +10,8 @@ use sorb::{
 };
 
 use super::{
-    DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, busy, common, difference, gpu, world, worst,
+    DFSPH, DIVERGENCE, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, busy, common, difference, gpu,
+    gpu_that_shares_rows, world, world_on, worst,
 };
 
 /// Largest difference of quantities that do not depend on single particles. Place of water and sponges, absorbed water, and
@@ -74,7 +75,8 @@ impl Case {
 
     #[track_caller]
     fn run(&self, scene: &Scene, offload: Offload) -> World {
-        let mut world = world(scene, offload);
+        let device = if self.frames == 1 { gpu_that_shares_rows() } else { gpu() };
+        let mut world = world_on(device, scene, offload);
         (0..self.frames).for_each(|_| common::frame(&mut world));
         world
     }
@@ -203,7 +205,8 @@ fn dispatches_of_several_passes_change_nothing() {
         let run = |limits: Option<Limits>, gpu_times: bool| {
             let adapter = sorb::gpu::adapters().into_iter().next().expect("there is an adapter");
             let small = limits.map(|limits| Gpu::with_limits(&adapter, limits).expect("a device"));
-            let device = small.map_or_else(gpu, Arc::new);
+            let small = small.map(|small| Arc::new(small.with_busy_threads(Gpu::BUSY_THREADS)));
+            let device = small.unwrap_or_else(gpu_that_shares_rows);
             let options =
                 Options { offload: Offload::Gpu, gpu: Some(device), gpu_times, ..Options::default() };
             let mut world = World::with_options(&scene, &options).expect("a scene of the tests");

@@ -44,18 +44,30 @@ const HONEY: &[&str] = &[
     "fluid.no_slip=true",
 ];
 
+fn new_gpu() -> Gpu {
+    Gpu::new().unwrap_or_else(|error| {
+        panic!("{error}; these tests need one, and do not pass without: install mesa-vulkan-drivers and libvulkan1")
+    })
+}
+
 /// One device for all tests.
 fn gpu() -> Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
-    Arc::clone(GPU.get_or_init(|| {
-        Arc::new(Gpu::new().unwrap_or_else(|error| {
-            panic!("{error}; these tests need one, and do not pass without: install mesa-vulkan-drivers and libvulkan1")
-        }))
-    }))
+    Arc::clone(GPU.get_or_init(|| Arc::new(new_gpu())))
+}
+
+/// One where threads share rows as on a hardware adapter, which takes longer in software.
+fn gpu_that_shares_rows() -> Arc<Gpu> {
+    static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
+    Arc::clone(GPU.get_or_init(|| Arc::new(new_gpu().with_busy_threads(Gpu::BUSY_THREADS))))
 }
 
 fn world(scene: &Scene, offload: Offload) -> World {
-    let options = Options { offload, gpu: Some(gpu()), ..Options::default() };
+    world_on(gpu(), scene, offload)
+}
+
+fn world_on(gpu: Arc<Gpu>, scene: &Scene, offload: Offload) -> World {
+    let options = Options { offload, gpu: Some(gpu), ..Options::default() };
     World::with_options(scene, &options).unwrap_or_else(|error| panic!("{}: {error}", scene.name))
 }
 

@@ -212,7 +212,7 @@ fn plans_say_how_many_dispatches_a_step_takes() {
     let limits = wgpu::Limits::default();
     let small = gpu::adapters().into_iter().next().map(|adapter| Gpu::with_limits(&adapter, limits));
     let Some(Ok(small)) = small else { panic!("no adapter with the limits of WebGPU: {small:?}") };
-    let small = Arc::new(small);
+    let small = Arc::new(small.with_busy_threads(Gpu::BUSY_THREADS));
     let dispatches = |name: &str, offload: Offload| {
         let options = Options { offload, gpu: Some(Arc::clone(&small)), ..Options::default() };
         let world = World::with_options(&busy::scene(name, 0.5), &options).expect("a scene of the tests");

@@ -9,7 +9,7 @@ use sorb::{
     scene::{Body, Fluid, FluidBlock, FluidSolver, Scene, ShapeKind, Sponge},
 };
 
-use super::common;
+use super::{common, new_gpu};
 
 const LOW: Vec3 = Vec3::new(-0.06, 0.0, -0.04);
 const HIGH: Vec3 = Vec3::new(0.06, 0.12, 0.04);
@@ -35,7 +35,7 @@ fn with_sponge(scene: Scene) -> Scene {
 
 /// After some frames on a device of its own, so that nobody else reads from it.
 fn stepped(scene: &Scene, frames: u32) -> (World, Arc<Gpu>) {
-    let gpu = Arc::new(Gpu::new().unwrap_or_else(|error| panic!("{error}")));
+    let gpu = Arc::new(new_gpu());
     let options = Options { offload: Offload::Gpu, gpu: Some(Arc::clone(&gpu)), ..Options::default() };
     let mut world = World::with_options(scene, &options).unwrap_or_else(|error| panic!("{error}"));
     (0..frames).for_each(|_| common::frame(&mut world));

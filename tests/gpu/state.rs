@@ -12,11 +12,11 @@ use sorb::{
     scene::Scene,
 };
 
-use super::{busy, common, difference, gpu, world};
+use super::{busy, common, difference, gpu, new_gpu, world};
 
 /// A separate device, which can be lost without the others.
 fn another_gpu() -> Arc<Gpu> {
-    Arc::new(Gpu::new().unwrap_or_else(|error| panic!("{error}")))
+    Arc::new(new_gpu())
 }
 
 fn world_on(scene: &Scene, gpu: &Arc<Gpu>) -> World {

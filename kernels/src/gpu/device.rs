@@ -11,6 +11,7 @@ use wgpu::{Adapter, AdapterInfo, Backends, Device, DeviceType, Features, Instanc
 
 use super::{
     error::GpuError,
+    groups::BUSY_THREADS,
     pipeline::{Pipeline, Threads},
 };
 
@@ -106,6 +107,8 @@ pub struct Gpu {
     pub(super) limits: Limits,
     /// Whether prefix sums use subgroup operations.
     pub(super) has_subgroups: bool,
+    /// Threads that keep it busy.
+    pub(super) busy_threads: u64,
     /// What the device reported outside any call.
     lost: Arc<Mutex<Option<String>>>,
     pub(super) pipelines: Mutex<Pipelines>,
@@ -119,6 +122,9 @@ impl fmt::Debug for Gpu {
 }
 
 impl Gpu {
+    /// Threads that keep a hardware adapter busy.
+    pub const BUSY_THREADS: u64 = BUSY_THREADS;
+
     /// Every adapter of this machine, the one that [`Self::new`] takes first.
     #[must_use]
     pub fn adapters() -> Vec<AdapterReport> {
@@ -170,10 +176,12 @@ impl Gpu {
             let text = format!("{reason:?}: {message}");
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
         });
+        let is_software = adapter.get_info().device_type == DeviceType::Cpu;
         Self {
             report: AdapterReport::new(adapter),
             limits: device.limits(),
             has_subgroups: false,
+            busy_threads: if is_software { 0 } else { BUSY_THREADS },
             device,
             queue,
             lost,
@@ -197,6 +205,21 @@ impl Gpu {
     #[must_use]
     pub fn has_subgroups(&self) -> bool {
         self.has_subgroups
+    }
+
+    /// The same device with another number of threads that keep it busy. Up to 16 threads share a row of a pass over few rows, until it
+    /// has so many threads; with 0 every row has one. The default is [`Self::BUSY_THREADS`], and 0 for an adapter in software, where a sum
+    /// over threads takes longer than one thread that adds up. With another number, sums have another order and other last digits.
+    #[must_use]
+    pub fn with_busy_threads(mut self, threads: u64) -> Self {
+        self.busy_threads = threads;
+        self
+    }
+
+    /// Threads that keep the device busy.
+    #[must_use]
+    pub fn busy_threads(&self) -> u64 {
+        self.busy_threads
     }
 
     /// What the adapter is.

@@ -44,8 +44,8 @@ pub(super) fn motion_rows(sponges: usize, nodes: usize) -> usize {
 const SMALL_GROUP_THREADS: u32 = 64;
 /// Rows from which on groups are not small.
 const SMALL_GROUP_ROWS: u64 = 65_536;
-/// Threads that keep a device busy.
-const BUSY_THREADS: u64 = 131_072;
+/// Threads that keep a hardware adapter busy.
+pub(super) const BUSY_THREADS: u64 = 131_072;
 /// Most threads that share a row.
 const MAXIMUM_SHARES: u64 = 16;
 
@@ -54,9 +54,9 @@ pub(super) const fn group_of(rows: u64) -> u32 {
     if rows < SMALL_GROUP_ROWS { SMALL_GROUP_THREADS } else { GROUP_THREADS }
 }
 
-/// Threads that share a row of a pass over this many rows: a power of two.
-pub(super) fn shares_of(rows: u64) -> u32 {
-    let shares = (BUSY_THREADS / rows.max(1)).clamp(1, MAXIMUM_SHARES);
+/// Threads that share a row of a pass over this many rows, where so many keep the device busy: a power of two.
+pub(super) fn shares_of(rows: u64, busy_threads: u64) -> u32 {
+    let shares = (busy_threads / rows.max(1)).clamp(1, MAXIMUM_SHARES);
     1 << shares.ilog2()
 }
 
@@ -66,8 +66,8 @@ pub(super) const fn groups_of(rows: usize) -> usize {
 }
 
 /// Most groups of a pass over this many rows: groups are small where there are few rows, and several threads share one.
-pub(super) fn maximum_groups(rows: u64) -> u64 {
-    let rows_of_group = group_of(rows) / shares_of(rows);
+pub(super) fn maximum_groups(rows: u64, busy_threads: u64) -> u64 {
+    let rows_of_group = group_of(rows) / shares_of(rows, busy_threads);
     rows.div_ceil(u64::from(rows_of_group))
 }
 
@@ -90,12 +90,14 @@ mod tests {
 
     #[test]
     fn threads_of_a_row_are_a_part_of_a_group_and_keep_a_device_busy() {
-        let shares = [1, 8_192, 16_384, 32_768, 65_536, 131_072, 4_000_000].map(shares_of);
+        let shares =
+            [1, 8_192, 16_384, 32_768, 65_536, 131_072, 4_000_000].map(|rows| shares_of(rows, BUSY_THREADS));
         assert_eq!(shares, [16, 16, 8, 4, 2, 1, 1]);
         for rows in (0..200_000).step_by(997) {
-            let (group, shares) = (group_of(rows), shares_of(rows));
+            let (group, shares) = (group_of(rows), shares_of(rows, BUSY_THREADS));
             assert!(shares.is_power_of_two() && group % shares == 0, "{rows}");
             assert!(shares == 1 || rows * u64::from(shares) <= BUSY_THREADS, "{rows}");
+            assert_eq!(shares_of(rows, 0), 1);
         }
     }
 }

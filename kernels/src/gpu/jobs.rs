@@ -97,7 +97,11 @@ impl Resident {
             let (threads, count) = match work {
                 Work::Groups(count) => (Threads { group: GROUP_THREADS, shares: 1 }, count),
                 Work::Rows(rows) => {
-                    let shares = if has_shares(text) { shares_of(self.sharing(pass.rows, rows)) } else { 1 };
+                    let shares = if has_shares(text) {
+                        shares_of(self.sharing(pass.rows, rows), self.gpu.busy_threads)
+                    } else {
+                        1
+                    };
                     let group = if has_any_group(text) { group_of(rows) } else { GROUP_THREADS };
                     (Threads { group, shares }, rows.div_ceil(u64::from(group / shares)))
                 }

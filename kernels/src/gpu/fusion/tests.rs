@@ -29,6 +29,7 @@ fn resident(options: Options) -> Resident {
     let scene = Scene::new(options);
     let adapter = crate::gpu::adapters().into_iter().next().expect("there is an adapter");
     let gpu = Gpu::with_limits(&adapter, required_limits(&adapter)).expect("the adapter gives a device");
+    let gpu = gpu.with_busy_threads(Gpu::BUSY_THREADS);
     Resident::new(&Arc::new(gpu), &scene.columns, &scene.params, LIMITS).expect("there is enough memory")
 }
 

@@ -18,13 +18,14 @@ use crate::{
     kernel_named,
 };
 
-/// One device for all tests.
+/// One device for all tests. Threads share rows as on a hardware adapter.
 fn gpu() -> &'static Arc<Gpu> {
     static GPU: OnceLock<Arc<Gpu>> = OnceLock::new();
     GPU.get_or_init(|| {
-        Arc::new(Gpu::new().unwrap_or_else(|error| {
+        let gpu = Gpu::new().unwrap_or_else(|error| {
             panic!("{error}; these tests need one, and do not pass without: install mesa-vulkan-drivers and libvulkan1")
-        }))
+        });
+        Arc::new(gpu.with_busy_threads(Gpu::BUSY_THREADS))
     })
 }
 
