@@ -10,7 +10,9 @@ use sorb::{
     scene::{Domain, Scene, Solver, Sponge},
 };
 
-use super::{DFSPH, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, busy, common, difference, gpu, world};
+use super::{
+    DFSPH, DIVERGENCE_AND_BODIES, HONEY, SMOOTHED, bound, busy, common, difference, gpu, shifted, world,
+};
 
 #[test]
 fn every_kernel_can_be_the_first_on_the_gpu() {
@@ -21,7 +23,7 @@ fn every_kernel_can_be_the_first_on_the_gpu() {
 fn assert_each_can_be_the_first(name: &str) {
     let scene = busy::scene(name, 0.3);
     let mut cpu = world(&scene, Offload::Cpu);
-    common::steps(&mut cpu, 3);
+    common::steps(&mut cpu, 2);
     let kernels = cpu.plan().lines().iter().filter(|line| line.verdict == Verdict::Runs);
     for kernel in kernels.map(|line| line.name).filter(|name| *name != "rigid::step") {
         let mut mixed = world(&scene, Offload::From(kernel));
@@ -29,7 +31,7 @@ fn assert_each_can_be_the_first(name: &str) {
             mixed.plan().lines().iter().any(|line| mixed.plan().place(line.name) == Place::Gpu),
             "{kernel}"
         );
-        common::steps(&mut mixed, 3);
+        common::steps(&mut mixed, 2);
         let (found, what) = difference(&cpu.measures(), &mixed.measures());
         assert!(found < 1e-4, "from {kernel}: {what} differs by {found:.1e}");
     }
@@ -85,16 +87,17 @@ fn placed_alone(world: &World) -> Vec<Vec<&'static str>> {
 }
 
 #[track_caller]
-fn assert_each_can_be_alone(scene: &Scene, bound: f64) {
-    let mut cpu = world(scene, Offload::Cpu);
-    common::steps(&mut cpu, 3);
+fn assert_each_can_be_alone(scene: &Scene, tolerance: f64) {
+    let [mut cpu, mut aside] = [scene, &shifted(scene)].map(|scene| world(scene, Offload::Cpu));
+    [&mut cpu, &mut aside].into_iter().for_each(|world| common::steps(world, 2));
+    let bound = bound(tolerance, difference(&cpu.measures(), &aside.measures()).0);
     for names in placed_alone(&cpu) {
         for (alone, others) in [(Place::Gpu, Place::Cpu), (Place::Cpu, Place::Gpu)] {
             let mut list: Vec<_> = KERNELS.iter().map(|kernel| (kernel.name, others)).collect();
             list.extend(names.iter().map(|name| (*name, alone)));
             let mut mixed = world(scene, Offload::Each(list));
             assert!(names.iter().all(|name| mixed.plan().place(name) == alone), "{names:?}");
-            common::steps(&mut mixed, 3);
+            common::steps(&mut mixed, 2);
             let (found, what) = difference(&cpu.measures(), &mixed.measures());
             assert!(found < bound, "{names:?} on {alone}: {what} differs by {found:.1e}");
         }

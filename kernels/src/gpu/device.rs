@@ -176,12 +176,12 @@ impl Gpu {
             let text = format!("{reason:?}: {message}");
             note.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
         });
-        let is_software = adapter.get_info().device_type == DeviceType::Cpu;
+        let report = AdapterReport::new(adapter);
         Self {
-            report: AdapterReport::new(adapter),
+            busy_threads: if report.is_software() { 0 } else { BUSY_THREADS },
+            report,
             limits: device.limits(),
             has_subgroups: false,
-            busy_threads: if is_software { 0 } else { BUSY_THREADS },
             device,
             queue,
             lost,
