@@ -19,7 +19,10 @@ use crate::{
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, with_lanes},
     params::{Params, SpongeParams},
-    pbd::stars::{StarGroup, StarShape},
+    pbd::{
+        lattice::VERTEX_COLORS,
+        stars::{StarGroup, StarShape},
+    },
     vector::{Vec3x8, cross, dot, minus},
 };
 
@@ -42,7 +45,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Nodes { position, sponge, stars, pores, wetting, .. } = &mut columns.nodes;
     pores.clear();
     pores.resize(position.len(), [0.0; 4]);
-    for color in 0..4 {
+    for color in 0..VERTEX_COLORS {
         cpu.for_chunks(&mut pores[stars.rows(color)], |first, pores| {
             let groups = stars.groups_from(color, first);
             with_lanes!(cpu, simd => {

@@ -32,7 +32,10 @@ use crate::{
     kernel::declare,
     lanes::LANES,
     params::Params,
-    pbd::stars::{CORNERS, RINGS, StarGroup, Stars},
+    pbd::{
+        lattice::VERTEX_COLORS,
+        stars::{CORNERS, RINGS, StarGroup, Stars},
+    },
 };
 
 use super::meeting::{Pair, pair_radius, vector};
@@ -70,7 +73,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     normal.resize(position.len(), [0.0; 4]);
     let radius = pair_radius(params);
     let near = Near::new(params, position, &sponge[..count], radius);
-    for color in 0..4 {
+    for color in 0..VERTEX_COLORS {
         let (rows, stars) = (stars.rows(color), &*stars);
         let (position, rest, sponge, near) = (&*position, &*rest, &*sponge, &near);
         cpu.for_chunks(&mut normal[rows], |first, normal| {

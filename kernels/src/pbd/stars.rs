@@ -9,7 +9,12 @@
 
 use std::ops::Range;
 
-use crate::{column::ColumnData, lanes::LANES, layout::constants, pbd::lattice::Topology};
+use crate::{
+    column::ColumnData,
+    lanes::LANES,
+    layout::constants,
+    pbd::lattice::{Topology, VERTEX_COLORS},
+};
 
 constants! {
     /// Directions of the neighbours of the same sublattice.
@@ -74,9 +79,9 @@ pub(crate) struct Piece {
 #[derive(Clone, Debug, Default)]
 pub struct Stars {
     /// First node of every vertex colour, then the number of nodes.
-    pub(crate) color_start: [u32; 5],
+    pub(crate) color_start: [u32; VERTEX_COLORS + 1],
     /// First group of every vertex colour, then the number of groups.
-    pub(crate) group_start: [u32; 5],
+    pub(crate) group_start: [u32; VERTEX_COLORS + 1],
     pub(crate) groups: Vec<StarGroup>,
     pub(crate) shape: StarShape,
     /// All nodes, divided where the sponge or the vertex colour changes.
@@ -141,7 +146,7 @@ impl Stars {
             }
         }
         let mut all = Self { color_start: starts, ..Self::default() };
-        for color in 0..4 {
+        for color in 0..VERTEX_COLORS {
             let rows = starts[color]..starts[color + 1];
             for first in rows.clone().step_by(LANES) {
                 let own = std::array::from_fn(|lane| (first + lane as u32).min(rows.end - 1));
@@ -178,7 +183,7 @@ impl Stars {
     /// The group that a node is in, and its place there.
     pub(crate) fn place(&self, node: usize) -> (&StarGroup, usize) {
         let starts = &self.color_start;
-        let color = (0..4).rev().find(|color| starts[*color] as usize <= node).unwrap_or(0);
+        let color = (0..VERTEX_COLORS).rev().find(|color| starts[*color] as usize <= node).unwrap_or(0);
         let place = node - starts[color] as usize;
         (&self.groups[self.group_start[color] as usize + place / LANES], place % LANES)
     }

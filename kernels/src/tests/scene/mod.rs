@@ -193,7 +193,7 @@ pub(super) fn blocks() -> Vec<Block> {
 fn blocks_of(options: Options) -> Vec<Block> {
     let mut blocks = blocks();
     if options.fine {
-        blocks[0] = Block { cells: [12; 3], edge: blocks[0].edge / 3.0, ..blocks[0] };
+        blocks[0] = Block { cells: [18; 3], edge: blocks[0].edge / 4.5, ..blocks[0] };
     }
     if options.touch {
         blocks[1].origin[0] = 0.0497;
