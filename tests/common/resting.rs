@@ -21,7 +21,7 @@ pub(crate) fn basin(speed: f32) -> Scene {
         .in_box(low, Vec3::new(0.2, 0.25, 0.02))
         .with_fluid(fluid)
         .with_body(Body::fixed("dam", dam, Vec3::new(-0.02, 0.1, 0.0)));
-    scene.time.maximum_step = 0.0015;
+    scene.time.maximum_step = 0.0025;
     scene
 }
 

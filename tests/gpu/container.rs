@@ -19,7 +19,8 @@ fn turn() -> Motion {
 
 fn tank(motions: Vec<Motion>) -> Scene {
     let (low, high) = (Vec3::new(-0.05, 0.0, -0.03), Vec3::new(0.05, 0.1, 0.03));
-    let fluid = Fluid { blocks: vec![FluidBlock::new(low, high.with_y(0.03))], ..Fluid::default() };
+    let blocks = vec![FluidBlock::new(low, high.with_y(0.03))];
+    let fluid = Fluid { spacing: 0.007, blocks, ..Fluid::default() };
     let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.012 }, Vec3::new(0.02, 0.06, 0.0), 700.0);
     let mut scene = Scene::new("tank").in_box(low, high).with_fluid(fluid).with_body(ball);
     scene.container.motions = motions;

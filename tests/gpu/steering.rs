@@ -13,7 +13,8 @@ const LOW: Vec3 = Vec3::new(-0.05, 0.0, -0.05);
 const HIGH: Vec3 = Vec3::new(0.05, 0.15, 0.05);
 
 fn scene() -> Scene {
-    let fluid = Fluid { blocks: vec![FluidBlock::new(LOW, HIGH.with_y(0.02))], ..Fluid::default() };
+    let blocks = vec![FluidBlock::new(LOW, HIGH.with_y(0.02))];
+    let fluid = Fluid { spacing: 0.007, blocks, ..Fluid::default() };
     let sponge = |name: &str, position| Sponge { cells: UVec3::splat(3), ..Sponge::new(name, position) };
     let wet = Sponge { saturation: 1.0, ..sponge("wet", Vec3::new(-0.045, 0.03, -0.045)) };
     let dry = sponge("dry", Vec3::new(0.01, 0.03, 0.01));

@@ -15,7 +15,7 @@ const LOW: Vec3 = Vec3::new(-0.05, 0.0, -0.05);
 const HIGH: Vec3 = Vec3::new(0.05, 0.15, 0.05);
 
 fn scene(solver: FluidSolver, depth: f32) -> Scene {
-    let mut fluid = Fluid { solver: Some(solver), sound_speed: Some(15.0), ..Fluid::default() };
+    let mut fluid = Fluid { spacing: 0.007, solver: Some(solver), sound_speed: Some(15.0), ..Fluid::default() };
     if depth > 0.0 {
         fluid.blocks.push(FluidBlock::new(LOW, Vec3::new(HIGH.x, depth, HIGH.z)));
     }
@@ -154,7 +154,7 @@ fn buffers_that_suffice_stay() {
     let before = memory(&world);
     for frame in 0..6 {
         let centre = Vec3::new(-0.02, 0.1, -0.02 + 0.004 * frame as f32);
-        let region = Region::Sphere { centre, radius: 0.006 };
+        let region = Region::Sphere { centre, radius: 0.01 };
         world.push(Command::Pour { region, velocity: Vec3::NEG_Y }).unwrap_or_else(|error| panic!("{error}"));
         common::frame(&mut world);
         world
