@@ -15,7 +15,8 @@ const LOW: Vec3 = Vec3::new(-0.05, 0.0, -0.05);
 const HIGH: Vec3 = Vec3::new(0.05, 0.15, 0.05);
 
 fn scene(solver: FluidSolver, depth: f32) -> Scene {
-    let mut fluid = Fluid { spacing: 0.007, solver: Some(solver), sound_speed: Some(15.0), ..Fluid::default() };
+    let mut fluid =
+        Fluid { spacing: 0.007, solver: Some(solver), sound_speed: Some(15.0), ..Fluid::default() };
     if depth > 0.0 {
         fluid.blocks.push(FluidBlock::new(LOW, Vec3::new(HIGH.x, depth, HIGH.z)));
     }
