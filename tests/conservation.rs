@@ -105,9 +105,9 @@ fn of(scene: &Scene) -> (World, Balance) {
     balance(scene).unwrap_or_else(|| panic!("{} must run", scene.name))
 }
 
-/// Momentum of the coupling pairs is exact up to rounding. The remainder is rounding of positions in f32: a node at 5 cm is
-/// stored to 4e-9 m, and its velocity, a difference of positions over the step, is known to 2e-5 m/s. Measured over 300
-/// steps: at most 1.5e-6 of the scale with water, 6.6e-6 for a ball and a dry sponge.
+/// Momentum of the coupling pairs is exact up to rounding. The remainder is rounding of positions in f32. A node at 5 cm is stored to 4e-9
+/// m. Its velocity, a difference of positions over the step, is known to 2e-5 m/s. Measured over 300 steps: at most 1.5e-6 of the scale
+/// with water, 6.6e-6 for a ball and a dry sponge.
 const LINEAR: f64 = 5e-5;
 
 fn momentum_and_mass(scene: &Scene, claims: &mut Claims) -> Balance {

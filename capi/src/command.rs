@@ -103,8 +103,8 @@ pub unsafe extern "C" fn sorb_world_push_velocity(
     })
 }
 
-/// Sets the force and the torque on a dynamic body for all steps from the next one on: 3 numbers each of -1e6 to 1e6 N, and N m. Zeros
-/// end them.
+/// Sets the force and the torque on a dynamic body for all steps from the next one on. Each has 3 numbers of -1e6 to 1e6, in N and N m.
+/// Zeros end them.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn sorb_world_push_force(
     world: Option<&mut World>,

@@ -1,5 +1,4 @@
-// How long a step may be, on the device, so that the steps of a frame need no answer from the host: the bounds of
-// `clock.rs`, from what the last step found.
+// How long a step may be: the bounds of `clock.rs`, from what the last step found. The steps of a frame need no answer from the host.
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<storage, read_write> clock: Clock;

@@ -61,7 +61,7 @@ fn visit_near(point: vec3<f32>, radius: f32, part: u32) {
     }
 }
 
-// Finds the entries of the list of a row, threads of the row by turns: they count first, so that each knows where its own begin. In the
+// Finds the entries of the list of a row, threads of the row by turns. They count first, so that each knows where its own begin. In the
 // last of them it is the length of the list.
 fn find(share: SharedRow, lane: u32, point: vec3<f32>, radius: f32, capacity: u32) -> u32 {
     var before = 0u;

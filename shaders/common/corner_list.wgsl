@@ -1,5 +1,5 @@
-// The list of the corners that a control is of the tets of particles: first the starts of all lists and the end of the last, then the
-// entries, each four times the row of the particle and the number of the corner.
+// Lists of the corners that controls are of the tets of particles. First come the starts of all lists and the end of the last. Then come
+// the entries, each four times the row of the particle plus the number of the corner.
 
 // First entry and end.
 fn corner_list(row: u32, is_row: bool) -> vec2<u32> {

@@ -1,5 +1,5 @@
-// After a round of a repetition that ends when it has converged: then all passes of the rounds that are left return at once, as they
-// do when the time is filled. `clock/rounds.wgsl` has the rest. The pass binds the clock to be written.
+// After a round of a repetition that ends when it has converged. All passes of the rounds that are left then return at once, as when the
+// time is filled. `clock/rounds.wgsl` has the rest. The pass binds the clock to be written.
 
 fn end_of_round(is_over: bool) {
     clock.rounds += 1u;

@@ -1,7 +1,7 @@
 // What all twins share: which row a thread has. Structs and constants are declared in Rust, see `layout.rs` of the kernels.
 
-// Threads of a group, for passes whose threads have nothing to do with each other: with few rows, small groups keep more
-// of the device busy.
+// Threads of a group, for passes whose threads have nothing to do with each other. With few rows, small groups keep more of the device
+// busy.
 override GROUP: u32 = GROUP_THREADS;
 
 // The row of a thread; groups beyond the limit of one dimension continue in the second.

@@ -1,4 +1,4 @@
-// Several threads share the neighbours of a row where there are few rows: each takes every SHARES-th one, and they add up in a fixed
+// Several threads share the neighbours of a row where there are few rows. Each takes every SHARES-th one, and they add up in a fixed
 // order. Neighbouring threads have neighbouring rows, which lists by column have side by side.
 
 override SHARES: u32 = 1u;

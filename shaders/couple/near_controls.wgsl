@@ -13,8 +13,8 @@
 
 var<workgroup> found: array<u32, GROUP_THREADS>;
 
-// Visits the rows of cells of one thread: counts the points within the radius, and writes them from `slot` on, up to `last`
-// if that is not before it.
+// Visits the rows of cells of one thread. It counts the points within the radius, and writes them from `slot` on, up to `last` if that is
+// not before it.
 fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
     let radius = params.coupling.support_radius;
     let square = radius * radius;

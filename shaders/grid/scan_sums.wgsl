@@ -1,6 +1,6 @@
 // #include grid, scan
-// Prefix sums, first pass, of grids with more than 256 pages: one workgroup replaces the sums of the pages by the sums of
-// all pages before them. `count.wgsl` has computed the former.
+// First pass of the prefix sums of grids with more than 256 pages. One workgroup replaces the sums of the pages by the sums of all pages
+// before them. `count.wgsl` has computed the former.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> grid: Grid;

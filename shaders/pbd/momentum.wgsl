@@ -1,6 +1,6 @@
 // #include sponges
-// Adds to every node its part of the rigid motion that restores the momentum of its sponge, and stores the share of the
-// external acceleration that it followed.
+// Adds to every node its part of the rigid motion that restores the momentum of its sponge. Stores the share of the external acceleration
+// that it followed.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // #include sponges, sponge_sums
-// The rigid motion of a large sponge, by the sums over its parts and those of the sponges in contact with it: one workgroup per sponge.
+// The rigid motion of a large sponge, by the sums over its parts and those of the sponges in contact with it. One workgroup per sponge.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> sponges: Sponges;

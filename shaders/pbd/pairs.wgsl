@@ -1,5 +1,5 @@
 // #include grid, sponges, meeting
-// For every surface node, those that it may touch in this step, in the order of their rows; the list has the layout of
+// For every surface node, those that it may touch in this step, in the order of their rows. The list has the layout of
 // `fluid_neighbors.wgsl`, and `pairs.rs` has the formulas.
 
 @group(0) @binding(0) var<uniform> clock: Clock;

@@ -14,7 +14,7 @@ var<workgroup> counts: array<u32, GROUP_THREADS>;
 var<workgroup> first_in: atomic<u32>;
 var<workgroup> chosen: u32;
 
-// Whether a particle, or one of its images, is within the radius of a ray, and between which distances it is itself, and its images across
+// Whether a particle, or one of its images, is within the radius of a ray. Between which distances it is itself, and its images across
 // periodic sides: the last negated. Behind walls there is no water to meet.
 fn near(origin: vec3<f32>, direction: vec3<f32>, length: f32, place: vec3<f32>) -> vec3<f32> {
     var found = vec3<f32>(0.0, NO_VALUE, NO_VALUE);

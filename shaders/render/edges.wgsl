@@ -1,5 +1,5 @@
 // #include numbers, scene
-// Which pixels differ from their neighbours, and how much more rays count there: all at once, or a pixel at the limit would jump from
+// Which pixels differ from their neighbours, and how much more rays count there: by degrees, or a pixel at the limit would jump from
 // frame to frame.
 
 @group(0) @binding(1) var<storage, read_write> samples: array<vec2<u32>>;

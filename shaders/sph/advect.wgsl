@@ -1,6 +1,6 @@
 // #include wrap
-// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls and wrapped along periodic axes; the largest
-// speed, and the first row that is not finite. Writes the particles to the columns that the next step sorts.
+// Second half of semi-implicit Euler: x <- x + h v, kept inside the walls and wrapped along periodic axes. Then the largest speed, and the
+// first row that is not finite. Writes the particles to the columns that the next step sorts.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

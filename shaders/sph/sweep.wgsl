@@ -9,7 +9,7 @@
 @group(0) @binding(5) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> body_fluid_wrenches: array<vec4<f32>>;
 
-// With a solve for the divergence the core of a body, which the ball of `ball_of` sweeps: what has images must not pass the surface that
+// With a solve for the divergence the core of a body, which the ball of `ball_of` sweeps. What has images must not pass the surface that
 // they belong to. The parts of a compound are as they are.
 fn core_of(body: Body) -> Body {
     var core = body;

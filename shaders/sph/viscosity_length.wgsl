@@ -1,5 +1,5 @@
 // #include sums
-// After the product of a round of a solve for the implicit viscosity: how far to go along the direction, and its share in the next.
+// After the product of a round of a solve for the viscosity: how far to go along the direction, and its share in the next.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<storage, read> viscosity_sums: array<vec4<f32>>;

@@ -14,8 +14,7 @@ const ALL_CLASSES: u16 = (1 << TET_CLASS_COUNT) - 1;
 
 /// One sponge on its dense lattice.
 ///
-/// The cells of tets run over `0..=n` on each axis, like the sites of A, because a tet belongs to the cell of its
-/// first A node.
+/// The cells of tets run over `0..=n` on each axis, like the sites of A: a tet belongs to the cell of its first A node.
 pub(super) struct Grid {
     pub(super) cells: [u32; 3],
     /// Bit `class` of each cell: the tet exists.

@@ -44,8 +44,8 @@ fn without_sponges(scene: &mut Scene) {
     }
 }
 
-/// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based
-/// fluids, `_divergence` the solve for the divergence: in `life` without sponges, `_smoothed` the coupling by nodes within the
+/// A preset at a resolution, in motion. `_paper` behind its name selects the models of the paper, `_pbf` position based fluids.
+/// `_divergence` selects the solve for the divergence, in `life` without sponges. `_smoothed` selects the coupling by nodes within the
 /// suction radius.
 pub(crate) fn scene(name: &str, resolution: f32) -> Scene {
     let (name, paper) = name.strip_suffix("_paper").map_or((name, false), |name| (name, true));

@@ -28,8 +28,7 @@ fn tank(motions: Vec<Motion>) -> Scene {
     scene
 }
 
-/// Worlds on the CPU and on the device after some frames, which have the same measures within 5 %, and another with other motions,
-/// which has not.
+/// Worlds on the CPU and on the device have the same measures within 5 % after some frames. Another with other motions has not.
 fn assert_as_on_the_cpu(motions: Vec<Motion>, others: Vec<Motion>) {
     let scene = tank(motions);
     let (mut on_cpu, mut on_gpu) = (world(&scene, Offload::Cpu), world(&scene, Offload::Gpu));
@@ -87,8 +86,8 @@ fn places(world: &World) -> [Vec3; 3] {
     [world.bodies()[0].state.position, place(&world.particle_positions()[0]), middle]
 }
 
-/// The same as on the CPU (`tests/container.rs`), where the device takes all of the step, where it shares it with the CPU, and where steps
-/// are taken one by one.
+/// The same as on the CPU (`tests/container.rs`), where the device takes all of the step, where it shares it with the CPU, and by single
+/// steps.
 #[test]
 fn what_is_free_stays_where_it_is_outside() {
     let shared = "each:all=gpu,sph::kick=cpu,pbd::velocity=cpu".parse().expect("two places");

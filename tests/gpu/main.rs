@@ -72,7 +72,7 @@ fn world_on(gpu: Arc<Gpu>, scene: &Scene, offload: Offload) -> World {
 }
 
 /// The scene with water that starts a micrometre per second faster, and sponges a tenth of a micrometre aside. Rounding grows as large as
-/// its difference. Splashing water is chaotic, and water of a sponge starts on faces of its tets: gradients jump there, and rounding decides
+/// its difference. Splashing water is chaotic. Water of a sponge starts on faces of its tets: gradients jump there, and rounding decides
 /// which tet a particle is in.
 fn shifted(scene: &Scene) -> Scene {
     let mut shifted = scene.clone();
@@ -86,7 +86,7 @@ fn shifted(scene: &Scene) -> Scene {
 }
 
 /// Largest difference from the CPU that is permitted: `tolerance`, or on a hardware adapter, which fuses products and sums, twice what a
-/// shift does on the CPU itself, since a shift is one sample of it.
+/// shift does on the CPU itself. A shift is one sample of it.
 fn bound(tolerance: f64, shift: f64) -> f64 {
     if gpu().report().is_software() { tolerance } else { tolerance.max(2.0 * shift) }
 }

@@ -37,8 +37,8 @@ fn assert_each_can_be_the_first(name: &str) {
     }
 }
 
-/// The scene with the ball on the sponge and surface tension. With the models of the paper also a sponge for each of the
-/// other solvers, so that every kernel has work but those of the pressure solve.
+/// The scene with the ball on the sponge and surface tension. With the models of the paper also a sponge for each of the other solvers:
+/// every kernel has work but those of the pressure solve.
 fn everything(name: &str, keys: &[&str]) -> Scene {
     let (paper, resolution) = if name.ends_with("_paper") { (true, 0.5) } else { (false, 0.3) };
     let mut scene = busy::scene(name, resolution);

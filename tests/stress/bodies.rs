@@ -33,8 +33,8 @@ fn bodies_a_thousand_times_as_heavy_as_each_other() {
     table(cases);
 }
 
-/// Balls released at the floor of a pool. Single particles below them are pushed out. Without the inertia of what they
-/// displace, balls below 50 kg/m^3 were thrown at 4 to 16 m/s, or ended in steps that were too short.
+/// Balls released at the floor of a pool. Single particles below them are pushed out. Without the inertia of what they displace, balls
+/// below 50 kg/m^3 were thrown at 4 to 16 m/s, or steps became too short.
 #[test]
 fn balls_of_next_to_nothing_rise() {
     let mut scene = pool();

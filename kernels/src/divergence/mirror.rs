@@ -89,7 +89,7 @@ impl<'a> Mirror<'a> {
         }
     }
 
-    /// The image of a point in a piece that is swept by a ball, from the closest point of its core in the frame of the body.
+    /// The image of a point in a piece that a ball sweeps. It follows from the closest point of its core, in the frame of the body.
     fn mirrored(
         &self,
         point: Vec3,

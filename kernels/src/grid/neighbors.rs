@@ -131,8 +131,8 @@ impl Neighbors {
         );
     }
 
-    /// Builds the lists of `queries` (padded rows, of which the first `count` are in use) over `targets` (padded rows in the
-    /// order of `cells`), and over their periodic images.
+    /// Builds the lists of `queries` over `targets` and their periodic images. Both are padded rows: of `queries` the first `count` are in
+    /// use, and `targets` are in the order of `cells`.
     pub(crate) fn build(
         &mut self,
         cpu: &Cpu,

@@ -14,8 +14,8 @@ use crate::{
     params::Params,
 };
 
-/// The closest point of a core, and the curvature of the surface there: its only straight direction, if there is one, and whether it is
-/// curved at all.
+/// The closest point of a core, and the curvature of the surface there. That is its only straight direction, if there is one, and whether
+/// it is curved at all.
 type Closest = (DVec3, Option<DVec3>, bool);
 
 /// Where the image of a point in a body is, its map of velocities, and its volume over that of the point.

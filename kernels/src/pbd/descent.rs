@@ -332,8 +332,8 @@ pub(super) fn local<S: Simd>(
                     let before = Star::new(simd, group, before);
                     star.damp((material, None), &before, (x, old), &mut local);
                 }
-                // Further terms that are quadratic in the position of the node, such as drag of the water in the pores, add
-                // their force and stiffness here.
+                // Further terms that are quadratic in the position of the node add their force and stiffness here, such as drag in the
+                // pores.
                 local
             },
         );

@@ -36,8 +36,8 @@ declare! {
     constants: {
         /// Share of the neighbourhood above which nothing lacks.
         pub(crate) const FULL_SHARE: f32 = 0.98;
-        /// How fast the weight of a deficit falls: with 2.4 the layers below a flat surface pull together least in the continuum, and
-        /// 2.5 spreads the periods of drops least.
+        /// How fast the weight of a deficit falls. With 2.4 the layers below a flat surface pull together least in the continuum. 2.5
+        /// spreads the periods of drops least.
         const DEFICIT_FALL: f64 = 2.5;
         /// Weight of what lacks nearly everything, such as a particle alone: positive, so that it is drawn to others.
         const MINIMUM_DEFICIT_WEIGHT: f64 = 0.01;

@@ -60,8 +60,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
 }
 
-/// The convex pieces of bodies; with a solve for the divergence their cores, and the balls that sweep them: particles that have images
-/// must not pass the surface that these belong to.
+/// The convex pieces of bodies. With a solve for the divergence they are cores, and balls that sweep them: particles that have images must
+/// not pass the surface of these.
 pub(crate) fn obstacles<'a>(params: &Params, bodies: &'a [Body]) -> Vec<Piece<'a>> {
     if params.fluid.divergence().is_some() {
         Piece::cores_of_all(bodies).collect()

@@ -179,7 +179,7 @@ pub(super) static ELASTIC: Block = Block {
     ],
 };
 
-/// Sweeps of the drag before the last. For water that weighs 20 times as much as the sponge it fills, two leave the impulses of a uniform
+/// Sweeps of the drag before the last. Water may weigh 20 times as much as the sponge it fills. Two then leave the impulses of a uniform
 /// flow within 6 % of the converged ones. Those of a shear flow are within 8 %. Momentum is exact and energy falls at any number.
 const FILTER_SWEEPS: u32 = 2;
 

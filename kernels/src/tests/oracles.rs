@@ -76,8 +76,7 @@ pub(super) fn fault_in(kernel: &Kernel, column: Column) -> f32 {
         Column::FluidMoment if kernel.name == "divergence::residual" => 0.01,
         // It only asks which particles are at a surface.
         Column::FluidRenormalisation if kernel.name == "divergence::shift" => 0.5,
-        // Drag, its moments about the nodes, and contact are a small part of what a sponge lacks, and wetness is a part of
-        // what makes a tet.
+        // Drag, its moments about the nodes, and contact are a small part of what a sponge lacks. Wetness is a part of what makes a tet.
         Column::NodeDragMoment | Column::NodeWetting => 1.5,
         Column::NodeReaction | Column::NodeDrag => 1.01,
         // Nearly nothing in a neighbourhood that is nearly a lattice.

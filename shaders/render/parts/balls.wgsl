@@ -1,6 +1,6 @@
 // Balls of the views that show particles or nodes, in the cells of a grid.
 
-// First place of every cell in the list and the end of the last one, then the list: a ball stands in every cell that it reaches into.
+// First place of every cell in the list and the end of the last one, then the list. A ball stands in every cell that it reaches into.
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 // Place and radius of a ball, then its colour.
 @group(0) @binding(2) var<storage, read> balls: array<vec4<f32>>;

@@ -1,7 +1,7 @@
 // Colours are linear light until they are displayed.
 
-// Linear light as a display shows it, each channel 0 to 1: highlights are compressed as by a film (the fit of ACES by Narkowicz),
-// then encoded as sRGB.
+// Linear light as a display shows it, each channel 0 to 1. Highlights are compressed as by a film (the fit of ACES by Narkowicz), then
+// encoded as sRGB.
 fn displayed(light: vec3<f32>) -> vec3<f32> {
     let x = 0.70 * clamp(light, vec3(0.0), vec3(COLOUR_BRIGHTEST));
     let y = clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), vec3(0.0), vec3(1.0));

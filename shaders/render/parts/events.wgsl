@@ -9,7 +9,7 @@ struct Event {
     // A body that lets light through.
     body: u32,
     span: Span,
-    // A surface of water: its normal against the ray, whether it is at a wall of the container, and how much it bends and mirrors light.
+    // A surface of water. Its normal is against the ray; it may be at a wall of the container; it bends and mirrors light.
     normal: vec3<f32>,
     is_wall: bool,
     strength: f32,

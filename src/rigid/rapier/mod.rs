@@ -27,9 +27,9 @@ const LOOK_AHEAD: Real = 1e3;
 
 /// Bodies moved by rapier3d: dynamic, fixed and kinematic.
 ///
-/// One step is one rapier3d step of four solver sub-steps. In each of them a free body follows `v += g h; x += v h` with
-/// `h = dt / 4`. Where a body would move by more than the thickness of the thinnest dynamic body, the step is divided into
-/// equal rapier3d steps, 32 at most. Fast bodies then stop at a wall instead of inside it.
+/// One step is one rapier3d step of four solver sub-steps. In each of them a free body follows `v += g h; x += v h` with `h = dt / 4`.
+/// Where a body would move by more than the thickness of the thinnest dynamic body, the step is divided. There are at most 32 equal
+/// rapier3d steps. Fast bodies then stop at a wall instead of inside it.
 ///
 /// Gyroscopic forces are on. Sleep and contact recycling of rapier3d are off. Speed and spin have no limit. Lengths are
 /// scaled to the thinnest dynamic body, because the defaults of rapier3d (contacts predicted 2 cm ahead) suit bodies of a

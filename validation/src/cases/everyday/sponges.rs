@@ -128,7 +128,7 @@ fn wet_sponge_weighs(setting: &Setting) -> Result<Figure, Failure> {
     Ok(Figure::relative("weight of a wet sponge on a plate", "N", weight, force, 0.03))
 }
 
-/// A soaked sponge of 4 cm that is held at its top keeps what 10 cm of suction hold, but for a layer of particles that hangs below it.
+/// A soaked sponge of 4 cm, held at its top, keeps what 10 cm of suction hold. A layer of particles hangs below it.
 fn lifted_sponge_keeps_its_water(setting: &Setting) -> Result<Figure, Failure> {
     let own = Sponge { saturation: 1.0, entry_pressure: 1000.0, ..sponge(setting, [5, 4, 5], 0.1) };
     let half_extents = Vec3::new(0.04, 0.01, 0.04);
@@ -231,7 +231,7 @@ fn sponges_share(setting: &Setting) -> Result<Figure, Failure> {
     ))
 }
 
-/// A ball that is put in the middle of a sponge stays there, but for a roll from a node into the middle of four: 7 mm.
+/// A ball that is put in the middle of a sponge stays there. It rolls by 7 mm, from a node into the middle of four.
 fn ball_stays_on_top(setting: &Setting) -> Result<Figure, Failure> {
     let ball = Body::dynamic("ball", ShapeKind::Sphere { radius: 0.015 }, Vec3::Y * 0.066, 2000.0);
     let scene = room(setting).with_sponge(sponge(setting, [6, 5, 6], 0.0)).with_body(ball);
