@@ -34,7 +34,7 @@ declare! {
             ("linear", "body_expected"),
             ("angular", "body_expected_spin"),
         ]),
-        pass(NAME, Fluid),
+        pass(NAME, Fluid).on(&[("values", "fluid_velocity")]),
     ],
 }
 

@@ -42,7 +42,7 @@ declare! {
             ("linear", "body_expected"),
             ("angular", "body_expected_spin"),
         ]),
-        pass(NAME, Fluid),
+        pass(NAME, Fluid).on(&[("values", "fluid_approach")]),
         pass("divergence::damping_bodies", FluidBesideBodies),
     ],
     constants: {
