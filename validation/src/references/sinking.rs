@@ -126,7 +126,7 @@ impl Setup {
             .collect()
     }
 
-    /// The path of a body from rest at a height until it is at the floor or the surface. Its density is over that of water.
+    /// The path of a body from rest at a height until it is at the floor or the surface. The density of the body is over that of water.
     #[must_use]
     pub fn path(&self, density: f64, start: f64, added: &[(f64, f64)]) -> Path {
         let (half, area) = (self.shape.half_height(), self.shape.area());
