@@ -257,6 +257,8 @@ def test_other_threads_run_while_a_world_steps():
 
 
 def test_a_run_can_be_interrupted(world):
+    # A shell that starts the tests in the background has this signal ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         world.run(frames=1_000_000)
