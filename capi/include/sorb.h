@@ -535,8 +535,8 @@ sorb_status sorb_world_push_velocity(struct sorb_world *world,
                                      const float *linear_velocity,
                                      const float *angular_velocity);
 
-// Sets the force and the torque on a dynamic body for all steps from the next one on: 3 numbers each of -1e6 to 1e6 N, and N m. Zeros
-// end them.
+// Sets the force and the torque on a dynamic body for all steps from the next one on. Each has 3 numbers of -1e6 to 1e6, in N and N m.
+// Zeros end them.
 sorb_status sorb_world_push_force(struct sorb_world *world,
                                   uint32_t body,
                                   const float *force,

@@ -91,6 +91,13 @@ fn assert_each_can_be_alone(scene: &Scene, tolerance: f64) {
     let [mut cpu, mut aside] = [scene, &shifted(scene)].map(|scene| world(scene, Offload::Cpu));
     [&mut cpu, &mut aside].into_iter().for_each(|world| common::steps(world, 2));
     let bound = bound(tolerance, difference(&cpu.measures(), &aside.measures()).0);
+    // Negative control: gravity that leans is noticed.
+    let mut leaning = scene.clone();
+    leaning.gravity.x += 5.0;
+    let mut other = world(&leaning, Offload::Cpu);
+    common::steps(&mut other, 2);
+    let control = difference(&cpu.measures(), &other.measures()).0;
+    assert!(control > bound, "{control:.1e} of {bound:.1e}");
     for names in placed_alone(&cpu) {
         for (alone, others) in [(Place::Gpu, Place::Cpu), (Place::Cpu, Place::Gpu)] {
             let mut list: Vec<_> = KERNELS.iter().map(|kernel| (kernel.name, others)).collect();
