@@ -4,7 +4,7 @@ use sorb::{Player, Recorder, Recording, SimdLevel, Snapshot, World, scene::Scene
 
 use super::{RESOLUTION, busy, common, levels, options, restored, saved, world_on};
 
-const STEPS: u32 = 40;
+const STEPS: u32 = 24;
 /// Steps between interruptions.
 const EVERY: u32 = 7;
 const THREADS: [usize; 4] = [1, 2, 3, 8];
@@ -54,7 +54,7 @@ fn rolled_back_again_and_again(scene: &Scene, threads: usize, simd: SimdLevel) -
     world.digest()
 }
 
-/// Forty single steps with key frames.
+/// Single steps with key frames.
 fn recorded(scene: &Scene) -> Recording {
     let mut world = world_on(scene, 1, SimdLevel::Fallback);
     let recorder = Recorder::new(&world, Some(EVERY));
