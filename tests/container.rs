@@ -330,3 +330,38 @@ fn bad_motions_and_paths_are_refused_with_key_value_and_range() {
     }
     assert_eq!(world.digest(), before, "nothing has changed");
 }
+
+/// A vessel that water fills, with or without the topmost tenth.
+fn vessel(fill: f32, gravity: Vec3) -> Scene {
+    let (low, high) = (Vec3::new(-0.03, 0.0, -0.03), Vec3::new(0.03, 0.06, 0.03));
+    let blocks = vec![FluidBlock::new(low, Vec3::new(high.x, fill * high.y, high.z))];
+    // A third of a per cent more than there is room for.
+    let fluid = Fluid { spacing: 0.006_006, blocks, ..Fluid::default() };
+    Scene { gravity, ..Scene::new("vessel") }.in_box(low, high).with_fluid(fluid)
+}
+
+#[test]
+fn water_in_a_full_vessel_stays_where_it_is() {
+    let shaken =
+        Motion::Shake { amplitude: Vec3::X * 0.02, frequency: 4.0, start: 0.1, end: 1.1, ease: 0.25 };
+    let moved = |scene: &Scene, motions: &[Motion]| {
+        let mut scene = scene.clone();
+        scene.container.motions = motions.to_vec();
+        let mut world = common::world(&scene);
+        let (mut fastest, mut steps) = (0.0_f32, 0);
+        for _ in 0..36 {
+            let report = world.advance_frame().unwrap_or_else(|error| panic!("{error}"));
+            (fastest, steps) = (fastest.max(report.maximum_speed), steps + report.steps);
+        }
+        (fastest, steps as f32 / 36.0)
+    };
+    for gravity in [Vec3::ZERO, Vec3::Y * -9.81] {
+        for motions in [&[][..], &[shaken]] {
+            let (fastest, steps) = moved(&vessel(1.0, gravity), motions);
+            assert!(fastest < 0.02 && steps < 12.0, "{gravity}: {fastest} m/s, {steps} steps a frame");
+        }
+    }
+    // Negative control: with a free surface it sloshes.
+    let (fastest, _) = moved(&vessel(0.9, Vec3::Y * -9.81), &[shaken]);
+    assert!(fastest > 0.2, "{fastest} m/s");
+}

@@ -39,6 +39,10 @@ fn main(@builtin(local_invocation_index) lane: u32) {
             target_scale = most / abs(means.z);
         }
     }
+    // A full vessel.
+    if (means.w == 0.0) {
+        target_scale = 0.0;
+    }
     let fastest = max(wave, PEAK_PRESSURE * speed);
     fluid_pressure_solve = Solve(0.0, tolerance, 0.0, 0.0, 0u, 0u, target_scale, fastest);
 }

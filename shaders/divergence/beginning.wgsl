@@ -1,6 +1,7 @@
 // #include sums, shares
 // Third pass of `divergence::moments`: the pressure to begin with.
-// Sums of the squared speeds, and outside of pores of the squared pressures and of the targets, for `begin_solve.wgsl`.
+// Sums of the squared speeds, outside of pores of the squared pressures and of the targets, and the number of particles at a free surface,
+// for `begin_solve.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -29,8 +30,11 @@ fn main(
         let pressure = own[FLUID_VELOCITY_PRESSURE];
         let outside = vec2<f32>(pressure * pressure, fluid_factors[row][FLUID_FACTORS_TARGET]);
         let counted = select(outside, vec2<f32>(0.0), fluid_moment[row][FLUID_MOMENT_MATERIAL] > MINIMUM_MATERIAL);
-        sums = vec4<f32>(dot(own.xyz, own.xyz), counted, 0.0);
         let is_dense = fluid_renormalisation[row][FLUID_RENORMALISATION_DENSITY] >= SPARSE;
+        let moment = fluid_moment[row].xyz;
+        let open = SURFACE_OPEN * params.surface_moment;
+        let is_open = !is_dense || dot(moment, moment) > open * open;
+        sums = vec4<f32>(dot(own.xyz, own.xyz), counted, select(0.0, 1.0, is_open));
         fluid_pressure_rows[row][FLUID_PRESSURE_ROWS_PRESSURE] = select(0.0, pressure, is_dense);
     }
     let all = group_row(lane, sums, false);

@@ -11,7 +11,7 @@ use std::{
 
 use sorb::{
     FrameReport, Options, StepError, World, WorldError,
-    scene::{Quality, Scene, SceneError},
+    scene::{FluidSolver, Quality, Scene, SceneError},
 };
 
 use crate::solver::Solvers;
@@ -143,6 +143,15 @@ impl Setting {
     #[expect(clippy::cast_sign_loss, reason = "at least 2")]
     pub fn count(&self, full: u32) -> u32 {
         (f64::from(full) * self.resolution).round().max(2.0) as u32
+    }
+
+    /// Whether the water of a scene jams in a full box. It does where the solve keeps the density: flowing particles take more room than a
+    /// lattice.
+    ///
+    /// # Errors
+    /// The scene refuses the solvers of the setting.
+    pub fn jams(&self, scene: &Scene) -> Result<bool, Failure> {
+        Ok(self.solvers.applied(scene)?.fluid_solver() != Some(FluidSolver::Divergence))
     }
 
     /// The world of a scene, with the solvers, the quality and the changes of the setting.

@@ -1,5 +1,6 @@
 //! `sorb validate`: compares the simulator with analytic, experimental and converged references.
 
+mod jobs;
 mod precision;
 
 use std::{fmt::Write as _, path::PathBuf};
@@ -27,7 +28,7 @@ pub(crate) struct Arguments {
     /// Refines the cases, 0.25 to 8; the bounds are meant for 1
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = resolution)]
     resolution: f64,
-    /// Coarser and shorter runs, two minutes in all
+    /// Coarser and shorter runs, two minutes in all on one core
     #[arg(long)]
     quick: bool,
     /// Trade-off between precision and run time: fast, balanced or accurate; by default the keys of the cases
@@ -42,6 +43,10 @@ pub(crate) struct Arguments {
     /// Number of threads, 1 to 1024, by default one per core; results do not depend on it
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+    /// Cases that run at the same time, 1 to 64. They share the threads; the times of cases are those beside each other
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=64))]
+    #[arg(conflicts_with = "work_precision")]
+    jobs: u8,
     /// Plants the fault of each case, which must then miss a bound
     #[arg(long)]
     control: bool,
@@ -86,19 +91,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     if !arguments.json {
         output::print(&line(&HEADING.map(str::to_owned)))?;
     }
+    let mut runs = Vec::new();
     for case in cases {
-        for solvers in solvers.of(case.subject) {
-            let outcome = sorb_validation::run(case, &arguments.setting(solvers, options.clone()));
-            if arguments.json {
-                rows.push(row_json(&outcome));
-            } else {
-                output::print(&text(&outcome, arguments.control))?;
-            }
-            if !arguments.accepts(&outcome) {
-                broken.push(format!("{} ({})", case.name, outcome.solver));
-            }
-        }
+        let settings = solvers.of(case.subject).into_iter();
+        runs.extend(settings.map(|solvers| (case, arguments.setting(solvers, options.clone()))));
     }
+    jobs::in_order(arguments.jobs, &runs, |outcome| {
+        if arguments.json {
+            rows.push(row_json(&outcome));
+        } else {
+            output::print(&text(&outcome, arguments.control))?;
+        }
+        if !arguments.accepts(&outcome) {
+            broken.push(format!("{} ({})", outcome.case.name, outcome.solver));
+        }
+        Ok(())
+    })?;
     if arguments.json {
         output::print(&format!("{}\n", serde_json::to_string_pretty(&rows)?))?;
     }
@@ -127,7 +135,7 @@ impl Arguments {
     /// Options of all cases: one device, whose pipelines are compiled once.
     fn options(&self) -> Options {
         Options {
-            threads: self.threads,
+            threads: self.threads.or_else(|| jobs::threads_of_each(self.jobs)),
             offload: self.backend.clone(),
             // If there is none, the first world reports why.
             #[cfg(feature = "gpu")]

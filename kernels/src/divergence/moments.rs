@@ -18,8 +18,8 @@
 //!
 //! The sum of `|c L e|^2` is the product of `L^2` and the sum of `c^2 e e^T`: one pass over the neighbours gives all.
 //!
-//! An error is put right within five steps. If all of a pool would be thrown by that, the target is scaled down (`pressure_solve`). In
-//! pores it is put right slowly, because the pressure that moves water there is in proportion to the drag.
+//! An error is put right within five steps. If all of a pool would be thrown by that, the target is scaled down (`pressure_solve`). Water
+//! that fills a vessel has no free surface, and no target: no pressure could meet it. In pores it is put right slowly, because the pressure that moves water there is in proportion to the drag.
 
 use glam::Vec3;
 
@@ -38,7 +38,7 @@ use crate::{
 use super::{
     image_rows::{ImageRows, Images, NO_BODY, OfParticles},
     rate::{MINIMUM_MATERIAL, SPARSE},
-    reflect::mirrored_renormalisation,
+    reflect::{mirrored_renormalisation, vector},
     symmetric::Symmetric,
 };
 
@@ -67,6 +67,8 @@ declare! {
         const MINIMUM_DIAGONAL: f32 = 1.0e-3;
         /// First moment over that at a flat surface from which on neighbours are missing for good.
         const SURFACE_BEGIN: f32 = 0.25;
+        /// The same from which on water is taken to have a free surface there. In a full vessel no particle has one.
+        const SURFACE_OPEN: f32 = 0.5;
         /// Error of the density that is none.
         const DEAD_ZONE: f32 = 1.0e-3;
         /// Largest error that is put right.
@@ -119,9 +121,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         let used = count.saturating_sub(first).min(along.len());
         [&mut *along, between, moment, factors].into_iter().for_each(|rows| rows[used..].fill([0.0; 4]));
         pressure[used..].fill([0.0, 0.0, 1.0, 0.0]);
-        let is_in_pores = moment.iter().map(|row| row[lane::fluid::moment::MATERIAL] > MINIMUM_MATERIAL);
+        let open = SURFACE_OPEN * divergence.surface_moment;
+        let places = moment.iter().zip(&*along).map(|(moment, along)| {
+            let is_in_pores = moment[lane::fluid::moment::MATERIAL] > MINIMUM_MATERIAL;
+            let is_sparse = along[lane::fluid::renormalisation::DENSITY] < SPARSE;
+            (is_in_pores, is_sparse || vector(moment).length_squared() > open * open)
+        });
         let targets = factors.iter().map(|row| row[lane::fluid::factors::TARGET]);
-        beginning.0[0] = Beginning::of(&velocity[first..first + used], targets, is_in_pores);
+        beginning.0[0] = Beginning::of(&velocity[first..first + used], targets, places);
         mirror(images, first, [along, between], mirrored);
     });
     pressure_solve.begin_divergence(count, params);

@@ -69,7 +69,7 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
     ] {
         column.resize(rows, [0.0; 4]);
     }
-    let mut sums = [0.0; 3];
+    let mut sums = [0.0; 4];
     for i in 0..count {
         // Beginning with the material of sponges.
         let (mut first, mut second) = (vector(fluid.moment[i]), renormalisation(fluid, i));
@@ -111,6 +111,8 @@ pub(crate) fn moments(params: &Params, columns: &mut Columns) {
         let before = if density < 0.75 { 0.0 } else { before };
         fluid.pressure_rows[i] = [before, 0.0, (diagonal * f64::from(params.step).powi(2)) as f32, 0.0];
         sums[0] += vector(fluid.velocity[i]).length_squared();
+        let is_open = density < 0.75 || first.length() > 0.5 * f64::from(divergence.surface_moment);
+        sums[3] += f64::from(u8::from(is_open));
         if material <= 0.02 {
             sums[1] += f64::from(fluid.velocity[i][lane::fluid::velocity::PRESSURE]).powi(2);
             sums[2] += target;

@@ -77,18 +77,22 @@ pub(crate) struct Beginning {
     pressure: f32,
     /// Divergence that errors of the density ask for there, times the step.
     target: f32,
+    /// Number of particles at a free surface.
+    open: f32,
 }
 
 impl Beginning {
-    /// Of velocities with the pressure beside them, and targets of the divergence, of particles in pores or not.
+    /// Of velocities with the pressure beside them, and targets of the divergence, of particles in pores or not, and at a free surface or
+    /// not.
     pub(crate) fn of(
         velocity: &[[f32; 4]],
         targets: impl Iterator<Item = f32>,
-        is_in_pores: impl Iterator<Item = bool>,
+        places: impl Iterator<Item = (bool, bool)>,
     ) -> Self {
         let mut sums = Self::default();
-        for (([x, y, z, pressure], target), is_in_pores) in velocity.iter().zip(targets).zip(is_in_pores) {
+        for (([x, y, z, pressure], target), (is_in_pores, is_open)) in velocity.iter().zip(targets).zip(places) {
             sums.speed += x * x + y * y + z * z;
+            sums.open += f32::from(u8::from(is_open));
             if !is_in_pores {
                 sums.pressure += pressure * pressure;
                 sums.target += target;
@@ -219,9 +223,9 @@ impl PressureSolve {
 
     /// Before a solve for the divergence over `count` particles.
     pub(crate) fn begin_divergence(&mut self, count: usize, params: &Params) {
-        let mut total = [0.0; 3];
-        for Beginning { speed, pressure, target } in &self.beginnings {
-            for (total, sum) in total.iter_mut().zip([speed, pressure, target]) {
+        let mut total = [0.0; 4];
+        for Beginning { speed, pressure, target, open } in &self.beginnings {
+            for (total, sum) in total.iter_mut().zip([speed, pressure, target, open]) {
                 *total += f64::from(*sum);
             }
         }
@@ -231,7 +235,7 @@ impl PressureSolve {
     /// The same, with the sums over all of them.
     pub(crate) fn begin_divergence_with(
         &mut self,
-        [speed, pressure, target]: [f64; 3],
+        [speed, pressure, target, open]: [f64; 4],
         count: usize,
         params: &Params,
     ) {
@@ -251,6 +255,8 @@ impl PressureSolve {
         // A mean rate of expansion t lifts the surface of a pool of depth P / g by t P / g.
         let most = if wave > 0.0 { MAXIMUM_RISE * gravity * params.step / wave } else { 0.0 };
         let target_scale = if target > most && most > 0.0 { most / target } else { 1.0 };
+        // In a full vessel water can neither expand nor be compressed: the pressure would grow without end.
+        let target_scale = if open > 0.0 { target_scale } else { 0.0 };
         let speed = wave.max(PEAK_PRESSURE * speed);
         // The first iteration sees what the pressure of the step before leaves.
         self.state = Solve { length: 0.0, tolerance, target_scale, speed, ..Solve::default() };

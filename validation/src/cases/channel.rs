@@ -30,10 +30,8 @@ const PARTICLES: u32 = 40;
 /// Height of the lattice of particles, and thickness of the plates \[m\].
 const GAP: f64 = 0.02;
 const PLATE: f64 = 0.004;
-/// Free height between the plates over that of the lattice of particles: particles jam in a full box.
+/// Free height between the plates over that of the lattice of particles, where particles jam in a full box.
 const ROOM: f64 = 0.01;
-/// Distance of the plates \[m\].
-const WIDTH: f64 = GAP * (1.0 + ROOM);
 /// Period along the channel, over the distance of the plates.
 const LENGTH: f64 = 1.0;
 /// Particles across the channel, along the periodic axis without motion: pairs reach two spacings.
@@ -60,31 +58,34 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 
 /// Error of the velocity along the channel, over the speed of the plates; `lower` is the direction of the lower one.
 fn error(setting: &Setting, spacing: f64, lower: f64, profile: fn(f64) -> f64) -> Result<f64, Failure> {
-    let mut world = setting.world(&scene(setting, spacing, lower))?;
+    let full = scene(setting, spacing, (lower, GAP));
+    let width = if setting.jams(&full)? { GAP * (1.0 + ROOM) } else { GAP };
+    let mut world = setting.world(&scene(setting, spacing, (lower, width)))?;
     // In the time in which viscosity crosses the channel, the slowest mode decays by e^-9.9, which leaves the parabola.
     let end = 0.6 * GAP * GAP * DENSITY / VISCOSITY;
     let mut layers = vec![(0.0, 0.0); (GAP / spacing).round() as usize];
     while world.clock().time < end {
         setting.advance(&mut world)?;
         if world.clock().time > 0.8 * end {
-            add_deviations(&world, profile, &mut layers);
+            add_deviations(&world, (profile, width), &mut layers);
         }
     }
     Ok(root_mean_square(layers.into_iter().map(|(sum, count)| sum / count)))
 }
 
 /// Sums, by layers along the plates, the deviations of particles from the velocity of the profile.
-fn add_deviations(world: &World, profile: fn(f64) -> f64, layers: &mut [(f64, f64)]) {
+fn add_deviations(world: &World, (profile, width): (fn(f64) -> f64, f64), layers: &mut [(f64, f64)]) {
     let rows = world.particle_positions().iter().zip(world.particle_velocities());
     for (x, v) in rows {
-        let place = (f64::from(x[1]) / WIDTH).clamp(0.0, 1.0);
+        let place = (f64::from(x[1]) / width).clamp(0.0, 1.0);
         let layer = ((place * layers.len() as f64) as usize).min(layers.len() - 1);
         layers[layer].0 += f64::from(v[0]) / SPEED - profile(place);
         layers[layer].1 += 1.0;
     }
 }
 
-fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
+/// The plates are `width` \[m\] apart.
+fn scene(setting: &Setting, spacing: f64, (lower, width): (f64, f64)) -> Scene {
     let half = Vec3::new((0.5 * LENGTH * GAP) as f32, (0.5 * GAP) as f32, (0.5 * LAYERS * spacing) as f32);
     let centre = Vec3::Y * half.y;
     let fluid = Fluid {
@@ -95,7 +96,7 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
         blocks: vec![FluidBlock::new(centre - half, centre + half)],
         ..Fluid::default()
     };
-    let (reach, room) = (Vec3::Y * PLATE as f32, Vec3::Y * (ROOM * GAP) as f32);
+    let (reach, room) = (Vec3::Y * PLATE as f32, Vec3::Y * (width - GAP) as f32);
     let plate = |name: &str, y: f64, way: f64| {
         let half_extents = Vec3::new(half.x + GAP as f32, 0.5 * PLATE as f32, half.z + GAP as f32);
         let motion =
@@ -106,7 +107,7 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
     };
     // Acceleration that drives a mean velocity of that of the plates back, between plates at rest; zero where they move
     // opposite ways.
-    let back = 6.0 * VISCOSITY / DENSITY * SPEED * (1.0 + lower) / (WIDTH * WIDTH);
+    let back = 6.0 * VISCOSITY / DENSITY * SPEED * (1.0 + lower) / (width * width);
     Scene {
         gravity: Vec3::NEG_X * back as f32,
         time: Time { frame_rate: 1000.0, ..Time::default() },
@@ -116,5 +117,5 @@ fn scene(setting: &Setting, spacing: f64, lower: f64) -> Scene {
     .repeating([true, false, true])
     .with_fluid(fluid)
     .with_body(plate("lower", -0.5 * PLATE, lower))
-    .with_body(plate("upper", WIDTH + 0.5 * PLATE, 1.0))
+    .with_body(plate("upper", width + 0.5 * PLATE, 1.0))
 }

@@ -99,7 +99,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 }
 
 fn outcome(setting: &Setting, rate: f64) -> Result<Outcome, Failure> {
-    let spacing = DEPTH / f64::from(setting.count(setting.pick(LAYERS, LAYERS / 2)));
+    let spacing = DEPTH / f64::from(setting.count(setting.pick(LAYERS, LAYERS * 3 / 7)));
     let mut world = setting.world(&scene(setting, spacing, rate))?;
     let mut samples = vec![Sample::of(&world, spacing)];
     while world.clock().time < END {

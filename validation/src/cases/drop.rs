@@ -45,9 +45,10 @@ fn radius(world: &World, spacing: f64) -> f64 {
 fn pressure(setting: &Setting, spacing: f64) -> Result<Figure, Failure> {
     let mut world = setting.world(&scene(setting, spacing, 0.0))?;
     let mut found = Vec::new();
-    while world.clock().time < 0.4 {
+    let (begin, end) = setting.pick((0.25, 0.4), (0.15, 0.25));
+    while world.clock().time < end {
         setting.advance(&mut world)?;
-        if world.clock().time > 0.25 {
+        if world.clock().time > begin {
             let rows = world.particle_positions().iter().zip(world.particle_pressures());
             let inner = rows.filter(|(row, _)| place(row).length() < 0.5 * RADIUS as f32);
             found.push(mean(inner.map(|(_, pressure)| f64::from(pressure))));
@@ -61,7 +62,7 @@ fn vibration(setting: &Setting, spacing: f64) -> Result<Figure, Failure> {
     let mut world = setting.world(&scene(setting, spacing, STRETCH))?;
     let expected = period(TENSION, DENSITY, radius(&world, spacing));
     let mut lengths = Vec::new();
-    while world.clock().time < 3.2 * expected {
+    while world.clock().time < setting.pick(3.2, 2.2) * expected {
         setting.advance(&mut world)?;
         let squares = world.particle_positions().iter().map(|row| {
             let [x, y, z] = place(row).as_dvec3().to_array();
