@@ -205,7 +205,8 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     ),
 ];
 
-const WIDE: &str = "too fast by a constant, with a hundredth of the width free; in a full channel particles jam";
+const WIDE: &str =
+    "too fast by a constant, with a hundredth of the width free; in a full channel particles jam";
 const RIBS: &str = "water around the ribs moves by some millimetres a second, in either direction";
 const EDGES: &str =
     "friction at the edges of cuboids, about a hundredth of the weight of the water displaced; cause unknown";

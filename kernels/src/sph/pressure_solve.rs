@@ -90,7 +90,9 @@ impl Beginning {
         places: impl Iterator<Item = (bool, bool)>,
     ) -> Self {
         let mut sums = Self::default();
-        for (([x, y, z, pressure], target), (is_in_pores, is_open)) in velocity.iter().zip(targets).zip(places) {
+        for (([x, y, z, pressure], target), (is_in_pores, is_open)) in
+            velocity.iter().zip(targets).zip(places)
+        {
             sums.speed += x * x + y * y + z * z;
             sums.open += f32::from(u8::from(is_open));
             if !is_in_pores {
