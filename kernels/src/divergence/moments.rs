@@ -19,8 +19,8 @@
 //! The sum of `|c L e|^2` is the product of `L^2` and the sum of `c^2 e e^T`: one pass over the neighbours gives all.
 //!
 //! An error is put right within five steps. If all of a pool would be thrown by that, the target is scaled down (`pressure_solve`). Water
-//! that fills a vessel has no free surface, and no target: no pressure could meet it. In
-//! pores it is put right slowly, because the pressure that moves water there is in proportion to the drag.
+//! that fills a vessel has no free surface, and no target: no pressure could meet it. In pores an error is put right slowly, because the
+//! pressure that moves water there is in proportion to the drag.
 
 use glam::Vec3;
 
