@@ -273,7 +273,7 @@ typedef struct sorb_options {
   size_t size;
   // Number of threads, 1 to 1024; 0: one per core.
   uint32_t threads;
-  // SIMD level: "fallback", "sse2", "sse4.2", "avx2", "avx512" or "neon"; NULL: the best of the machine.
+  // SIMD level: "fallback", "sse4.2", "avx2", "avx512" or "neon"; NULL: the best of the machine.
   const char *simd;
   // Where it runs: "cpu", "gpu", "auto" or another text that `sorb run --backend` takes; NULL: "cpu". "gpu" needs a library that was
   // built with the feature `gpu`.

@@ -17,7 +17,7 @@ pub struct Options {
     pub size: usize,
     /// Number of threads, 1 to 1024; 0: one per core.
     pub threads: u32,
-    /// SIMD level: "fallback", "sse2", "sse4.2", "avx2", "avx512" or "neon"; NULL: the best of the machine.
+    /// SIMD level: "fallback", "sse4.2", "avx2", "avx512" or "neon"; NULL: the best of the machine.
     pub simd: *const c_char,
     /// Where it runs: "cpu", "gpu", "auto" or another text that `sorb run --backend` takes; NULL: "cpu". "gpu" needs a library that was
     /// built with the feature `gpu`.

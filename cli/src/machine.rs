@@ -8,7 +8,7 @@ pub(crate) struct Machine {
     /// Number of threads, 1 to 1024, by default one per core; results do not depend on it
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// SIMD level: auto, fallback, sse2, sse4.2, avx2, avx512 or neon; results do not depend on it
+    /// SIMD level: auto, fallback, sse4.2, avx2, avx512 or neon; results do not depend on it
     #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = simd, hide_possible_values = true)]
     simd: Simd,
     /// Where to run: cpu, gpu, auto (a GPU for large scenes), from:KERNEL (that kernel and all after it on the GPU), or

@@ -22,3 +22,5 @@ mod usage;
 #[cfg(feature = "validation")]
 #[path = "command/validate.rs"]
 mod validate;
+#[path = "command/without_features.rs"]
+mod without_features;

@@ -155,7 +155,7 @@ fn every_kernel_of_smoothed_coupling_can_be_alone_on_either_side() {
 
 #[test]
 fn every_kernel_of_implicit_viscosity_can_be_alone_on_either_side() {
-    let mut scene = everything("ball_drop", HONEY);
+    let mut scene = common::with(&busy::scene("water", 0.4), &[DIVERGENCE_AND_BODIES, HONEY].concat());
     scene.bodies[0].no_slip = true;
     assert_each_further_can_be_alone(&scene, 1e-4);
 }

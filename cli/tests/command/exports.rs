@@ -326,14 +326,3 @@ fn unknown_formats_are_wrong_usage() {
         assert_eq!(sorb(&[&["run", "dry"], wrong].concat()).code, Some(2), "{wrong:?}");
     }
 }
-
-#[cfg(not(feature = "surface"))]
-#[test]
-fn usage_of_a_program_without_meshes_of_water() {
-    let scratch = Scratch::new("no_surface");
-    let out = scratch.path("out");
-    let answer = sorb(&["run", "dry", "--frames", "0", "--out", &out, "--export", "surface"]);
-    assert_eq!(answer.code, Some(2));
-    assert!(answer.err.contains("--features surface"), "{}", answer.err);
-    assert!(!Path::new(&out).exists());
-}

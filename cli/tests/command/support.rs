@@ -25,11 +25,13 @@ impl Answer {
 
 /// Runs `sorb` with arguments.
 pub(crate) fn sorb(arguments: &[&str]) -> Answer {
-    let output = Command::new(env!("CARGO_BIN_EXE_sorb"))
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .expect("the command starts");
+    run(Path::new(env!("CARGO_BIN_EXE_sorb")), arguments)
+}
+
+/// Runs a program with arguments.
+pub(crate) fn run(program: &Path, arguments: &[&str]) -> Answer {
+    let output =
+        Command::new(program).args(arguments).stdin(Stdio::null()).output().expect("the command starts");
     answer(output)
 }
 

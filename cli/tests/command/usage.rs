@@ -36,7 +36,7 @@ fn an_unknown_quality_names_those_there_are() {
 #[test]
 fn an_unknown_or_missing_simd_level_names_those_there_are() {
     refused(&["water", "--simd", "avx3"], &["avx3", "fallback", "auto"]);
-    let missing = if cfg!(target_arch = "x86_64") { "neon" } else { "sse2" };
+    let missing = if cfg!(target_arch = "x86_64") { "neon" } else { "sse4.2" };
     refused(&["water", "--simd", missing], &[missing, "supported: fallback"]);
 }
 
@@ -45,13 +45,6 @@ fn an_unknown_backend_names_those_there_are() {
     refused(&["water", "--backend", "cuda"], &["cuda", "cpu, gpu, auto, from:KERNEL"]);
     refused(&["water", "--backend", "from:sph::nothing"], &["sph::nothing", "from:KERNEL"]);
     refused(&["water", "--backend", "each:sph=cuda"], &["each:sph=cuda", "each:NAME=PLACE"]);
-}
-
-#[cfg(not(feature = "gpu"))]
-#[test]
-fn a_gpu_needs_the_feature() {
-    refused(&["water", "--backend", "gpu"], &["gpu", "built without the feature"]);
-    refused(&["water", "--backend", "from:sph::kick"], &["from:sph::kick", "built without the feature"]);
 }
 
 #[test]
@@ -93,20 +86,4 @@ fn a_reader_that_stops_reading_is_no_error() {
     drop(child.stdout.take());
     let output = child.wait_with_output().expect("the command ends");
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
-}
-
-#[cfg(not(feature = "view"))]
-#[test]
-fn a_program_without_its_window_says_how_to_build_one() {
-    let answer = sorb(&["view", "standing", "--paused"]);
-    assert_eq!(answer.code, Some(2));
-    assert!(answer.err.contains("--features view -- view standing --paused"), "{answer:?}");
-}
-
-#[cfg(not(feature = "validation"))]
-#[test]
-fn a_program_without_references_says_how_to_build_the_one_that_has_them() {
-    let answer = sorb(&["validate", "--quick", "dam_break"]);
-    assert_eq!(answer.code, Some(2), "{answer:?}");
-    assert!(answer.err.contains("--features validation -- validate --quick dam_break"), "{answer:?}");
 }

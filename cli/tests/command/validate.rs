@@ -39,6 +39,22 @@ fn a_row_for_every_figure_and_1_if_one_is_out_of_bounds() {
 }
 
 #[test]
+fn cases_beside_each_other_tell_what_they_tell_one_by_one() {
+    let figures = |cases: &[&str], jobs: &str| -> Vec<_> {
+        let rows = sorb(&[&["validate"], cases, &["--quick", "--json", "--jobs", jobs]].concat()).json();
+        let rows = rows.as_array().expect("an array of cases");
+        rows.iter().map(|row| (row["case"].clone(), row["figures"].clone())).collect()
+    };
+    // The first takes longest.
+    let cases = ["cantilever", "patch", "squash", "torsion"];
+    let one_by_one = figures(&cases, "1");
+    assert_eq!(one_by_one.len(), cases.len());
+    assert_eq!(figures(&cases, "3"), one_by_one);
+    // The control: another case has other figures.
+    assert_ne!(figures(&["uniaxial", "patch", "squash", "torsion"], "3"), one_by_one);
+}
+
+#[test]
 fn run_time_against_error_leaves_a_report_a_table_and_a_diagram() {
     let scratch = Scratch::new("work_precision");
     let out = scratch.path("report");

@@ -22,9 +22,7 @@ pub const LANES: usize = 8;
 pub enum SimdLevel {
     /// Scalar code, eight lanes emulated.
     Fallback,
-    /// x86-64 baseline.
-    Sse2,
-    /// x86-64-v2.
+    /// x86-64-v2. What is older, without SSE4.2, takes scalar code.
     Sse42,
     /// x86-64-v3.
     Avx2,
@@ -38,13 +36,13 @@ pub enum SimdLevel {
 
 impl SimdLevel {
     /// Every level, worst first.
-    pub const ALL: [Self; 7] =
-        [Self::Fallback, Self::Sse2, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon, Self::Simd128];
+    pub const ALL: [Self; 6] =
+        [Self::Fallback, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon, Self::Simd128];
 
     /// The best level of this machine.
     #[must_use]
     pub fn best() -> Self {
-        [Self::Avx512, Self::Avx2, Self::Neon, Self::Simd128, Self::Sse42, Self::Sse2]
+        [Self::Avx512, Self::Avx2, Self::Neon, Self::Simd128, Self::Sse42]
             .into_iter()
             .find(|level| level.is_supported())
             .unwrap_or(Self::Fallback)
@@ -66,7 +64,6 @@ impl SimdLevel {
     pub fn name(self) -> &'static str {
         match self {
             Self::Fallback => "fallback",
-            Self::Sse2 => "sse2",
             Self::Sse42 => "sse4.2",
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
@@ -88,8 +85,6 @@ impl SimdLevel {
             // A module with simd128 does not load without it: there a second version of all kernels would only be downloaded.
             #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
             Self::Fallback => Some(Level::fallback()),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Self::Sse2 => best.as_sse2().map(Level::Sse2),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
             Self::Sse42 => best.as_sse4_2().map(Level::Sse4_2),
             #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -150,7 +145,7 @@ macro_rules! levels {
                     fearless_simd::Level::Fallback(token) => {
                         $crate::lanes::dispatch!(@at token, $dollar simd => $dollar body)
                     }
-                    _ => unreachable!("a level of another target"),
+                    _ => unreachable!("a level that has no name here"),
                 }
             };
             (@at $dollar token:ident, $dollar simd:pat => $dollar body:expr) => {{
@@ -162,7 +157,7 @@ macro_rules! levels {
     };
 }
 levels! {
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))] x86::Sse2 x86::Sse4_2 x86::Avx2 x86::Avx512;
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))] x86::Sse4_2 x86::Avx2 x86::Avx512;
     #[cfg(target_arch = "aarch64")] aarch64::Neon;
     #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))] wasm32::WasmSimd128;
 }
