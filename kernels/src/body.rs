@@ -158,7 +158,7 @@ impl Body {
     /// The same, and the outward normal of the surface there.
     #[must_use]
     pub fn distance_and_normal(&self, point: Vec3) -> (f32, Vec3) {
-        lanes::dispatch!(fearless_simd::Level::baseline(), simd => {
+        lanes::dispatch!(lanes::baseline(), simd => {
             let (distance, [x, y, z]) =
                 Placed::new(simd, self).distance(vector::splat(simd, point.to_array()));
             (distance[0], Vec3::new(x[0], y[0], z[0]))

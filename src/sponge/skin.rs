@@ -21,8 +21,8 @@ struct Anchor {
 }
 
 impl Skin {
-    /// Of a mesh that fills a block from a lowest corner on, of some size \[m\], as far as its proportions let it, on tets at rest that
-    /// are not empty, in cells of some edge \[m\].
+    /// Of a mesh on tets at rest that are not empty, in cells of some edge \[m\]. The mesh fills a block of some size \[m\] from a lowest
+    /// corner on, as far as its proportions let it.
     pub(crate) fn new(
         mesh: Mesh,
         (low, size): (Vec3, Vec3),

@@ -1,7 +1,7 @@
 //! The frame of the container: what of its motion is felt in it, and gravity over time.
 //!
-//! All positions and velocities are those in the container. In a step from t to t + h its origin goes from velocity V to V', and its axes
-//! turn by R at a rate that goes from w to w', both in the axes of the container. What is free of forces keeps its velocity
+//! All positions and velocities are those in the container. In a step from t to t + h its origin goes from velocity V to V'. Its
+//! axes turn by R, at a rate that goes from w to w'. All are in the axes of the container. What is free of forces keeps its velocity
 //! `v + w x r + V` outside of it. In the container it has
 //!
 //! ```text

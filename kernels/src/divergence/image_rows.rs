@@ -59,8 +59,8 @@ pub struct Images {
     pub(crate) particles: Neighbors,
     /// The same for those.
     pub(crate) particle_pairs: ListValues,
-    /// From a point x to half of the difference of the potential of gravity between the image of x in the same walls and x: the product of
-    /// the vector with x, and w \[m^2/s^2\]. For an image in a body, w is that of the image alone, with the opposite sign.
+    /// Half of the difference of the potential of gravity between the image of a point x in the same walls and x. It is the product of the
+    /// vector with x, and w \[m^2/s^2\]. For an image in a body, w is that of the image alone, with the opposite sign.
     pub(crate) lift: Vec<[f32; 4]>,
     /// Whether any image is one in a body. Without, the rows that follow are empty.
     pub(crate) has_bodies: bool,

@@ -162,6 +162,11 @@ levels! {
     #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))] wasm32::WasmSimd128;
 }
 
+/// The level that every machine of the target has. On x86 that is scalar code, which takes the vectors of the code around it.
+pub(crate) fn baseline() -> Level {
+    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { Level::fallback() } else { Level::baseline() }
+}
+
 /// Hides which level a token is of, so that code that is not generic does not compile.
 #[inline(always)]
 pub(crate) fn generic<S: Simd>(token: S) -> impl Simd {

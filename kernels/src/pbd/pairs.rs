@@ -7,8 +7,8 @@
 //! ```
 //!
 //! with the partner u and the corners r, q of its tets (`stars.rs`), and a weight p. That is 1 on a face and next to nothing on a
-//! rim (`flatness.rs`). Two nodes a and b of different sponges, or of one that may touch itself and at least
-//! `SELF_CONTACT_DISTANCE` edges from each other at rest, are a pair where their surfaces face each other:
+//! rim (`flatness.rs`). Two nodes a and b are a pair where their surfaces face each other. They are of different
+//! sponges, or of one that may touch itself and at least `SELF_CONTACT_DISTANCE` edges from each other at rest:
 //!
 //! ```text
 //! n = (p_b n_b - p_a n_a) / |..|,   g = n . (x_a - x_b),   t^2 = |x_a - x_b|^2 - g^2
