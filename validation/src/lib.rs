@@ -9,6 +9,7 @@
 
 mod case;
 mod cases;
+pub mod convergence;
 pub mod fem;
 mod known;
 mod level;

@@ -1,5 +1,6 @@
 //! `sorb validate`: compares the simulator with analytic, experimental and converged references.
 
+mod convergence;
 mod jobs;
 mod precision;
 
@@ -53,6 +54,9 @@ pub(crate) struct Arguments {
     /// Accepts misses with a known cause
     #[arg(long)]
     allow_known: bool,
+    /// Runs cases at 0.7, 1 and 1.4 times the resolution; an error that does not fall with the spacing fails
+    #[arg(long, conflicts_with_all = ["list", "control", "work_precision"])]
+    convergence: bool,
     /// Runs cases at many settings, and writes a report of run time against error: ten minutes, or half a minute with
     /// --quick
     #[arg(long, conflicts_with_all = ["list", "solver", "control", "allow_known", "json"])]
@@ -87,14 +91,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     let solvers = Choices::new(&arguments.solver)?;
     let options = arguments.options();
-    let (mut rows, mut broken) = (Vec::new(), Vec::new());
-    if !arguments.json {
-        output::print(&line(&HEADING.map(str::to_owned)))?;
-    }
     let mut runs = Vec::new();
     for case in cases {
         let settings = solvers.of(case.subject).into_iter();
         runs.extend(settings.map(|solvers| (case, arguments.setting(solvers, options.clone()))));
+    }
+    if arguments.convergence {
+        return convergence::run(arguments.jobs, &runs, arguments.allow_known, arguments.json);
+    }
+    let (mut rows, mut broken) = (Vec::new(), Vec::new());
+    if !arguments.json {
+        output::print(&line(&HEADING.map(str::to_owned)))?;
     }
     jobs::in_order(arguments.jobs, &runs, |outcome| {
         if arguments.json {

@@ -55,6 +55,26 @@ fn cases_beside_each_other_tell_what_they_tell_one_by_one() {
 }
 
 #[test]
+fn three_resolutions_have_an_order() {
+    let ask = |extra: &[&str]| {
+        let arguments = ["validate", "uniaxial", "patch", "--quick", "--convergence"];
+        sorb(&[&arguments[..], extra].concat())
+    };
+    let answer = ask(&[]);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""), "{answer:?}");
+    let row = |figure: &str| answer.out.lines().find(|line| line.contains(figure)).unwrap_or_default();
+    assert!(row("force against the continuum").ends_with("  fall"), "{}", answer.out);
+    assert!(row("way off the affine map").ends_with("  are small"), "{}", answer.out);
+    let json = ask(&["--json"]).json();
+    let rows = json.as_array().expect("an array of figures");
+    let continuum = rows
+        .iter()
+        .find(|row| row["convergence"]["figure"].as_str().is_some_and(|name| name.contains("continuum")));
+    assert!(continuum.is_some_and(|row| row["order"].as_f64().is_some_and(|order| order > 0.5)), "{json}");
+    assert_eq!(ask(&["--control"]).code, Some(2));
+}
+
+#[test]
 fn run_time_against_error_leaves_a_report_a_table_and_a_diagram() {
     let scratch = Scratch::new("work_precision");
     let out = scratch.path("report");
