@@ -1,8 +1,8 @@
-//! Every kernel of the table, on the columns of a scene in which all of them have work.
+//! Every kernel of the table, on the columns of the first scene of a list that runs it.
 //!
-//! `ball_drop` with the ball on the sponge and with surface tension, at the paper's size and at 100 000 particles. With the
-//! feature `gpu` also the twins, on the best adapter of the machine. There a kernel is timed by time stamps of the device,
-//! within whole steps.
+//! The scenes are `ball_drop` with the ball on the sponge and with surface tension, in the models that scenes can name, at the paper's
+//! size and at 100 000 particles. With the feature `gpu` also the twins, on the best adapter of the machine. There a kernel is timed by
+//! time stamps of the device, within whole steps.
 
 #[path = "../tests/common/busy.rs"]
 mod busy;
@@ -17,14 +17,8 @@ use std::{
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use sorb::{
     Cpu, World,
-    internal::{
-        self, KERNELS,
-        columns::Columns,
-        kernel::Kernel,
-        need::Need,
-        params::{self, Params},
-    },
-    scene::{Scene, Solver},
+    internal::{self, KERNELS, Verdict, columns::Columns, kernel::Kernel, params::Params},
+    scene::Scene,
 };
 
 /// (name, resolution): 7650 and about 100 000 particles.
@@ -34,19 +28,29 @@ const STEPS: u32 = 5;
 /// Calls after which the columns are restored: most kernels change what they read, such as positions.
 const CALLS: u64 = 16;
 
-fn busy(resolution: f32, solver: Solver) -> Scene {
-    let mut scene = busy::scene("ball_drop", resolution);
-    scene.sponges.iter_mut().for_each(|sponge| sponge.solver = solver);
+/// Names of busy scenes with the keys that are changed in them. A kernel is timed in the first one that runs it.
+const MODELS: [(&str, &[&str]); 8] = [
+    ("ball_drop", &[]),
+    ("ball_drop_smoothed", &[]),
+    ("ball_drop_paper", &[]),
+    ("ball_drop", &["fluid.solver=\"dfsph\""]),
+    ("ball_drop_pbf", &[]),
+    ("ball_drop", &["sponges[0].solver=\"xpbd_neo_hookean\""]),
+    ("ball_drop", &["fluid.no_slip=true", "sponges[0].self_contact=true", "sponges[0].softening=0.5"]),
+    ("ball_drop", &["fluid.viscosity=5", "fluid.viscosity_integration=\"implicit\"", "fluid.no_slip=true"]),
+];
+
+fn scene((name, keys): (&str, &[&str]), resolution: f32) -> Scene {
+    let mut scene = busy::scene(name, resolution);
     if let Some(fluid) = &mut scene.fluid {
         fluid.surface_tension = 0.072;
     }
-    scene
+    scene.with_overrides(keys.iter().copied()).expect("the keys suit the scene")
 }
 
-fn prepared(resolution: f32, solver: Solver) -> World {
-    let scene = busy(resolution, solver);
+fn prepared(scene: &Scene) -> World {
     let run = || {
-        let mut world = World::new(&scene).expect("a preset is valid");
+        let mut world = World::new(scene).expect("a preset is valid");
         for _ in 0..STEPS {
             world.step().expect("a preset is stable");
         }
@@ -58,10 +62,16 @@ fn prepared(resolution: f32, solver: Solver) -> World {
     world
 }
 
-/// The world in which a kernel has work: one per solver.
-fn world_of(kernel: &Kernel) -> usize {
-    let needs = |solver| kernel.needs.contains(&Need::Solver(solver));
-    usize::from(needs(params::Solver::Vbd)) + 2 * usize::from(needs(params::Solver::XpbdNeoHookean))
+/// The first world that runs a kernel.
+fn world_of(kernel: &Kernel, worlds: &[World]) -> Option<usize> {
+    let runs = |world: &World| {
+        world.plan().lines().iter().any(|line| line.name == kernel.name && line.verdict == Verdict::Runs)
+    };
+    let found = worlds.iter().position(runs);
+    if found.is_none() {
+        eprintln!("{}: runs in none of the scenes", kernel.name);
+    }
+    found
 }
 
 /// Time of some calls, in blocks with fresh columns each.
@@ -86,10 +96,9 @@ fn time(kernel: &Kernel, cpu: &Cpu, params: &Params, prepared: &Columns, iterati
 
 fn kernels(criterion: &mut Criterion) {
     for (size, resolution) in SIZES {
-        let worlds =
-            [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean].map(|solver| prepared(resolution, solver));
+        let worlds = MODELS.map(|model| prepared(&scene(model, resolution)));
         for kernel in KERNELS {
-            let world = &worlds[world_of(kernel)];
+            let Some(world) = world_of(kernel, &worlds).map(|index| &worlds[index]) else { continue };
             let mut group = criterion.benchmark_group(kernel.name);
             group.sampling_mode(SamplingMode::Flat);
             let rows = internal::columns(world).rows.of(kernel.writes[0].store());
@@ -111,10 +120,9 @@ fn twins(criterion: &mut Criterion) {
         return;
     };
     for (size, resolution) in SIZES {
-        let mut worlds = [Solver::Sbd, Solver::Vbd, Solver::XpbdNeoHookean]
-            .map(|solver| on_gpu::world(&busy(resolution, solver), &gpu, true));
+        let mut worlds = MODELS.map(|model| on_gpu::world(&scene(model, resolution), &gpu, true));
         for kernel in KERNELS {
-            let world = &mut worlds[world_of(kernel)];
+            let Some(world) = world_of(kernel, &worlds).map(|index| &mut worlds[index]) else { continue };
             let mut group = criterion.benchmark_group(kernel.name);
             group.sampling_mode(SamplingMode::Flat);
             let rows = internal::columns(world).rows.of(kernel.writes[0].store());
