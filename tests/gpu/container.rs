@@ -148,7 +148,7 @@ fn water_in_a_full_vessel_stays_where_it_is() {
             frequency: 4.0,
             start: 0.0,
             end: 1.0,
-            ease: 0.02,
+            ease: 0.1,
         }];
         let (mut world, mut fastest, mut steps) = (world(&scene, offload), 0.0_f32, 0);
         for _ in 0..8 {
