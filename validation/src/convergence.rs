@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
+use libm::log;
+
 use crate::{case::Figure, norms, run::Outcome};
 
 /// Factors on the resolution, a root of two from one to the next: a scene in space has 2.8 times as many particles.
@@ -54,7 +56,7 @@ impl Convergence {
     #[must_use]
     pub fn order(&self) -> Option<f64> {
         let points: Vec<_> =
-            FACTORS.iter().zip(self.errors).map(|(factor, error)| (factor.ln(), error.ln())).collect();
+            FACTORS.iter().zip(self.errors).map(|(factor, error)| (log(*factor), log(error))).collect();
         points.iter().all(|(_, error)| error.is_finite()).then(|| -norms::line(&points).0)
     }
 
