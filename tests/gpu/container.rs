@@ -134,7 +134,7 @@ fn a_container_turns_by_command_and_while_the_world_moves_between_places() {
     assert!(world.gravity().distance(felt) > 1.0);
 }
 
-/// Water without a surface, shaken and at rest: no pressure can meet an error of its density, and none is asked for.
+/// Water without a surface in a vessel that is shaken: no pressure can meet an error of its density, and none is asked for.
 #[test]
 fn water_in_a_full_vessel_stays_where_it_is() {
     let moved = |fill: f32, offload: Offload| {
