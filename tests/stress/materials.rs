@@ -88,7 +88,7 @@ fn implicit_viscosity_over_six_decades() {
             cases.push(Case::new(
                 format!("wet: implicit viscosity 1e{exponent} Pa s{name}"),
                 with(&scene, &keys),
-                pick(0.2, 2.0),
+                pick(0.1, 2.0),
             ));
         }
     }
