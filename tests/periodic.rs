@@ -5,7 +5,7 @@ mod common;
 use sorb::{
     Options, SimdLevel, World,
     glam::{DVec3, Vec3},
-    scene::{Body, Fluid, FluidBlock, FluidSolver, Motion, Scene, ShapeKind},
+    scene::{Body, Fluid, FluidBlock, FluidSolver, Motion, Scene, ShapeKind, ViscosityForm},
 };
 
 const SPACING: f32 = 0.005;
@@ -229,4 +229,29 @@ fn water_runs_through_a_channel_for_ever() {
         common::steps(&mut held, 1);
     }
     assert!(held.measures().linear_momentum.x / mass < 0.5 * speed);
+}
+
+/// The step of explicit viscosity is stable: a slow flow between sticky walls has the speed of Poiseuille, and nothing else moves.
+#[test]
+fn viscous_flow_is_as_slow_as_its_viscosity_says() {
+    // Along the axes of a lattice Monaghan's form has 0.6 of its viscosity (docs/viscosity.md).
+    for (form, most) in [(ViscosityForm::Morris, 1.1), (ViscosityForm::Monaghan, 1.7)] {
+        let mut scene = full([true, false, true]);
+        scene.gravity = Vec3::X;
+        let water = fluid(&mut scene);
+        (water.viscosity, water.viscosity_form, water.no_slip) = (30.0, form, true);
+        let kinematic = water.viscosity / water.rest_density;
+        let mut world = common::world(&scene);
+        // Twice the time in which viscosity crosses the channel.
+        while world.clock().time < f64::from(2.0 * SIZE.y * SIZE.y / kinematic) {
+            common::frame(&mut world);
+        }
+        let expected = SIZE.y * SIZE.y / (8.0 * kinematic);
+        let rows = world.particle_velocities();
+        let fastest = rows.iter().map(|row| row[0]).fold(0.0, f32::max);
+        let across = rows.iter().map(|row| row[1].abs().max(row[2].abs())).fold(0.0, f32::max);
+        let part = fastest / expected;
+        assert!(part > 0.9 && part < most, "{form:?}: {fastest} m/s instead of {expected} m/s");
+        assert!(across < 0.1 * expected, "{form:?}: {across} m/s across the flow of {expected} m/s");
+    }
 }

@@ -15,7 +15,7 @@ enumeration! {
         Courant,
         /// Acceleration over a support radius.
         Acceleration,
-        /// Diffusion of velocity over a support radius. Where viscosity is implicit it is fifty times that, and what stops a body that the
+        /// Diffusion of velocity over a support radius. Where viscosity is implicit it is a hundred times that, and what stops a body that the
         /// fluid does not slide along.
         Viscosity,
         /// Capillary waves.

@@ -193,7 +193,7 @@ pub enum ViscosityIntegration {
     /// As a force at the beginning of the step. The diffusion of velocity over a support radius bounds the step. For water.
     #[default]
     Explicit,
-    /// By a solve for the velocities at the end of the step, numerical viscosity included. Steps may be fifty times as long.
+    /// By a solve for the velocities at the end of the step, numerical viscosity included. Steps may be a hundred times as long.
     /// For honey.
     Implicit,
 }
