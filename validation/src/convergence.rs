@@ -17,7 +17,8 @@ pub const SMALL: f64 = 0.2;
 pub struct Convergence {
     /// What was measured, by its name at the middle one: some names contain a fitted value.
     pub figure: String,
-    /// Its errors, coarsest first.
+    /// Its errors, coarsest first. What a case states in spacings is here in those of the middle resolution: a spacing is no measure of
+    /// itself.
     pub errors: [f64; 3],
     /// The bound of the error at the middle one.
     pub bound: f64,
@@ -47,7 +48,10 @@ impl Convergence {
     }
 
     fn between(coarse: &Figure, middle: &Figure, fine: &Figure) -> Self {
-        let errors = [coarse, middle, fine].map(|figure| figure.error);
+        let mut errors = [coarse, middle, fine].map(|figure| figure.error);
+        if middle.name.contains("over spacings") {
+            errors.iter_mut().zip(FACTORS).for_each(|(error, factor)| *error /= factor);
+        }
         Self { figure: middle.name.clone(), errors, bound: middle.bound }
     }
 
@@ -95,6 +99,14 @@ mod tests {
         assert_eq!(found.trend(), Trend::DoesNotFall);
         // Below a fifth of the bound they may.
         assert_eq!(convergence([0.002, 0.003, 0.004]).trend(), Trend::Small);
+    }
+
+    #[test]
+    fn a_constant_number_of_spacings_is_of_first_order() {
+        let figure = |name: &str| Figure::error(name, "m", 0.3, 0.5);
+        let of = |name: &str| Convergence::between(&figure(name), &figure(name), &figure(name)).order();
+        assert!(of("draft, error over spacings").is_some_and(|order| (order - 1.0).abs() < 1e-12));
+        assert!(of("draft, error over its height").is_some_and(|order| order.abs() < 1e-12));
     }
 
     #[test]
