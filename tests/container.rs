@@ -331,15 +331,6 @@ fn bad_motions_and_paths_are_refused_with_key_value_and_range() {
     assert_eq!(world.digest(), before, "nothing has changed");
 }
 
-/// A vessel that water fills, with or without the topmost tenth.
-fn vessel(fill: f32, gravity: Vec3) -> Scene {
-    let (low, high) = (Vec3::new(-0.03, 0.0, -0.03), Vec3::new(0.03, 0.06, 0.03));
-    let blocks = vec![FluidBlock::new(low, Vec3::new(high.x, fill * high.y, high.z))];
-    // A third of a per cent more than there is room for.
-    let fluid = Fluid { spacing: 0.006_006, blocks, ..Fluid::default() };
-    Scene { gravity, ..Scene::new("vessel") }.in_box(low, high).with_fluid(fluid)
-}
-
 #[test]
 fn water_in_a_full_vessel_stays_where_it_is() {
     let shaken =
@@ -357,11 +348,11 @@ fn water_in_a_full_vessel_stays_where_it_is() {
     };
     for gravity in [Vec3::ZERO, Vec3::Y * -9.81] {
         for motions in [&[][..], &[shaken]] {
-            let (fastest, steps) = moved(&vessel(1.0, gravity), motions);
+            let (fastest, steps) = moved(&common::vessel(1.0, gravity), motions);
             assert!(fastest < 0.02 && steps < 12.0, "{gravity}: {fastest} m/s, {steps} steps a frame");
         }
     }
     // Negative control: with a free surface it sloshes.
-    let (fastest, _) = moved(&vessel(0.9, Vec3::Y * -9.81), &[shaken]);
+    let (fastest, _) = moved(&common::vessel(0.9, Vec3::Y * -9.81), &[shaken]);
     assert!(fastest > 0.2, "{fastest} m/s");
 }

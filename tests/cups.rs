@@ -158,7 +158,7 @@ fn a_cup_that_floats_carries_a_ball_and_stays_dry() {
             .with_body(Body::dynamic("ball", ball, Vec3::Y * 0.12, 400.0));
         let mut world = common::world(&scene);
         let centre = world.bodies()[0].state.position - Vec3::Y * 0.082;
-        for _ in 0..90 {
+        for _ in 0..60 {
             common::frame(&mut world);
         }
         let state = world.bodies()[0].state;

@@ -4,8 +4,8 @@
 //! A panic becomes a status, and the world in which it happened is refused from then on. No side frees what the other allocated. Lengths
 //! come with every buffer, sizes in every struct that may grow.
 //!
-//! What a caller must keep to: a pointer is null or points to as much memory of its type as the function says, a handle was given by this
-//! library and not freed, and no two threads use the same handle at the same time. Nothing else is trusted.
+//! What a caller must keep to: a pointer is null or points to as much memory of its type as the function says. A handle was given by this
+//! library and not freed. No two threads use the same handle at the same time. Nothing else is trusted.
 #![allow(unsafe_code, reason = "pointers of callers; every use says why it is sound")]
 #![allow(clippy::missing_safety_doc, reason = "the crate says once what a caller must keep to")]
 

@@ -60,8 +60,8 @@ columns! {
             needs Incompressible;
         /// Gradient of the boundary volume fraction of walls, bodies and sponges \[1/m\]; w: the fraction \[1\].
         FluidBoundary = boundary: rows("1/m"; SHARE 3 "1"), Scratch, needs Incompressible;
-        /// Acceleration of a particle by its own pressure, over its kinematic pressure. w: compression `rho / rho_0 - 1`
-        /// before the solve or, with one for the divergence, the divergence that the error of the density asks for, times the step.
+        /// Acceleration of a particle by its own pressure, over its kinematic pressure. w: compression `rho / rho_0 - 1` before the
+        /// solve. With a solve for the divergence: the divergence that the error of the density asks for, times the step.
         FluidFactors = factors: rows("1/m"; COMPRESSION 3 "1", TARGET 3 "1"), Scratch, needs Incompressible;
         /// For every entry of the neighbour lists, volume times the gradient of W, over the distance vector.
         FluidPairs = pairs: ListValues("1/m^2"), Scratch on host;

@@ -73,7 +73,7 @@ fn next_sponge(origin: vec3<f32>, direction: vec3<f32>, start: f32) -> Shell {
         return no_shell();
     }
     let facet = facet_of(hit.slot, hit.place);
-    let colour = mix(SHELLS_SPONGE_DRY, SHELLS_SPONGE_SOAKED, smooth_between(0.03, 0.75, facet_mix(facet, 0u).w));
+    let colour = mix(SHELLS_SPONGE_DRY, SHELLS_SPONGE_SOAKED, smooth_between(0.03, 0.75, facet_wetness(facet)));
     return Shell(start + hit.distance, facet_normal(facet), colour, SHELLS_SPONGE_COVER, 6u);
 }
 

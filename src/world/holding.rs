@@ -19,8 +19,8 @@ struct Load {
 }
 
 impl World {
-    /// Why a body cannot hold further nodes; none if it can. The engine does not know what a body holds: a ball that rolls would swing
-    /// nodes that are many radii away with it, at many times its speed.
+    /// Why a body cannot hold further nodes; none if it can. The engine does not know what a body holds. A ball that rolls
+    /// would swing nodes that are many radii away, at many times its speed.
     pub(crate) fn grip_refusal(&self, body: BodyHandle, nodes: &Nodes) -> Option<String> {
         let is_dynamic = self.slots_after_commands().kind(body) == Some(BodyKind::Dynamic);
         is_dynamic.then(|| self.load_refusal(body, Some(nodes))).flatten()

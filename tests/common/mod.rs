@@ -11,7 +11,7 @@ use sorb::{
     Options, World,
     glam::{DVec3, Vec3},
     internal,
-    scene::{self, Domain, Scene},
+    scene::{self, Domain, Fluid, FluidBlock, Scene},
 };
 
 /// A preset, coarser or finer.
@@ -24,6 +24,15 @@ pub(crate) fn preset(name: &str, resolution: f32) -> Scene {
 /// A scene with some keys changed.
 pub(crate) fn with(scene: &Scene, keys: &[&str]) -> Scene {
     scene.with_overrides(keys.iter().copied()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A vessel that water fills, with or without the topmost tenth.
+pub(crate) fn vessel(fill: f32, gravity: Vec3) -> Scene {
+    let (low, high) = (Vec3::new(-0.03, 0.0, -0.03), Vec3::new(0.03, 0.06, 0.03));
+    let blocks = vec![FluidBlock::new(low, Vec3::new(high.x, fill * high.y, high.z))];
+    // A third of a per cent more than there is room for.
+    let fluid = Fluid { spacing: 0.006_006, blocks, ..Fluid::default() };
+    Scene { gravity, ..Scene::new("vessel") }.in_box(low, high).with_fluid(fluid)
 }
 
 /// The world of a scene on two threads, which changes no bit.

@@ -86,8 +86,7 @@ fn places(world: &World) -> [Vec3; 3] {
     [world.bodies()[0].state.position, place(&world.particle_positions()[0]), middle]
 }
 
-/// The same as on the CPU (`tests/container.rs`), where the device takes all of the step, where it shares it with the CPU, and by single
-/// steps.
+/// The same as on the CPU (`tests/container.rs`): where the device takes all of the step, where it shares it, and by single steps.
 #[test]
 fn what_is_free_stays_where_it_is_outside() {
     let shared = "each:all=gpu,sph::kick=cpu,pbd::velocity=cpu".parse().expect("two places");
@@ -138,11 +137,7 @@ fn a_container_turns_by_command_and_while_the_world_moves_between_places() {
 #[test]
 fn water_in_a_full_vessel_stays_where_it_is() {
     let moved = |fill: f32, offload: Offload| {
-        let (low, high) = (Vec3::new(-0.03, 0.0, -0.03), Vec3::new(0.03, 0.06, 0.03));
-        let blocks = vec![FluidBlock::new(low, high.with_y(fill * high.y))];
-        // A third of a per cent more than there is room for.
-        let fluid = Fluid { spacing: 0.006_006, blocks, ..Fluid::default() };
-        let mut scene = Scene::new("vessel").in_box(low, high).with_fluid(fluid);
+        let mut scene = common::vessel(fill, Vec3::Y * -9.81);
         scene.container.motions = vec![Motion::Shake {
             amplitude: Vec3::X * 0.02,
             frequency: 4.0,

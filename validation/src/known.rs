@@ -51,6 +51,12 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     ),
     miss(
         "dam_spheric",
+        "divergence",
+        "largest height at H2",
+        "9.3, 10.1 and 17.4 % at 0.7, 1 and 1.4 times the resolution: chaotic, and less damped by finer particles",
+    ),
+    miss(
+        "dam_spheric",
         "wcsph",
         "",
         "probably as in `hydrostatic`: walls do not count in the density; the water is compressible",

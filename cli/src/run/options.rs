@@ -17,8 +17,7 @@ pub(crate) struct Arguments {
     scene: Option<String>,
     #[command(flatten)]
     pub(super) changes: Changes,
-    /// Continues the run that left this save, with its scene: results, and tables in the same folder, are those of a run that
-    /// was never interrupted
+    /// Continues the run that left this save, with its scene: results and tables are as if nothing had interrupted it
     #[arg(long, value_name = "SAVE", conflicts_with_all = ["scene", "quality", "set", "resolution"])]
     pub(super) from: Option<PathBuf>,
     /// Writes the state to the folder of the results whenever this time has passed in the scene, in s: `state.sorb`

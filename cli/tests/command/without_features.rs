@@ -1,7 +1,7 @@
 //! What a program without a feature refuses, and how it says where the feature is.
 //!
-//! A program that has the feature is no subject of these tests: there they ask for one that lacks it, whose path is in the variable
-//! `SORB_WITHOUT_FEATURES`.
+//! A program that has the feature is no subject of these tests. There they ask for one that lacks it: the variable
+//! `SORB_WITHOUT_FEATURES` has its path.
 
 use std::path::Path;
 

@@ -9,7 +9,7 @@
 //! volume that the porosity leaves, and release it under compression. The volume of the material is constant.
 //!
 //! In the solve that follows, the motion of nodes is prescribed. They move to their expected positions at the end of the
-//! step, with the share s of the external acceleration that they followed in the last step (`pbd::guess`),
+//! step. These have the share s of the external acceleration that the nodes followed in the last step (`pbd::guess`),
 //!
 //! ```text
 //! x*_a = x_a + h (u_a + h s a_a)

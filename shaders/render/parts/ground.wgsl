@@ -1,6 +1,6 @@
 // Light that arrives on the floor, and the heights of what it meets before, on square maps.
 
-// The light on every texel of the floor with its wetness, then for every texel the ways along the light to the first solid and to the
+// The light on every texel of the floor with its wetness. Then, for every texel, the ways along the light to the first solid and to the
 // first water (m).
 @group(0) @binding(5) var<storage, read> ground: array<vec4<f32>>;
 

@@ -38,7 +38,7 @@ fn matt(colour: vec3<f32>, normal: vec3<f32>, shadow: vec2<f32>) -> vec3<f32> {
 
 fn sponge_light(facet: Facet, arrival: Arrival, shadow: vec2<f32>) -> Surface {
     let width = arrival.way * scene.pixel;
-    let film = max(facet_mix(facet, 1u).w, select(0.0, 1.0, arrival.film));
+    let film = max(facet_film(facet), select(0.0, 1.0, arrival.film));
     let skin = skin_of(facet, arrival.direction, width, film);
     let lit = shadow.x;
     // The material scatters, so that light reaches around it.
@@ -135,7 +135,7 @@ fn shine(matter: Matter, arrival: Arrival, met: u32) -> Shine {
                 surface = sponge_light(facet, arrival, shadow);
             } else {
                 let normal = facet_normal(facet);
-                surface = Surface(matt(colour_map(facet_mix(facet, 0u).w), normal, shadow), normal, 0.0);
+                surface = Surface(matt(colour_map(facet_wetness(facet)), normal, shadow), normal, 0.0);
             }
         } else if (matter.kind == MATTER_BEAD) {
             let normal = matter.place;

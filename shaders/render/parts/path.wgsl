@@ -63,8 +63,8 @@ fn pane_of(path: Path, distance: f32) -> Path {
     return after;
 }
 
-// The rays of a path: it goes on, or looks along a mirrored ray, or for what is in a body that it passes, or for what ends the water of
-// the fast view, or for what is below that.
+// The rays of a path. It goes on, looks along a mirrored ray, or looks for what is in a body that it passes. In the fast view it also looks
+// for what ends the water, and for what is below that.
 struct Ray {
     kind: u32,
     origin: vec3<f32>,

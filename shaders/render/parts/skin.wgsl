@@ -29,6 +29,14 @@ fn facet_mix(facet: Facet, row: u32) -> vec4<f32> {
         + mesh[facet.nodes.z + row] * facet.weights.z;
 }
 
+fn facet_wetness(facet: Facet) -> f32 {
+    return facet_mix(facet, 0u).w;
+}
+
+fn facet_film(facet: Facet) -> f32 {
+    return facet_mix(facet, 1u).w;
+}
+
 fn facet_normal(facet: Facet) -> vec3<f32> {
     return unit_or(facet_mix(facet, 1u).xyz, vec3(0.0));
 }
@@ -90,7 +98,7 @@ fn is_notched(facet: Facet, direction: vec3<f32>, exit: f32) -> bool {
 //
 // `pixel` is the side of a pixel there (m): finer detail is left out. `film` is the wetness of water on it.
 fn skin_of(facet: Facet, direction: vec3<f32>, pixel: f32, film: f32) -> Skin {
-    let wet = max(facet_mix(facet, 0u).w, film);
+    let wet = max(facet_wetness(facet), film);
     let normal = facet_normal(facet);
     let place = facet_mix(facet, 2u).xyz;
     let start = foam_distance(place);

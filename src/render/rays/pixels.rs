@@ -94,7 +94,7 @@ impl Sample {
     /// Whether every channel differs by less than a limit.
     #[inline]
     fn is_like(self, other: Self, limit: u64) -> bool {
-        // The guard of a channel is set from a difference of one less than the limit below zero on, and again cleared where the
+        // The guard of a channel is set from a difference of one less than the limit below zero on. It is cleared again where the
         // difference reaches the limit.
         let above = (self.colour | GUARDS) - other.colour + ONES * (limit - 1);
         above & !(above - ONES * (2 * limit - 1)) & GUARDS == GUARDS
