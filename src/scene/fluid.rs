@@ -60,7 +60,7 @@ pub struct Fluid {
     pub viscosity: f32,
     /// Form of the viscosity between neighbours; default `morris`.
     pub viscosity_form: ViscosityForm,
-    /// How viscosity is integrated; default `explicit`. `implicit` is faster above about 10 Pa s at a spacing of 5 mm.
+    /// How viscosity is integrated; default `explicit`. `implicit` is faster above some Pa s at a spacing of 5 mm.
     pub viscosity_integration: ViscosityIntegration,
     /// Tolerance of the solve for `implicit` viscosity: residual over the change of the velocities in a step. Range 1e-6 to
     /// 0.1; default 0.001.
