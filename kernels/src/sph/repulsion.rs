@@ -18,6 +18,8 @@ use crate::{
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
+use super::obstacles::near;
+
 declare! {
     needs: [Fluid, Obstacles, EquationOfState],
     reads: [FluidPosition, FluidVelocity, FluidAcceleration, BodyStates],
@@ -56,7 +58,7 @@ impl Task<'_> {
     #[inline(always)]
     fn chunk<S: Simd>(&self, simd: S, first: usize, acceleration: &mut [[f32; 4]], wrenches: &mut [Wrench]) {
         let end = (first + acceleration.len()).min(self.position.len());
-        let near = self.near_bodies(&self.position[first..end]);
+        let near = near(self.bodies, &self.position[first..end], self.params.fluid.repulsion_range);
         let placed: Vec<(usize, Placed<'_, S>)> =
             near.into_iter().map(|body| (body, Placed::new(simd, &self.bodies[body]))).collect();
         for row in (0..acceleration.len()).step_by(LANES) {
@@ -83,25 +85,6 @@ impl Task<'_> {
             }
             lanes::store_rows(acceleration, row, [sum[0], sum[1], sum[2], aw]);
         }
-    }
-
-    /// Bodies whose bounding sphere comes near the box of the points.
-    #[inline(always)]
-    fn near_bodies(&self, points: &[[f32; 4]]) -> Vec<usize> {
-        if self.bodies.is_empty() {
-            return Vec::new();
-        }
-        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for point in points.iter().filter(|point| point[0] < crate::column::FAR) {
-            low = [0, 1, 2].map(|axis| low[axis].min(point[axis]));
-            high = [0, 1, 2].map(|axis| high[axis].max(point[axis]));
-        }
-        let is_near = |body: &Body| {
-            let reach = body.shape.bounding_radius() + self.params.fluid.repulsion_range;
-            let centre = body.state.position.to_array();
-            (0..3).all(|axis| centre[axis] + reach > low[axis] && centre[axis] - reach < high[axis])
-        };
-        (0..self.bodies.len()).filter(|body| is_near(&self.bodies[*body])).collect()
     }
 
     /// Acceleration along the normal, from the distance and the speed along the normal.
