@@ -7,7 +7,7 @@ use sorb::{
 };
 
 /// Time at which a plate slides away below what stands on it \[s\].
-pub(crate) const START: f64 = 1.2;
+pub(crate) const START: f64 = 2.0;
 
 /// A pool behind a dam, with a speed; the other half of the box is dry. The step is short enough for all of it.
 pub(crate) fn basin(speed: f32) -> Scene {
