@@ -1,8 +1,8 @@
 //! Every kernel of the table, on the columns of the first scene of a list that runs it.
 //!
 //! The scenes are `ball_drop` with the ball on the sponge and with surface tension, in the models that scenes can name. They have the
-//! paper's size and 100 000 particles. With the feature `gpu` also the twins, on the best adapter of the machine. There a kernel is timed by
-//! time stamps of the device, within whole steps.
+//! paper's size and 100 000 particles. With the feature `gpu` also the twins, on the best adapter of the machine. There a kernel is
+//! timed by time stamps of the device, within whole steps.
 
 #[path = "../tests/common/busy.rs"]
 mod busy;

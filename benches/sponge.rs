@@ -1,6 +1,7 @@
 //! The elastic bar under gravity: whole steps and single sweeps of every solver.
 //!
-//! The bar has 1 m x 0.5 m x 0.5 m and 11 008 tets. One face is pinned, and steps have 5 ms. Young's modulus 1e6 Pa, Poisson's ratio 0.3, 1000 kg/m^3. The digest of a sample is compared with that of the others.
+//! The bar has 1 m x 0.5 m x 0.5 m and 11 008 tets. One face is pinned, and steps have 5 ms. Young's modulus is 1e6 Pa, Poisson's
+//! ratio 0.3, the density 1000 kg/m^3. The digest of a sample is compared with that of the others.
 
 use std::{
     cell::Cell,

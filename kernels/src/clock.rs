@@ -15,8 +15,8 @@ enumeration! {
         Courant,
         /// Acceleration over a support radius.
         Acceleration,
-        /// Diffusion of velocity over a support radius. Where viscosity is implicit it is a hundred times that, and what stops a body that the
-        /// fluid does not slide along.
+        /// Diffusion of velocity over a support radius. Where viscosity is implicit it is a hundred times that, and what stops a body
+        /// that the fluid does not slide along.
         Viscosity,
         /// Capillary waves.
         SurfaceTension,

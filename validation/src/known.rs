@@ -53,7 +53,7 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "dam_spheric",
         "divergence",
         "largest height at H2",
-        "9.3, 10.1 and 17.4 % at 0.7, 1 and 1.4 times the resolution: chaotic, and less damped by finer particles",
+        "9.3, 10.1 and 17.4 % at 0.7, 1 and 1.4 times the resolution on a GPU; cause unknown",
     ),
     miss(
         "dam_spheric",
