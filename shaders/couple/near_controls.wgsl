@@ -1,65 +1,44 @@
-// #include grid
+// #include grid, ball
 // For every control, the particles within the coupling radius. Thirty-two threads share a control: each takes some rows of
 // cells, and knows the slots of its entries once all have counted.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
-@group(0) @binding(2) var<uniform> fluid_grid: Grid;
+@group(0) @binding(2) var<uniform> grid: Grid;
 @group(0) @binding(3) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> fluid_position: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> fluid_starts: array<u32>;
+@group(0) @binding(5) var<storage, read> starts: array<u32>;
 @group(0) @binding(6) var<storage, read_write> control_fluid: array<u32>;
 @group(0) @binding(7) var<storage, read_write> extremes: array<atomic<u32>>;
 
-var<workgroup> found: array<u32, GROUP_THREADS>;
+var<workgroup> counted: array<u32, GROUP_THREADS>;
 
-// Visits the rows of cells of one thread. It counts the points within the radius, and writes them from `slot` on, up to `last` if that is
-// not before it.
-fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
+struct Found {
+    count: u32,
+    // Where the next one is written, up to the last place.
+    slot: u32,
+    last: u32,
+}
+
+fn visit_run(before: Found, point: vec3<f32>, begin: u32, end: u32) -> Found {
+    var found = before;
     let radius = params.coupling.support_radius;
-    let square = radius * radius;
-    let cell_square = square * fluid_grid.inverse_edge * fluid_grid.inverse_edge;
-    let reach = radius * fluid_grid.inverse_edge;
-    let at = vec3<f32>(
-        coordinate_of(fluid_grid, point.x, 0u),
-        coordinate_of(fluid_grid, point.y, 1u),
-        coordinate_of(fluid_grid, point.z, 2u),
-    );
-    let span_y = cells_around(fluid_grid, at.y, reach + slack(at.y), 1u);
-    let span_z = cells_around(fluid_grid, at.z, reach + slack(at.z), 2u);
-    let wide = span_y.y - span_y.x + 1;
-    let lines = wide * (span_z.y - span_z.x + 1);
-    var count = 0u;
-    for (var index = i32(sub); index < lines; index += 32) {
-        let z = span_z.x + index / wide;
-        let y = span_y.x + index % wide;
-        let dz = slab_distance(fluid_grid, at.z, z, 2u);
-        let dy = slab_distance(fluid_grid, at.y, y, 1u);
-        let chord = cell_square - dy * dy - dz * dz;
-        if (chord <= 0.0) {
-            continue;
-        }
-        let line = (wrapped(fluid_grid, z, 2u) * fluid_grid.size.y + wrapped(fluid_grid, y, 1u)) * fluid_grid.size.x;
-        let span_x = cells_around(fluid_grid, at.x, sqrt(chord) + slack(at.x), 0u);
-        var x = span_x.x;
-        // One run, or two where it crosses the end of the torus.
-        while (x <= span_x.y) {
-            let first = wrapped(fluid_grid, x, 0u);
-            let end_cell = min(first + u32(span_x.y - x), fluid_grid.size.x - 1u);
-            x += i32(end_cell - first) + 1;
-            let end = fluid_starts[line + end_cell + 1u];
-            for (var other = fluid_starts[line + first]; other < end; other += 1u) {
-                let apart = point - fluid_position[other].xyz;
-                if (dot(apart, apart) < square) {
-                    if (slot + count <= last) {
-                        control_fluid[slot + count] = other;
-                    }
-                    count += 1u;
-                }
+    for (var other = begin; other < end; other += 1u) {
+        let apart = point - fluid_position[other].xyz;
+        if (dot(apart, apart) < radius * radius) {
+            if (found.slot <= found.last) {
+                control_fluid[found.slot] = other;
             }
+            found.slot += 1u;
+            found.count += 1u;
         }
     }
-    return count;
+    return found;
+}
+
+// Counts what a thread finds, and writes it from a slot on, up to `last` if that is not before it.
+fn visit(point: vec3<f32>, sub: u32, slot: u32, last: u32) -> u32 {
+    return visit_ball(Found(0u, slot, last), point, params.coupling.support_radius, sub, CONTROL_THREADS).count;
 }
 
 @compute @workgroup_size(GROUP_THREADS)
@@ -81,11 +60,11 @@ fn main(
     if (is_row && query[CONTROL_POSITION_VOLUME] > 0.0) {
         own = visit(point, sub, 1u, 0u);
     }
-    found[lane] = own;
+    counted[lane] = own;
     workgroupBarrier();
     var before = 0u;
     for (var other = lane - sub; other < lane; other += 1u) {
-        before += found[other];
+        before += counted[other];
     }
     if (!is_row) {
         return;

@@ -1,30 +1,22 @@
-// #include grid, shares, ball
-// For every particle, the images within the support radius; the list has the layout of `fluid_neighbors.wgsl`.
+// #include grid, shares, ball, near, near_list
+// For every particle, the images within the support radius.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> grid: Grid;
 @group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> points: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> targets: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> starts: array<u32>;
 @group(0) @binding(6) var<storage, read> image_order: array<u32>;
-@group(0) @binding(7) var<storage, read_write> fluid_near_images: array<u32>;
+@group(0) @binding(7) var<storage, read_write> list: array<u32>;
 @group(0) @binding(8) var<storage, read_write> extremes: array<atomic<u32>>;
 
-var<private> list_row: u32;
+fn lists() -> Lists {
+    return Lists(params.fluid_rows, params.near_image_capacity, params.smoothing.support_radius);
+}
 
-fn visit_run(point: vec3<f32>, begin: u32, end: u32) {
-    let radius = params.smoothing.support_radius;
-    for (var place = begin; place < end; place += 1u) {
-        let image = image_order[place];
-        let apart = point - points[image].xyz;
-        if (dot(apart, apart) < radius * radius) {
-            if (found < params.near_image_capacity) {
-                fluid_near_images[list_row + (found + 1u) * params.fluid_rows] = image;
-            }
-            found += 1u;
-        }
-    }
+fn target_at(place: u32) -> u32 {
+    return image_order[place];
 }
 
 @compute @workgroup_size(GROUP)
@@ -37,13 +29,5 @@ fn main(
         return;
     }
     let share = shared_row(group, groups, lane, params.fluid_rows);
-    let capacity = params.near_image_capacity;
-    list_row = share.row;
-    let length = find(share, lane, fluid_position[share.row].xyz, params.smoothing.support_radius, capacity);
-    if (share.is_last) {
-        fluid_near_images[share.row] = length;
-        if (length > capacity) {
-            atomicMax(&extremes[EXTREME_NEAR_IMAGES], length);
-        }
-    }
+    list_near(share, lane, fluid_position[share.row].xyz, params.smoothing.support_radius, EXTREME_NEAR_IMAGES);
 }

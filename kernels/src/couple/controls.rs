@@ -24,8 +24,13 @@ declare! {
         pass("grid::scan_pages", ControlPages).on(CONTROL_CELLS),
         pass("grid::scatter", Nodes).on(CONTROL_CELLS),
         pass(NAME, Nodes),
-        pass("couple::near_fluid", Fluid).on(CONTROL_CELLS),
-        pass("couple::near_controls", Controls),
+        pass("couple::near_fluid", Fluid).on(&[
+            ("grid", "control_grid"),
+            ("starts", "control_starts"),
+            ("targets", "control_position"),
+            ("list", "fluid_controls"),
+        ]),
+        pass("couple::near_controls", Controls).on(FLUID_CELLS),
         CHECK,
     ],
 }

@@ -36,8 +36,18 @@ declare! {
         pass("grid::scan_pages", ImagePages).on(IMAGE_CELLS),
         pass("grid::scatter", Images).on(IMAGE_CELLS),
         pass("divergence::image_order", Images).on(IMAGE_CELLS),
-        pass("divergence::near_images", Fluid).on(IMAGE_CELLS),
-        pass("divergence::image_particles", ImagesOfBodies).on(FLUID_CELLS),
+        pass("divergence::near_images", Fluid).on(&[
+            ("grid", "image_grid"),
+            ("starts", "image_starts"),
+            ("targets", "image_position"),
+            ("list", "fluid_near_images"),
+        ]),
+        pass("divergence::image_particles", ImagesOfBodies).on(&[
+            ("grid", "fluid_grid"),
+            ("starts", "fluid_starts"),
+            ("targets", "fluid_position"),
+            ("list", "image_particles"),
+        ]),
         CHECK,
     ],
 }

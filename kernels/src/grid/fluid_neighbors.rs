@@ -15,7 +15,7 @@ declare! {
     bound: 0.0,
     // The search has every pair at hand, and notes the longest list that does not fit.
     twin_writes: [FluidDensity, FluidExtremes],
-    twin: [pass(NAME, Fluid), CHECK],
+    twin: [pass(NAME, Fluid).on(FLUID_CELLS), CHECK],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {

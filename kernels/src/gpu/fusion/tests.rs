@@ -111,8 +111,7 @@ fn rows_of_threads_have_their_name() {
         }
         for (before, after) in occurrences(text, "row").filter(|_| is_of_rows) {
             let is_parameter = after.starts_with(": u32") && !before.trim_end().ends_with("var<private>");
-            let calls =
-                ["reflected", "search", "insert"].iter().any(|name| before.ends_with(&format!("fn {name}(")));
+            let calls = ["reflected", "insert"].iter().any(|name| before.ends_with(&format!("fn {name}(")));
             assert!(!is_parameter || calls, "{}: a parameter of this name may be another row", pass.shader);
         }
     }
