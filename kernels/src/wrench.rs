@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::cpu::CHUNK;
+
 /// Impulses of fluid and sponges on a body in one step, summed in f64 in a fixed order.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
@@ -17,6 +19,12 @@ impl Wrench {
         self.impulse += impulse;
         self.angular_impulse += arm.cross(impulse);
     }
+}
+
+/// A wrench without impulses for every chunk of rows and every body.
+pub(crate) fn begin(wrenches: &mut Vec<Wrench>, rows: usize, bodies: usize) {
+    wrenches.clear();
+    wrenches.resize(rows.div_ceil(CHUNK) * bodies, Wrench::default());
 }
 
 /// The impulses of every chunk of rows on every body; chunks beyond the given number are left out.

@@ -1,15 +1,19 @@
-// #include smoothing, images, image, shares
+// #include smoothing, images, image, shares, push_on_image
 // First pass of `divergence::acceleration`: what images in bodies receive by the pressure.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> image_grid: Grid;
-@group(0) @binding(3) var<storage, read> fluid_predicted: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> points: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> image_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> image_particles: array<u32>;
 @group(0) @binding(6) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> fluid_renormalisation_between: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> image_forces: array<vec4<f32>>;
+
+fn pressure_of(there: vec4<f32>) -> f32 {
+    return there[FLUID_PREDICTED_PRESSURE];
+}
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -23,17 +27,7 @@ fn main(
     let share = shared_row(group, groups, lane, image_grid.rows);
     let row = share.row;
     let point = image_position[row];
-    var sum = vec3<f32>(0.0);
-    let end = image_particles[row];
-    for (var k = share.first; k < end; k += SHARES) {
-        let other = image_particles[row + (k + 1u) * params.image_capacity];
-        let there = fluid_predicted[other];
-        let apart = apart_from(point.xyz, there.xyz);
-        let along = fluid_renormalisation[other].xyz;
-        let between = fluid_renormalisation_between[other].xyz;
-        sum += (pair_factor(apart) * there[FLUID_PREDICTED_PRESSURE]) * symmetric_times(along, between, apart);
-    }
-    let all = share_sum3(lane, sum);
+    let all = push_on_image(share, lane, point.xyz);
     if (share.writes) {
         image_forces[row] = vec4<f32>(all * point[IMAGE_RATIO], 0.0);
     }

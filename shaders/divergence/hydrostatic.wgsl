@@ -1,4 +1,4 @@
-// #include smoothing, images, image, shares
+// #include smoothing, images, image, shares, hydrostatic
 // Second pass of `divergence::hydrostatic`: by the images in the list of the particle, and by the counterparts of those in walls.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
@@ -10,11 +10,6 @@
 @group(0) @binding(6) var<storage, read> fluid_renormalisation: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read> fluid_renormalisation_between: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
-
-// Difference of the hydrostatic pressure over a distance; along axes on which space repeats there is no bottom.
-fn difference(way: vec3<f32>) -> f32 {
-    return 0.5 * dot(select(params.gravity, vec3<f32>(0.0), params.periods > vec3<f32>(0.0)), way);
-}
 
 @compute @workgroup_size(GROUP)
 fn main(

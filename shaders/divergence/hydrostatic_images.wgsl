@@ -1,10 +1,10 @@
-// #include smoothing, images, image, shares
+// #include smoothing, images, image, shares, push_on_image, hydrostatic
 // First pass of `divergence::hydrostatic`: what images in bodies receive.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<uniform> image_grid: Grid;
-@group(0) @binding(3) var<storage, read> fluid_position: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> points: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> image_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> images: array<Image>;
 @group(0) @binding(6) var<storage, read> image_particles: array<u32>;
@@ -12,9 +12,8 @@
 @group(0) @binding(8) var<storage, read> fluid_renormalisation_between: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> image_forces: array<vec4<f32>>;
 
-// Difference of the hydrostatic pressure over a distance; along axes on which space repeats there is no bottom.
-fn difference(way: vec3<f32>) -> f32 {
-    return 0.5 * dot(select(params.gravity, vec3<f32>(0.0), params.periods > vec3<f32>(0.0)), way);
+fn pressure_of(there: vec4<f32>) -> f32 {
+    return 1.0;
 }
 
 @compute @workgroup_size(GROUP)
@@ -29,18 +28,9 @@ fn main(
     let share = shared_row(group, groups, lane, image_grid.rows);
     let row = share.row;
     let point = image_position[row];
-    var sum = vec3<f32>(0.0);
-    let end = image_particles[row];
-    for (var k = share.first; k < end; k += SHARES) {
-        let other = image_particles[row + (k + 1u) * params.image_capacity];
-        let apart = apart_from(point.xyz, fluid_position[other].xyz);
-        let along = fluid_renormalisation[other].xyz;
-        let between = fluid_renormalisation_between[other].xyz;
-        sum += pair_factor(apart) * symmetric_times(along, between, apart);
-    }
-    let all = share_sum3(lane, sum);
+    let all = push_on_image(share, lane, point.xyz);
     if (share.writes) {
-        let d = difference(point.xyz - fluid_position[images[row].source].xyz);
+        let d = difference(point.xyz - points[images[row].source].xyz);
         image_forces[row] = vec4<f32>(all * (point[IMAGE_RATIO] * d), 0.0);
     }
 }

@@ -1,4 +1,4 @@
-// #include smoothing, images, body, surface
+// #include smoothing, images, sum_of_shapes, body, surface
 // Deficit of neighbours of particles near the surface of the fluid.
 //
 //     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
@@ -44,19 +44,10 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
     let point = fluid_position[row].xyz;
-    let end = fluid_neighbors[row];
-    var slot = row;
-    var sum = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let apart = apart_from(point, fluid_position[fluid_neighbors[slot]].xyz);
-        sum += shape(closeness(params.cohesion, dot(apart, apart)));
-    }
-    let there = sum * (params.cohesion.value * params.cohesion_volume);
+    let there = sum_of_shapes(params.cohesion, row) * (params.cohesion.value * params.cohesion_volume);
     fluid_deficit[row] = weight(max(FULL_SHARE - there - share_at(point), 0.0));
 }

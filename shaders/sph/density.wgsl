@@ -1,4 +1,4 @@
-// #include smoothing, images
+// #include smoothing, images, sum_of_shapes
 // Mass density by summation over existing lists.
 //
 //     rho_i = sum_j m W(|x_i - x_j|)
@@ -16,18 +16,8 @@ fn main(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let row = row_of(group, groups, lane);
-    let rows = params.fluid_rows;
-    if (clock.running == 0u || row >= rows) {
+    if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let point = fluid_position[row].xyz;
-    let end = fluid_neighbors[row];
-    var slot = row;
-    var sum = 0.0;
-    for (var k = 0u; k < end; k += 1u) {
-        slot += rows;
-        let apart = apart_from(point, fluid_position[fluid_neighbors[slot]].xyz);
-        sum += shape(closeness(params.smoothing, dot(apart, apart)));
-    }
-    fluid_density[row] = sum * (params.smoothing.value * params.particle_mass);
+    fluid_density[row] = sum_of_shapes(params.smoothing, row) * (params.smoothing.value * params.particle_mass);
 }

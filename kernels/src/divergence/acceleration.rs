@@ -12,19 +12,19 @@
 use glam::Vec3;
 
 use crate::{
-    body::Wrench,
-    columns::{BodyStore, Columns, Fluid},
-    cpu::{CHUNK, Cpu, PerChunk},
+    columns::{BodyStore, Columns},
+    cpu::{Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES},
     params::Params,
     periodic::with_space,
     sph::obstacles::per_chunk,
     vector::{plus, times},
+    wrench,
 };
 
 use super::{
-    image_rows::{ImageRows, NO_BODY},
+    image_rows::NO_BODY,
     rate::Pushing,
     reflect::{react, vector},
 };
@@ -40,7 +40,7 @@ declare! {
     oracle: crate::oracle::divergence::acceleration,
     bound: 1e-5,
     twin: [
-        pass("divergence::acceleration_images", ImagesOfBodies),
+        pass("divergence::acceleration_images", ImagesOfBodies).on(&[("points", "fluid_predicted")]),
         pass(NAME, Fluid),
         pass("divergence::acceleration_walls", Fluid),
         pass("divergence::image_reaction", FluidBesideBodies).from("push").on(&[
@@ -60,13 +60,13 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let (fluid, store) = (&mut columns.fluid, &mut columns.bodies);
     let mut force = std::mem::take(&mut fluid.image_force);
     let mut correction = std::mem::take(&mut fluid.correction);
-    on_images(cpu, params, fluid, &mut force);
     correction.resize(fluid.predicted.len(), [0.0; 4]);
     let particles = Pushing {
         points: &fluid.predicted,
         along: &fluid.renormalisation,
         between: &fluid.renormalisation_between,
     };
+    particles.on_images::<true>(cpu, params, &fluid.images, &mut force);
     let images = Pushing {
         points: &fluid.image_predicted.0,
         along: &fluid.image_renormalisation.0,
@@ -74,8 +74,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     };
     let BodyStore { states, pressure_wrenches, .. } = store;
     let bodies = &states.0;
-    pressure_wrenches.0.clear();
-    pressure_wrenches.0.resize(correction.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
+    wrench::begin(&mut pressure_wrenches.0, correction.len(), bodies.len());
     let mut wrenches = per_chunk(&mut pressure_wrenches.0, correction.len(), bodies.len());
     cpu.for_chunks((&mut correction[..], PerChunk(&mut wrenches)), |first, (correction, wrenches)| {
         let (lists, pairs) = (fluid.neighbors.chunk(first), fluid.pairs.chunk(first));
@@ -110,31 +109,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     });
     (fluid.correction, fluid.image_force) = (correction, force);
     push_bodies(store);
-}
-
-/// What images in bodies receive.
-fn on_images(cpu: &Cpu, params: &Params, fluid: &Fluid, force: &mut ImageRows) {
-    let images = &fluid.images;
-    force.0.resize(images.position.len(), [0.0; 4]);
-    if !images.has_bodies {
-        force.0.fill([0.0; 4]);
-        return;
-    }
-    let particles = Pushing {
-        points: &fluid.predicted,
-        along: &fluid.renormalisation,
-        between: &fluid.renormalisation_between,
-    };
-    cpu.for_chunks(&mut force.0[..], |first, force| {
-        with_space!(cpu, params, simd, space => {
-            for row in (0..force.len()).step_by(LANES) {
-                let [x, y, z, _] = lanes::load_rows(simd, &images.position, first + row);
-                let [x, y, z] =
-                    particles.sum::<_, true>((simd, space), [x, y, z], images.seen_by(first, row));
-                lanes::store_rows(force, row, [x, y, z, lanes::splat(simd, 0.0)]);
-            }
-        });
-    });
 }
 
 /// Velocities of the bodies.

@@ -12,13 +12,14 @@
 use crate::{
     body::{Body, Wrench},
     columns::{Columns, Fluid},
-    cpu::{CHUNK, Cpu, PerChunk},
+    cpu::{Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, prelude::*},
     params::Params,
     periodic::{Space, with_space},
     sph::obstacles::per_chunk,
     vector::{Vec3x8, dot, plus, times},
+    wrench,
 };
 
 use super::{
@@ -38,7 +39,7 @@ declare! {
     oracle: crate::oracle::divergence::hydrostatic,
     bound: 1e-5,
     twin: [
-        pass("divergence::hydrostatic_images", ImagesOfBodies),
+        pass("divergence::hydrostatic_images", ImagesOfBodies).on(&[("points", "fluid_position")]),
         pass(NAME, Fluid),
         pass("divergence::image_reaction", FluidBesideBodies).on(&[
             ("points", "fluid_position"),
@@ -56,10 +57,14 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let fluid = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.fluid_wrenches.0;
-    wrenches.clear();
-    wrenches.resize(fluid.position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
+    wrench::begin(wrenches, fluid.position.len(), bodies.len());
     let mut force = std::mem::take(&mut fluid.image_force);
-    on_images(cpu, params, fluid, &mut force);
+    let particles = Pushing {
+        points: &fluid.position,
+        along: &fluid.renormalisation,
+        between: &fluid.renormalisation_between,
+    };
+    particles.on_images::<false>(cpu, params, &fluid.images, &mut force);
     let mut acceleration = std::mem::take(&mut fluid.acceleration);
     let mut wrenches = per_chunk(wrenches, acceleration.len(), bodies.len());
     let task = Task { params, bodies, fluid, force: &force };
@@ -69,32 +74,6 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         task.in_bodies(first, &mut acceleration[..used], wrenches.0[0]);
     });
     (fluid.acceleration, fluid.image_force) = (acceleration, force);
-}
-
-/// `d_g sum_j c_gj L_j (x_g - x_j)` of the images in bodies.
-fn on_images(cpu: &Cpu, params: &Params, fluid: &Fluid, force: &mut ImageRows) {
-    let images = &fluid.images;
-    force.0.resize(images.position.len(), [0.0; 4]);
-    if !images.has_bodies {
-        force.0.fill([0.0; 4]);
-        return;
-    }
-    let particles = Pushing {
-        points: &fluid.position,
-        along: &fluid.renormalisation,
-        between: &fluid.renormalisation_between,
-    };
-    cpu.for_chunks(&mut force.0[..], |first, force| {
-        with_space!(cpu, params, simd, space => {
-            for row in (0..force.len()).step_by(LANES) {
-                let [x, y, z, _] = lanes::load_rows(simd, &images.position, first + row);
-                let [_, _, _, lift] = lanes::load_rows(simd, &images.lift, first + row);
-                let sum = particles.sum::<_, false>((simd, space), [x, y, z], images.seen_by(first, row));
-                let [x, y, z] = times(sum, -lift);
-                lanes::store_rows(force, row, [x, y, z, lanes::splat(simd, 0.0)]);
-            }
-        });
-    });
 }
 
 struct Task<'a> {

@@ -6,13 +6,18 @@
 
 use crate::{
     columns::Fluid,
+    cpu::Cpu,
     lanes::{self, LANES, Simd, f32x8},
     layout::constants,
-    periodic::Space,
+    params::Params,
+    periodic::{Space, with_space},
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
-use super::{image_rows::ImageRows, symmetric::Symmetric};
+use super::{
+    image_rows::{ImageRows, Images},
+    symmetric::Symmetric,
+};
 
 constants! {
     /// Density over that at rest below which a particle has no pressure.
@@ -89,5 +94,35 @@ impl Pushing<'_> {
             sum = plus(sum, times(other.times(space.apart(point, [xj, yj, zj])), push));
         }
         sum
+    }
+
+    /// What images in bodies receive: by the pressures, or without `PRESSURE` by the weight of the water between them and their particles.
+    pub(super) fn on_images<const PRESSURE: bool>(
+        self,
+        cpu: &Cpu,
+        params: &Params,
+        images: &Images,
+        force: &mut ImageRows,
+    ) {
+        force.0.resize(images.position.len(), [0.0; 4]);
+        if !images.has_bodies {
+            force.0.fill([0.0; 4]);
+            return;
+        }
+        cpu.for_chunks(&mut force.0[..], |first, force| {
+            with_space!(cpu, params, simd, space => {
+                for row in (0..force.len()).step_by(LANES) {
+                    let [x, y, z, _] = lanes::load_rows(simd, &images.position, first + row);
+                    let sum = self.sum::<_, PRESSURE>((simd, space), [x, y, z], images.seen_by(first, row));
+                    let [x, y, z] = if PRESSURE {
+                        sum
+                    } else {
+                        let [.., lift] = lanes::load_rows(simd, &images.lift, first + row);
+                        times(sum, -lift)
+                    };
+                    lanes::store_rows(force, row, [x, y, z, lanes::splat(simd, 0.0)]);
+                }
+            });
+        });
     }
 }

@@ -9,11 +9,12 @@
 use glam::{Mat3, Vec3};
 
 use crate::{
-    body::{Body, Wrench},
+    body::Body,
     columns::{Columns, Nodes, lane},
-    cpu::{CHUNK, Cpu},
+    cpu::Cpu,
     kernel::declare,
     params::Params,
+    wrench,
 };
 
 declare! {
@@ -29,8 +30,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.node_wrenches.0;
     let Nodes { position, velocity, acceleration, grip, grip_offset, predicted, .. } = &mut columns.nodes;
-    wrenches.clear();
-    wrenches.resize(position.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
+    wrench::begin(wrenches, position.len(), bodies.len());
     predicted.resize(position.len(), [0.0; 4]);
     let h = params.step;
     cpu.for_chunks(&mut predicted[..], |first, predicted| {

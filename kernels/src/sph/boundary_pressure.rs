@@ -7,10 +7,11 @@
 use crate::{
     body::{Body, Wrench},
     columns::{Columns, Fluid},
-    cpu::{CHUNK, Cpu, PerChunk},
+    cpu::{Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, with_lanes},
     params::Params,
+    wrench,
 };
 
 use super::obstacles::{Profile, near, per_chunk};
@@ -29,8 +30,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, acceleration, .. } = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.fluid_wrenches.0;
-    wrenches.clear();
-    wrenches.resize(acceleration.len().div_ceil(CHUNK) * bodies.len(), Wrench::default());
+    wrench::begin(wrenches, acceleration.len(), bodies.len());
     let Some(profile) = Profile::of(params) else { return };
     let mut per_chunk = per_chunk(wrenches, acceleration.len(), bodies.len());
     let rows = (&mut acceleration[..], PerChunk(&mut per_chunk));

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::{
-    body::{Body, Placed, Wrench},
+    body::{Body, Placed, Wrench, by_chunk},
     column::FAR,
     cpu::CHUNK,
     lanes::{self, Simd, f32x8},
@@ -184,8 +184,5 @@ pub fn pressure_moments(smoothing: &Wendland, spacing: f32) -> (f64, f64) {
 
 /// The wrenches of every chunk of `rows` rows.
 pub(crate) fn per_chunk(wrenches: &mut [Wrench], rows: usize, bodies: usize) -> Vec<&mut [Wrench]> {
-    match bodies {
-        0 => (0..rows.div_ceil(CHUNK)).map(|_| &mut [][..]).collect(),
-        bodies => wrenches.chunks_exact_mut(bodies).collect(),
-    }
+    by_chunk(wrenches, rows.div_ceil(CHUNK), bodies)
 }

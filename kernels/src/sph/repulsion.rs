@@ -9,16 +9,17 @@
 use glam::DVec3;
 
 use crate::{
-    body::{Body, Placed, Wrench, by_chunk},
+    body::{Body, Placed, Wrench},
     columns::{Columns, Fluid},
-    cpu::{CHUNK, Cpu, PerChunk},
+    cpu::{Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, select, with_lanes},
     params::Params,
     vector::{Vec3x8, dot, minus, plus, times},
+    wrench,
 };
 
-use super::obstacles::near;
+use super::obstacles::{near, per_chunk};
 
 declare! {
     needs: [Fluid, Obstacles, EquationOfState],
@@ -34,10 +35,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Fluid { position, velocity, acceleration, .. } = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let wrenches = &mut columns.bodies.fluid_wrenches.0;
-    let chunks = acceleration.len().div_ceil(CHUNK);
-    wrenches.clear();
-    wrenches.resize(chunks * bodies.len(), Wrench::default());
-    let mut per_chunk = by_chunk(wrenches, chunks, bodies.len());
+    wrench::begin(wrenches, acceleration.len(), bodies.len());
+    let mut per_chunk = per_chunk(wrenches, acceleration.len(), bodies.len());
     let rows = (&mut acceleration[..], PerChunk(&mut per_chunk));
     cpu.for_chunks(rows, |first, (acceleration, wrenches)| {
         let task = Task { params, bodies, position, velocity, count };
