@@ -7,7 +7,9 @@ use std::{
     sync::{Arc, Mutex, PoisonError, atomic::AtomicU64},
 };
 
-use wgpu::{Adapter, AdapterInfo, Backends, Device, DeviceType, Features, Instance, Limits, Queue};
+use wgpu::{
+    Adapter, AdapterInfo, Backends, CommandEncoder, Device, DeviceType, Features, Instance, Limits, Queue,
+};
 
 use super::{
     error::GpuError,
@@ -190,17 +192,6 @@ impl Gpu {
         }
     }
 
-    /// The same device with prefix sums by subgroup operations, if it has them and its subgroups are runs of threads.
-    ///
-    /// Not the default: on an H200 sorts went wrong with them. WGSL does not promise that the threads of a subgroup converge after a
-    /// branch. Sums over threads that have not converged are incomplete.
-    #[must_use]
-    pub fn with_subgroups(mut self) -> Self {
-        self.has_subgroups = self.device.features().contains(Features::SUBGROUP) && self.subgroups_are_runs();
-        self.pipelines = Mutex::default();
-        self
-    }
-
     /// Whether prefix sums use subgroup operations.
     #[must_use]
     pub fn has_subgroups(&self) -> bool {
@@ -272,6 +263,10 @@ impl Gpu {
             Some(error) => Err(GpuError::Refused { reason: error.to_string() }),
             None => Ok(result),
         }
+    }
+
+    pub(super) fn encoder(&self) -> CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sorb") })
     }
 
     /// The loss of the device, if it was lost.

@@ -13,8 +13,10 @@ use crate::{
     body::Wrench,
     column::{Plain, PlainMut, padded},
     columns::{Column, Columns, RowCounts},
+    contents::Contents,
     cpu::CHUNK,
     grid::neighbors::Neighbors,
+    params::Params,
     reduce::{Extreme, Extremes, Wrenches},
     sph::{pressure_solve::Solve, viscosity_solve::State as ViscositySolve},
     tets::rows::TET_CORNERS,
@@ -282,6 +284,30 @@ fn take_extremes(columns: &mut Columns, column: Column, words: &[u32]) {
             not_finite: row(words[Word::NodeRow as usize]),
         });
     }
+}
+
+/// Whether a scene has rows of a column.
+pub(super) fn is_there(params: &Params, rows: RowCounts, column: Column) -> bool {
+    let contents = Contents { params, rows, bodies: &[], touch: params.has_touch() };
+    column.need().is_none_or(|need| need.missing(&contents).is_none())
+}
+
+/// Whether a column is a plain array that devices hold.
+pub(super) fn is_plain(column: Column) -> bool {
+    Form::of(column) == Form::Plain
+}
+
+/// Rows of a column that a device holds.
+pub(super) fn rows_of(params: &Params, rows: RowCounts, column: Column) -> usize {
+    if is_there(params, rows, column) { rows.of(column.store()) } else { 0 }
+}
+
+/// Name and bytes of the buffers of all columns that are plain arrays.
+pub(super) fn plain_buffers(params: &Params, rows: RowCounts) -> Vec<(&'static str, u64)> {
+    let columns = Column::ALL.iter().copied().filter(|column| is_plain(*column));
+    let size = |column: Column| (rows_of(params, rows, column) * column.element().bytes()) as u64;
+    let own = columns.map(|column| (column.buffer(), size(column)));
+    own.chain(NEXT.map(|(column, name)| (name, size(column)))).collect()
 }
 
 #[cfg(test)]

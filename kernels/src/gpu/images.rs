@@ -1,85 +1,27 @@
-//! Images of particles on a device: `Images` as buffers of their own. Their number changes from step to step, so that they are dispatched
-//! as many as there is room for.
+//! Images of particles, to a device and back.
 
 use glam::Vec3;
-use wgpu::BufferUsages;
 
 use super::{
     capacities::{Capacities, List},
-    cells::{Grid, PAGE_CELLS},
+    cells::Grid,
     error::GpuError,
-    image_layout::{DeviceImage, ROWS},
+    image_layout::DeviceImage,
     layout::{ROW_BYTES, Value, WORD_BYTES, place_of},
     resident::Resident,
 };
 use crate::{
     column::{FAR_ROW, padded},
-    columns::{Columns, Fluid, RowCounts},
+    columns::{Columns, Fluid},
     divergence::{
         collect::lift,
         image_rows::{IMAGE_RATIO, Images, NO_BODY, along_open_axes},
     },
-    grid::{
-        cells::Domain,
-        neighbors::{ListValues, Neighbors},
-    },
+    grid::neighbors::{ListValues, Neighbors},
     params::Params,
 };
 
-/// Cells over the images of as many particles.
-pub(super) fn cells(params: &Params, rows: RowCounts, maximum: u64) -> Grid {
-    let radius = params.fluid.smoothing.support_radius;
-    let domain = match params.domain {
-        Domain::Bounded { minimum, maximum } => {
-            Domain::Bounded { minimum: minimum - radius, maximum: maximum + radius }
-        }
-        Domain::Unbounded => Domain::Unbounded,
-    };
-    let has_images = params.fluid.divergence().is_some();
-    Grid::new(domain, radius, if has_images { rows.fluid } else { 0 }, maximum)
-}
-
 impl Resident {
-    /// Name, bytes and use of the buffers of images.
-    pub(super) fn image_buffers(&self) -> Vec<(&'static str, u64, BufferUsages)> {
-        let (plain, uniform) = (BufferUsages::STORAGE, BufferUsages::UNIFORM);
-        let images = List::Images.capacity(self.capacities) as u64;
-        let has_images = images > 0;
-        let cells = |grid: &Grid| if has_images { grid.pages() * u64::from(PAGE_CELLS) } else { 0 };
-        let [of_images, of_line] = [cells(&self.grids[3]), cells(&self.grids[4])];
-        let sums = |cells: u64| WORD_BYTES * cells / u64::from(PAGE_CELLS);
-        let list = |list: List| if has_images { list.bytes(self.rows, self.capacities) } else { 0 };
-        let fluid = if has_images { self.rows.fluid as u64 } else { 0 };
-        let mut all = vec![
-            ("image_grid", Grid::BYTES, uniform | plain),
-            ("image_line", Grid::BYTES, uniform | plain),
-            ("image_line_counts", of_line * WORD_BYTES, plain),
-            ("image_line_sums", sums(of_line), plain),
-            ("fluid_image_first", of_line * WORD_BYTES, plain),
-            ("image_counts", of_images * WORD_BYTES, plain),
-            ("image_starts", of_images * WORD_BYTES, plain),
-            ("image_page_sums", sums(of_images), plain),
-            ("fluid_near_images", list(List::NearImages), plain),
-            ("image_particles", list(List::ImageParticles), plain),
-            ("fluid_rate", fluid * WORD_BYTES, plain),
-        ];
-        all.extend(ROWS.map(|(name, bytes)| (name, images * bytes, plain)));
-        all
-    }
-
-    /// Makes room for more images.
-    pub(super) fn renew_image_rows(&mut self) -> Result<(), GpuError> {
-        let images = List::Images.capacity(self.capacities) as u64;
-        let of_lists = List::ImageParticles.bytes(self.rows, self.capacities);
-        let of_rows = ROWS.into_iter().map(|(name, bytes)| (name, images * bytes));
-        for (name, size) in of_rows.chain([("image_particles", of_lists)]) {
-            // The old one first: both may not fit.
-            self.buffers.remove(name);
-            self.allocate(name, size, BufferUsages::STORAGE)?;
-        }
-        Ok(())
-    }
-
     /// Sends the images of the host.
     pub(super) fn upload_images(&mut self, fluid: &Fluid) -> Result<(), GpuError> {
         let (images, rows) = (&fluid.images, self.rows.fluid);

@@ -3,7 +3,6 @@
 use super::{
     capacities::List,
     cells::ONE_GROUP_PAGES,
-    fusion::{Dispatched, dispatched},
     groups::{CONTROLS_PER_GROUP, GROUP_THREADS, group_of, shares_of, sponge_parts},
     pack::BATCHES,
     pipeline::{Threads, has_any_group, has_shares},
@@ -109,12 +108,6 @@ impl Resident {
             Job { kernel, pass: *pass, color, work, threads, groups: self.lines(count) }
         };
         batches.map(job).filter(|job| job.groups[0] > 0).collect()
-    }
-
-    /// Passes in as few dispatches as the device permits.
-    pub(super) fn dispatched(&self, jobs: &[Job]) -> Vec<Dispatched> {
-        let limits = self.is_fused.then_some(&self.gpu.limits);
-        dispatched(jobs, limits)
     }
 
     /// Rows that decide how many threads share one: as many for images as for their particles.

@@ -5,6 +5,7 @@ use wgpu::BufferUsages;
 use super::{
     capacities::{Capacities, List},
     error::GpuError,
+    image_layout::ROWS,
     resident::Resident,
 };
 
@@ -25,6 +26,19 @@ impl Resident {
         }
         self.replaced += 1;
         self.fill_params();
+        Ok(())
+    }
+
+    /// Makes room for more images.
+    fn renew_image_rows(&mut self) -> Result<(), GpuError> {
+        let images = List::Images.capacity(self.capacities) as u64;
+        let of_lists = List::ImageParticles.bytes(self.rows, self.capacities);
+        let of_rows = ROWS.into_iter().map(|(name, bytes)| (name, images * bytes));
+        for (name, size) in of_rows.chain([("image_particles", of_lists)]) {
+            // The old one first: both may not fit.
+            self.buffers.remove(name);
+            self.allocate(name, size, BufferUsages::STORAGE)?;
+        }
         Ok(())
     }
 }

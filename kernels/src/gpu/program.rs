@@ -7,7 +7,7 @@ use wgpu::{BindGroup, Buffer, BufferUsages, CommandBuffer, util::DeviceExt};
 use super::{
     answer::REPETITIONS,
     error::GpuError,
-    fusion::Dispatched,
+    fusion::{Dispatched, dispatched},
     jobs::{Job, Jobs},
     layout::Value,
     pack::{BATCH_STRIDE, Batch, Repetition},
@@ -161,6 +161,12 @@ impl Resident {
         let resume = self.bind_all(&self.jobs("clock", &RESUME), &[])?;
         let finish = self.bind_all(&self.last_jobs(), &[])?;
         Ok(Program { stages, begin, resume, step, finish, prepared: None, bound: self.replaced })
+    }
+
+    /// Passes in as few dispatches as the device permits.
+    pub(super) fn dispatched(&self, jobs: &[Job]) -> Vec<Dispatched> {
+        let limits = self.is_fused.then_some(&self.gpu.limits);
+        dispatched(jobs, limits)
     }
 
     /// A repetition, counted from 1.

@@ -51,7 +51,7 @@ impl Resident {
                 usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
-            let mut encoder = self.encoder();
+            let mut encoder = self.gpu.encoder();
             let mut offset = 0;
             for (buffer, size) in wanted.iter().filter(|(_, size)| *size > 0) {
                 encoder.copy_buffer_to_buffer(buffer, 0, &staging, offset, *size);

@@ -44,7 +44,7 @@ impl Resident {
         for (own, new) in self.capacities.iter_mut().zip(capacities(params, new)) {
             *own = new.max(*own);
         }
-        let mut encoder = self.encoder();
+        let mut encoder = self.gpu.encoder();
         for (name, size, usage) in self.layout(columns) {
             if CONSTANT.contains(&name) {
                 continue;

@@ -11,13 +11,13 @@ use super::{
     cells::{Grid, PAGE_CELLS},
     device::Gpu,
     error::GpuError,
-    form::Form,
+    form::{Form, is_plain, plain_buffers, rows_of},
     groups::{BOX_ROWS, SOLVE_SUM_ROWS, maximum_groups, motion_rows, rows_bytes},
-    images,
+    image_layout,
     layout::{ROW_BYTES, Value, WORD_BYTES},
     pack::{self, BATCH_STRIDE, BATCHES, Batch, NodeTraits, SPONGES, StepParams},
     stars::{self, RANGES},
-    sums::{GroupSums, sum_groups},
+    sum_layout::{GroupSums, sum_groups},
 };
 use crate::{
     asleep::Asleep,
@@ -94,7 +94,7 @@ impl Resident {
             limits,
             params: params.clone(),
             grids,
-            first_nodes: first_nodes(columns, params),
+            first_nodes: stars::first_nodes(columns, params),
             batches,
             sorted: false,
             steps: 0,
@@ -134,6 +134,12 @@ impl Resident {
         self.plain_buffer(Column::FluidInterior)
             .filter(|(_, _, bytes)| *bytes > 0)
             .map(|(_, name, _)| self.buffer(name))
+    }
+
+    /// A column that is a plain array, with its buffer and its bytes.
+    pub(super) fn plain_buffer(&self, column: Column) -> Option<(Column, &'static str, usize)> {
+        let size = rows_of(&self.params, self.rows, column) * column.element().bytes();
+        is_plain(column).then(|| (column, Form::Plain.buffer(column, self.sorted), size))
     }
 
     /// Whether passes of programs that are bound from now on are one dispatch where they can be; they are, unless they are timed.
@@ -241,8 +247,8 @@ impl Resident {
             ("partial_sums", sum_groups(self.rows) * GroupSums::BYTES, plain),
             ("totals", 3 * GroupSums::BYTES, plain),
         ];
-        let columns = self.plain_buffers();
-        let own = own.into_iter().chain(self.image_buffers());
+        let columns = plain_buffers(&self.params, self.rows);
+        let own = own.into_iter().chain(image_layout::buffers(self.rows, self.capacities, &self.grids));
         own.chain(columns.into_iter().map(|(name, size)| (name, size, plain))).collect()
     }
 
@@ -381,14 +387,7 @@ pub(super) fn grids(gpu: &Gpu, params: &Params, rows: RowCounts) -> [Grid; 5] {
             rows.nodes,
             maximum,
         ),
-        images::cells(params, rows, maximum),
+        image_layout::cells(params, rows, maximum),
         Grid::line(rows.fluid),
     ]
-}
-
-/// The first node of every sponge; beyond all nodes for one without any.
-fn first_nodes(columns: &Columns, params: &Params) -> Vec<usize> {
-    let sponges = &columns.nodes.sponge[..columns.rows.nodes];
-    let first = |sponge| sponges.iter().position(|own| *own as usize == sponge).unwrap_or(sponges.len());
-    (0..params.sponges.len()).map(first).collect()
 }

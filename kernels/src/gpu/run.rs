@@ -1,6 +1,6 @@
 //! Steps on the device: one submission for many, and one small answer.
 
-use wgpu::{CommandBuffer, CommandEncoder};
+use wgpu::CommandBuffer;
 
 use super::{
     answer::{Answer, CLOCK_BYTES, Clock, Extreme, Outcome, Start, WRENCH_BYTES},
@@ -207,7 +207,7 @@ impl Resident {
         answers: bool,
         mut profile: Option<&mut Profile>,
     ) -> CommandBuffer {
-        let mut encoder = self.encoder();
+        let mut encoder = self.gpu.encoder();
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             if let Some(profile) = profile.as_deref_mut() {
@@ -235,10 +235,6 @@ impl Resident {
             encoder.copy_buffer_to_buffer(wrenches, 0, &self.answer, CLOCK_BYTES, size);
         }
         encoder.finish()
-    }
-
-    pub(super) fn encoder(&self) -> CommandEncoder {
-        self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sorb") })
     }
 
     /// Waits for the clock and the wrenches after a batch, a few hundred bytes.

@@ -2,8 +2,9 @@
 
 use super::pack::SPONGES;
 use crate::{
-    columns::{Nodes, lane},
+    columns::{Columns, Nodes, lane},
     layout::constants,
+    params::Params,
     pbd::{
         lattice::VERTEX_COLORS,
         momentum::joined,
@@ -95,4 +96,11 @@ pub(super) fn sponge_ranges(nodes: &Nodes, sponges: usize) -> Vec<[u32; 2]> {
         }
     }
     ranges
+}
+
+/// The first node of every sponge; beyond all nodes for one without any.
+pub(super) fn first_nodes(columns: &Columns, params: &Params) -> Vec<usize> {
+    let sponges = &columns.nodes.sponge[..columns.rows.nodes];
+    let first = |sponge| sponges.iter().position(|own| *own as usize == sponge).unwrap_or(sponges.len());
+    (0..params.sponges.len()).map(first).collect()
 }

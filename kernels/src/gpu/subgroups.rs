@@ -1,14 +1,27 @@
 //! Whether subgroup operations do on a device what prefix sums need of them.
 
+use std::sync::Mutex;
+
 use sorb_shaders::PROBE;
-use wgpu::{BufferUsages, util::DeviceExt};
+use wgpu::{BufferUsages, Features, util::DeviceExt};
 
 use super::{device::Gpu, groups::GROUP_THREADS, pipeline::Threads};
 
 impl Gpu {
+    /// The same device with prefix sums by subgroup operations, if it has them and its subgroups are runs of threads.
+    ///
+    /// Not the default: on an H200 sorts went wrong with them. WGSL does not promise that the threads of a subgroup converge after a
+    /// branch. Sums over threads that have not converged are incomplete.
+    #[must_use]
+    pub fn with_subgroups(mut self) -> Self {
+        self.has_subgroups = self.device.features().contains(Features::SUBGROUP) && self.subgroups_are_runs();
+        self.pipelines = Mutex::default();
+        self
+    }
+
     /// Whether the subgroups of a group are runs of its threads, in order: WGSL does not say so. Tried out once per
     /// device; whatever goes wrong is a no.
-    pub(super) fn subgroups_are_runs(&self) -> bool {
+    fn subgroups_are_runs(&self) -> bool {
         let try_out = || {
             let buffer = self.guarded(None, || {
                 let pipeline = self.compile(&PROBE, "main", Threads { group: GROUP_THREADS, shares: 1 });

@@ -1,42 +1,17 @@
 //! What measures sum up, on the device: a few hundred bytes come back instead of the state.
 
+use glam::DVec3;
+
 use super::{
     error::GpuError,
     groups::groups_of,
     layout::Value,
     pack::Summands,
     resident::Resident,
+    sum_layout::{GroupSums, NO_VALUE},
     twins::{SUMS, TOTAL},
     vectors::vector,
 };
-use crate::{
-    columns::RowCounts,
-    layout::{constants, layout},
-};
-use glam::DVec3;
-
-layout! {
-    /// Sums of one group, or of all; what they are is said where they are made.
-    #[derive(Clone, Copy, Debug)]
-    pub(super) struct GroupSums {
-        a: [f32; 4],
-        b: [f32; 4],
-        c: [f32; 4],
-        d: [f32; 4],
-        /// Largest values.
-        largest: [f32; 4],
-    }
-}
-
-constants! {
-    /// What stands for the largest of no values.
-    const NO_VALUE: f32 = -3.0e38;
-}
-
-/// Groups of the largest of the stores that are summed up.
-pub(super) fn sum_groups(rows: RowCounts) -> u64 {
-    groups_of(rows.fluid.max(rows.nodes).max(rows.tets)) as u64
-}
 
 /// Sums over the particles, for a mass of one each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,7 +6,7 @@ use super::{
     answer::Extreme as Word,
     capacities::{Capacities, List, capacities},
     error::GpuError,
-    form::{Form, NEXT, corners, list_layout, lists, plain_bytes, wide_words},
+    form::{Form, corners, is_plain, is_there, list_layout, lists, plain_bytes, rows_of, wide_words},
     groups::WRENCH_FLOATS,
     layout::{ROW, Value, WORD_BYTES},
     resident::Resident,
@@ -15,7 +15,6 @@ use super::{
 use crate::{
     column::{PlainMut, padded},
     columns::{Column, Columns, RowCounts},
-    contents::Contents,
     couple::weights::sources,
     params::Params,
     reduce::Wrenches,
@@ -25,17 +24,6 @@ use crate::{
 fn is_beside_stars(column: Column) -> bool {
     let touch = [Column::NodeTouch, Column::NodeTouchStiffness, Column::NodeTouchBetween];
     column == Column::NodeWetting || touch.contains(&column)
-}
-
-/// Whether a scene has rows of a column.
-fn is_there(params: &Params, rows: RowCounts, column: Column) -> bool {
-    let contents = Contents { params, rows, bodies: &[], touch: params.has_touch() };
-    column.need().is_none_or(|need| need.missing(&contents).is_none())
-}
-
-/// Whether a column is a plain array that devices hold.
-fn is_plain(column: Column) -> bool {
-    Form::of(column) == Form::Plain
 }
 
 impl Resident {
@@ -70,7 +58,7 @@ impl Resident {
     }
 
     fn upload_plain(&mut self, columns: &Columns, column: Column, name: &'static str) {
-        let rows = self.rows_of(column);
+        let rows = rows_of(&self.params, self.rows, column);
         self.write(name, plain_bytes(columns, column, rows));
         if is_beside_stars(column) && rows > 0 {
             let stars = stars::stars(&columns.nodes, self.rows.nodes, self.params.has_touch());
@@ -168,25 +156,6 @@ impl Resident {
             self.download_images(columns)?;
         }
         Ok(())
-    }
-
-    /// Rows of a column that the device holds.
-    fn rows_of(&self, column: Column) -> usize {
-        if is_there(&self.params, self.rows, column) { self.rows.of(column.store()) } else { 0 }
-    }
-
-    /// Name and bytes of the buffers of all columns that are plain arrays.
-    pub(super) fn plain_buffers(&self) -> Vec<(&'static str, u64)> {
-        let columns = Column::ALL.iter().copied().filter(|column| is_plain(*column));
-        let size = |column: Column| (self.rows_of(column) * column.element().bytes()) as u64;
-        let own = columns.map(|column| (column.buffer(), size(column)));
-        own.chain(NEXT.map(|(column, name)| (name, size(column)))).collect()
-    }
-
-    /// A column that is a plain array, with its buffer and its bytes.
-    pub(super) fn plain_buffer(&self, column: Column) -> Option<(Column, &'static str, usize)> {
-        let size = self.rows_of(column) * column.element().bytes();
-        is_plain(column).then(|| (column, Form::Plain.buffer(column, self.sorted), size))
     }
 }
 
