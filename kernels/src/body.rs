@@ -1,6 +1,6 @@
-//! Rigid bodies as the kernels see them: shapes with signed distances, poses and velocities.
+//! Rigid bodies as the kernels see them: signed distances, poses and velocities.
 
-use std::sync::Arc;
+use std::borrow::Cow;
 
 use glam::{Mat3, Quat, Vec3};
 
@@ -11,75 +11,9 @@ use crate::{
     vector::{self, Vec3x8, cross, dot, minus, plus, times},
 };
 
-pub use crate::compound::{Compound, ConvexPart, pieces};
+pub use crate::shape::{Compound, ConvexPart, Shape};
 pub use crate::wrench::Wrench;
 pub(crate) use crate::wrench::by_chunk;
-
-/// Geometry of a rigid body, in its own frame, centre of mass at the origin.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// Solid half-space below the local plane y = 0 (outward normal +y). Fixed or kinematic bodies only.
-    Plane,
-    /// Ball around the origin.
-    Sphere {
-        /// Radius \[m\].
-        radius: f32,
-    },
-    /// Box around the origin.
-    Cuboid {
-        /// Distance of the faces from the origin \[m\].
-        half_extents: Vec3,
-    },
-    /// Segment along the local y axis, swept by a ball.
-    Capsule {
-        /// Half the length of the segment \[m\].
-        half_height: f32,
-        /// Radius of the ball \[m\].
-        radius: f32,
-    },
-    /// Convex hull.
-    Hull {
-        /// Outward unit normals and offsets \[m\]: a point is inside where `normal . x <= offset` for all.
-        planes: Vec<(Vec3, f32)>,
-        /// Corners \[m\].
-        vertices: Vec<Vec3>,
-        /// Faces as triangles of corners, outward winding.
-        triangles: Vec<[u32; 3]>,
-    },
-    /// Union of convex hulls, such as a cup.
-    Compound(Arc<Compound>),
-}
-
-impl Shape {
-    /// Radius of the bounding sphere around the origin \[m\]; infinite for a plane.
-    #[must_use]
-    pub fn bounding_radius(&self) -> f32 {
-        match self {
-            Self::Plane => f32::INFINITY,
-            Self::Sphere { radius } => *radius,
-            Self::Cuboid { half_extents } => half_extents.length(),
-            Self::Capsule { half_height, radius } => half_height + radius,
-            Self::Hull { vertices, .. } => vertices.iter().map(|vertex| vertex.length()).fold(0.0, f32::max),
-            Self::Compound(compound) => compound.bounding_radius(),
-        }
-    }
-}
-
-impl Shape {
-    /// Radius of the sphere around the origin outside of which distances are larger than `range` \[m\]. Beside its edges the
-    /// distance from a hull is an underestimate.
-    pub(crate) fn reach(&self, range: f32) -> f32 {
-        let radius = self.bounding_radius();
-        match self {
-            Self::Hull { planes, .. } => {
-                let minimum = planes.iter().map(|(_, offset)| *offset).fold(f32::INFINITY, f32::min);
-                if minimum > 0.0 { radius * (1.0 + range / minimum) } else { f32::INFINITY }
-            }
-            Self::Compound(compound) => compound.reach(range),
-            _ => radius + range,
-        }
-    }
-}
 
 /// How a body moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -250,6 +184,76 @@ impl<'a, S: Simd> Placed<'a, S> {
         let [distance, normal @ ..] = surface(simd.level(), self.shape, &local);
         let [x, y, z] = normal.each_ref().map(|lanes| lanes::load_array(simd, lanes));
         (lanes::load_array(simd, &distance), [x, y, z])
+    }
+}
+
+/// A convex piece of a body: all of it, or a part.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece<'a> {
+    /// Number of the body.
+    pub(crate) body: usize,
+    pub(crate) shape: Cow<'a, Shape>,
+    /// Place of its centre in the frame of the body, where that is not the origin \[m\].
+    pub(crate) centre: Option<Vec3>,
+    /// Radius of the ball that sweeps it \[m\].
+    pub(crate) radius: f32,
+}
+
+impl<'a> Piece<'a> {
+    /// The pieces of all bodies, in their order.
+    pub(crate) fn of_all(bodies: &'a [Body]) -> impl Iterator<Item = Self> {
+        Self::of_each(bodies, |body| (Cow::Borrowed(&body.shape), 0.0))
+    }
+
+    /// The cores of rounded bodies, and the balls that sweep them. The parts of compounds are as they are: no face of a part is outside of
+    /// its core with the ball.
+    pub(crate) fn cores_of_all(bodies: &'a [Body]) -> impl Iterator<Item = Self> {
+        Self::of_each(bodies, |body| {
+            let (shape, radius) = body.rounding.core_of(&body.shape);
+            (Cow::Owned(shape), radius)
+        })
+    }
+
+    fn of_each(
+        bodies: &'a [Body],
+        convex: impl Fn(&'a Body) -> (Cow<'a, Shape>, f32) + Copy,
+    ) -> impl Iterator<Item = Self> {
+        bodies.iter().enumerate().flat_map(move |(index, body)| {
+            let (whole, parts) = match &body.shape {
+                Shape::Compound(compound) => (None, &compound.parts[..]),
+                _ => (Some(convex(body)), &[][..]),
+            };
+            let whole =
+                whole.map(|(shape, radius)| Self { body: index, shape, centre: None, radius }).into_iter();
+            whole.chain(parts.iter().map(move |part| Self {
+                body: index,
+                shape: Cow::Borrowed(&part.hull),
+                centre: Some(part.centre),
+                radius: 0.0,
+            }))
+        })
+    }
+
+    /// The piece as [`Placed::of_piece`] takes it.
+    pub(crate) fn geometry(&self) -> (&Shape, Option<Vec3>) {
+        (&self.shape, self.centre)
+    }
+}
+
+/// The convex pieces of bodies, each as a body of its own, and the radius of the ball that sweeps it \[m\]. These are their cores with that
+/// radius, or as they are with zero.
+#[must_use]
+pub fn pieces(bodies: &[Body], as_cores: bool) -> Vec<(Body, f32)> {
+    let body = |piece: Piece<'_>| {
+        let mut body = bodies[piece.body].clone();
+        body.shape = piece.shape.into_owned();
+        body.state.position += piece.centre.map_or(Vec3::ZERO, |centre| body.state.rotation * centre);
+        (body, piece.radius)
+    };
+    if as_cores {
+        Piece::cores_of_all(bodies).map(body).collect()
+    } else {
+        Piece::of_all(bodies).map(body).collect()
     }
 }
 

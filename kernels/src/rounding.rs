@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
 
-use crate::body::Shape;
+use crate::shape::Shape;
 
 /// Radius of edges over the spacing of the particles.
 const EDGE_RADIUS: f32 = 1.5;

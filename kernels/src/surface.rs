@@ -3,9 +3,9 @@
 use glam::Vec3;
 
 use crate::{
-    body::Shape,
     lanes::{self, LANES, Simd, f32x8, select},
     layout::constants,
+    shape::Shape,
     vector::{self, Vec3x8, choose, dot, minus, times},
 };
 

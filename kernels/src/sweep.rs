@@ -19,8 +19,7 @@
 //! ```
 
 use crate::{
-    body::{Body, Placed},
-    compound::Piece,
+    body::{Body, Piece, Placed},
     lanes::{self, Simd, f32x8, prelude::*, select},
     layout::constants,
     vector::{Vec3x8, dot, minus, plus, times},

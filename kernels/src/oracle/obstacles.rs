@@ -4,9 +4,8 @@ use glam::{DVec3, Vec3};
 
 use super::{keep, row, shapes, vector};
 use crate::{
-    body::{Body, Shape, Wrench},
+    body::{Body, Piece, Shape, Wrench},
     columns::{Columns, lane},
-    compound::Piece,
     params::Params,
     sweep,
 };

@@ -7,9 +7,8 @@
 use glam::{DVec3, Vec3};
 
 use crate::{
-    body::{Body, Placed, Wrench, by_chunk},
+    body::{Body, Piece, Placed, Wrench, by_chunk},
     columns::{Columns, Nodes},
-    compound::Piece,
     cpu::{CHUNK, Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, select, with_lanes},

@@ -13,8 +13,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::{
-    body::{Body, BodyState, Placed, Wrench},
-    compound::Piece,
+    body::{Body, BodyState, Piece, Placed, Wrench},
     cpu::Cpu,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
     layout::constants,
