@@ -110,6 +110,11 @@ fn contact_of_sponges_is_looked_for_only_where_there_can_be_any() {
     // Other solvers have none.
     let paper = common::with(&common::preset("stack", 0.5), &["sponges[1].solver=sbd"]);
     NAMES.iter().for_each(|name| assert_eq!(verdict(&of(&paper), name), missing));
+    // Suction of faces that touch is of water.
+    let suction = |scene: &Scene| verdict(&of(scene), "couple::contact_suction");
+    assert_eq!(suction(&common::preset("stack", 0.5)), Verdict::Runs);
+    assert_eq!(suction(&common::preset("ball_drop", 0.5)), missing);
+    assert_ne!(suction(&folds), Verdict::Runs);
 }
 
 #[test]

@@ -171,6 +171,8 @@ columns! {
         NodeNormal = normal: rows("1"; AREA 3 "m^2"), Scratch, needs Touch;
         /// For every surface node, the nodes of other sponges or of its own that it may touch in this step.
         NodePairs = pairs: Neighbors("1"), Scratch, needs Touch;
+        /// How much of the face of the node other faces cover, 0 to 1.
+        NodeCover = cover: values("1"), Scratch, needs Touch;
         /// Contact force of sponges on the node; w: lowest index of another sponge in contact, or of its own.
         NodeTouch = touch: rows("N"; LOWEST_SPONGE 3 "1"), Scratch, needs Touch;
         /// Negative derivative of that force by the position of the node, along the axes: xx, yy, zz. w: highest index of

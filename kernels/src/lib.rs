@@ -91,7 +91,7 @@ kernels! {
     }
     /// Fluid and sponge: nodes as control particles of the fluid (the paper, section 3.3).
     couple {
-        controls, saturation, wetting, pores, interior, suction, zero_distance, control_velocity, drag,
+        controls, saturation, wetting, contact_suction, pores, interior, suction, zero_distance, control_velocity, drag,
         velocity_filter, exchange, solid_pressure, solid_share, solid_yield, solid_reaction,
         drag_impulse, drag_target, drag_reaction, drag_settled, drag_kick,
         solid_expect, solid_moments, solid_diagonal, solid_response, solid_velocity, solid_kick,

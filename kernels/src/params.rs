@@ -370,6 +370,13 @@ impl SpongeParams {
         self.edge * self.wetting.size(1.0)
     }
 
+    /// Control pressure of a node at a saturation \[Pa\], below zero; `receding` is 0 where water advances and 1 where it recedes.
+    pub(crate) fn control_pressure(&self, saturation: f32, receding: f32) -> f32 {
+        let dry = 1.0 - saturation;
+        let dry = if dry > 0.0 { dry } else { 0.0 };
+        -(self.entry_pressure + receding * self.wetting.receding) * (1.0 + self.saturation_gain * dry)
+    }
+
     /// Constants of the Neo-Hookean energies, `mu` and `lambda` \[Pa\], of Young's modulus \[Pa\] and Poisson's ratio.
     ///
     /// Near rest the energies are that of a linear material with `mu` and a first Lame constant of `lambda - mu`.

@@ -28,3 +28,15 @@ fn pair_of(a: vec3<f32>, b: vec3<f32>, normal_a: vec3<f32>, normal_b: vec3<f32>)
     let gap = dot(normal, apart);
     return Pair(normal, facing, gap, dot(apart, apart) - gap * gap);
 }
+
+// How squarely the two face each other, 0 to 1.
+fn opposition(pair: Pair) -> f32 {
+    return min(pair.facing / FACING_RANGE, 1.0);
+}
+
+// Weight of the pair by the distance along the surface.
+fn share(pair: Pair, edge: f32) -> f32 {
+    let reach = PAIR_REACH * edge;
+    let closeness = max(1.0 - pair.aside / (reach * reach), 0.0);
+    return 3.0 / PI / (reach * reach) * closeness * closeness;
+}

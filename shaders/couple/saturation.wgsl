@@ -46,8 +46,7 @@ fn main(
     let sponge = sponges.all[traits.sponge];
     let volume = params.particle_mass / params.rest_density;
     let saturation = sum * params.coupling.value * volume / (sponge.porosity * traits.interior);
-    let dry = max(1.0 - saturation, 0.0);
-    let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
+    let pressure = control_pressure(sponge, saturation, 0.0);
     control_saturation[row] = saturation;
     control_suction[row] = pressure * traits.suction * own[CONTROL_POSITION_VOLUME];
     node_saturation[node] = saturation;

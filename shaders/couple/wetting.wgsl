@@ -40,9 +40,7 @@ fn main(
     }
     let drained = before[NODE_WETTING_SATURATION] - filled;
     let receding = clamp(before[NODE_WETTING_RECEDING_SHARE] + drained * (1.0 / SCANNING_BAND), 0.0, 1.0);
-    let dry = max(1.0 - saturation, 0.0);
-    let pressure =
-        -(sponge.entry_pressure + receding * sponge.wetting.receding) * (1.0 + sponge.saturation_gain * dry);
+    let pressure = control_pressure(sponge, saturation, receding);
     let wetness = (sponge.wetting.time * before[NODE_WETTING_WETNESS] + clock.step * filled) / (sponge.wetting.time + clock.step);
     control_saturation[row] = saturation;
     control_suction[row] = pressure * traits.suction * control_position[row][CONTROL_POSITION_VOLUME];

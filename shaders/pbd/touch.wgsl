@@ -46,14 +46,10 @@ fn main(
         }
         let sponge = node_stars[other * STAR_WORDS + STAR_SPONGE];
         let edge = max(contact_edge(own), contact_edge(sponge));
-        let reach = PAIR_REACH * edge;
-        let closeness = max(1.0 - pair.aside / (reach * reach), 0.0);
-        let share = 3.0 / PI / (reach * reach) * closeness * closeness;
-        let facing = min(pair.facing / FACING_RANGE, 1.0);
         let modulus_a = sponges.all[own].lambda + sponges.all[own].mu;
         let modulus_b = sponges.all[sponge].lambda + sponges.all[sponge].mu;
         let modulus = 2.0 * modulus_a * modulus_b / (modulus_a + modulus_b);
-        let k = CONTACT_STIFFNESS * modulus / edge * facing * (n_a[NODE_NORMAL_AREA] * n_b[NODE_NORMAL_AREA] * share);
+        let k = CONTACT_STIFFNESS * modulus / edge * opposition(pair) * (n_a[NODE_NORMAL_AREA] * n_b[NODE_NORMAL_AREA] * share(pair, edge));
         let square = 4.0 * depth * depth / (edge * edge);
         let push = k * depth * (1.0 + square);
         var slip = (y_a - x_a) - (y_b - x_b);

@@ -58,9 +58,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
             let node = *node as usize;
             let sponge = &params.sponges[nodes.sponge[node] as usize];
             saturation[row] /= sponge.porosity * nodes.interior[node];
-            let dry = 1.0 - saturation[row];
-            let dry = if dry > 0.0 { dry } else { 0.0 };
-            let pressure = -sponge.entry_pressure * (1.0 + sponge.saturation_gain * dry);
+            let pressure = sponge.control_pressure(saturation[row], 0.0);
             suction[row] =
                 pressure * nodes.suction[node] * position[first + row][lane::controls::position::VOLUME];
         }

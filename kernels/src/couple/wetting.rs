@@ -101,9 +101,7 @@ fn of_node(sponge: &SpongeParams, before: [f32; 4], saturation: f32, step: f32) 
     let receding = receding + (saturation_before - filled) * (1.0 / SCANNING_BAND);
     let receding = if receding > 0.0 { receding } else { 0.0 };
     let receding = if receding < 1.0 { receding } else { 1.0 };
-    let dry = 1.0 - saturation;
-    let dry = if dry > 0.0 { dry } else { 0.0 };
-    let pressure = -(sponge.entry_pressure + receding * own.receding) * (1.0 + sponge.saturation_gain * dry);
+    let pressure = sponge.control_pressure(saturation, receding);
     let wetness = (own.time * wetness + step * filled) / (own.time + step);
     ([wetness, filled, receding, mobility], pressure)
 }

@@ -153,6 +153,45 @@ pub(crate) fn touch(params: &Params, columns: &mut Columns) {
     (nodes.touch, nodes.touch_stiffness, nodes.touch_between) = (force, stiffness, between);
 }
 
+/// How much of the face of a node others cover.
+fn cover(params: &Params, nodes: &Nodes, a: usize, count: usize) -> f64 {
+    let sponge = |node: usize| nodes.sponge[node] as usize;
+    let of = |b: usize| {
+        let (n_a, n_b) = (vector(nodes.normal[a]), vector(nodes.normal[b]));
+        let (n, apart) = ((n_b - n_a).normalize(), vector(nodes.position[a]) - vector(nodes.position[b]));
+        let (edge, gap) = (edge(params, [sponge(a), sponge(b)]), n.dot(apart));
+        let reach = 1.5 * edge;
+        let aside = (apart - gap * n).length() / reach;
+        let share = 3.0 / (std::f64::consts::PI * reach * reach) * (1.0 - aside * aside).max(0.0).powi(2);
+        let area = f64::from(nodes.normal[b][lane::nodes::normal::AREA]);
+        area * share * (facing(n_a, n_b) / 0.4).min(1.0) * (1.0 - gap / (0.6 * edge)).clamp(0.0, 1.0)
+    };
+    nodes.pairs.of(a, count).map(|b| of(b as usize)).sum::<f64>().min(1.0)
+}
+
+pub(crate) fn contact_suction(params: &Params, columns: &mut Columns) {
+    let count = columns.rows.nodes;
+    let nodes = &columns.nodes;
+    let covers: Vec<f64> = (0..count).map(|node| cover(params, nodes, node, count)).collect();
+    for control in 0..count {
+        let node = columns.controls.node[control] as usize;
+        if covers[node] <= f64::from(nodes.suction[node]) {
+            continue;
+        }
+        let sponge = &params.sponges[nodes.sponge[node] as usize];
+        let row = nodes.wetting.get(node);
+        let receding = row.map_or(0.0, |row| f64::from(row[lane::nodes::wetting::RECEDING_SHARE]));
+        let pressure = f64::from(sponge.entry_pressure) + receding * f64::from(sponge.wetting.receding);
+        let dry = (1.0 - f64::from(columns.controls.saturation[control])).max(0.0);
+        let volume = f64::from(columns.controls.position[control][lane::controls::position::VOLUME]);
+        let suction = -pressure * (1.0 + f64::from(sponge.saturation_gain) * dry) * covers[node] * volume;
+        columns.controls.suction[control] = suction as f32;
+    }
+    let rows = columns.nodes.position.len();
+    columns.nodes.cover = covers.into_iter().map(|cover| cover as f32).collect();
+    columns.nodes.cover.resize(rows, 0.0);
+}
+
 /// Adds the contact of a node to its force and its stiffness, and returns whether there is any.
 pub(super) fn add(nodes: &Nodes, node: usize, (force, stiffness): (&mut DVec3, &mut DMat3)) -> bool {
     let Some(own) = nodes.touch.get(node) else { return false };

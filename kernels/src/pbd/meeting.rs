@@ -21,26 +21,29 @@ constants! {
     const PAIR_GAP: f32 = 0.6;
     /// Distance along the surface within which nodes push each other, in edges. Nodes on a square of one edge then feel a surface
     /// that is stiff to 6 % everywhere.
-    pub(super) const PAIR_REACH: f32 = 1.5;
+    const PAIR_REACH: f32 = 1.5;
+    /// Range of the opposition of the normals in which a pair comes to its full stiffness \[1\].
+    const FACING_RANGE: f32 = 0.4;
+    const PI: f32 = std::f32::consts::PI;
 }
 
 /// A pair, the same for both of its nodes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
+pub(crate) struct Pair {
     /// From the second to the first.
     pub(super) normal: Vec3,
     /// Excess of the opposition of their normals over the limit \[1\].
-    pub(super) facing: f32,
+    facing: f32,
     /// Distance along the normal, at the beginning of the step \[m\].
-    pub(super) gap: f32,
+    gap: f32,
     /// Square of the tangential distance \[m^2\].
-    pub(super) aside: f32,
+    aside: f32,
 }
 
 impl Pair {
     /// The pair of two nodes, with weights as the lengths of their normals; none where their surfaces do not face each
     /// other.
-    pub(super) fn new([a, b]: [[f32; 4]; 2], [normal_a, normal_b]: [[f32; 4]; 2]) -> Option<Self> {
+    pub(crate) fn new([a, b]: [[f32; 4]; 2], [normal_a, normal_b]: [[f32; 4]; 2]) -> Option<Self> {
         let [x_a, x_b, n_a, n_b] = [a, b, normal_a, normal_b].map(vector);
         let across = -n_a.dot(n_b);
         // Most pairs are on the same side of a sponge.
@@ -63,6 +66,25 @@ impl Pair {
     pub(super) fn is_near(&self, edge: f32) -> bool {
         let reach = PAIR_REACH * edge;
         self.gap > -PAIR_OVERLAP * edge && self.gap < PAIR_GAP * edge && self.aside < reach * reach
+    }
+
+    /// How squarely the two face each other, 0 to 1.
+    pub(super) fn opposition(&self) -> f32 {
+        (self.facing / FACING_RANGE).min(1.0)
+    }
+
+    /// Weight of the pair by the distance along the surface; over a surface its integral is 1 \[1/m^2\].
+    pub(super) fn share(&self, edge: f32) -> f32 {
+        let reach = PAIR_REACH * edge;
+        let closeness = (1.0 - self.aside / (reach * reach)).max(0.0);
+        3.0 / PI / (reach * reach) * closeness * closeness
+    }
+
+    /// How much of the face of the first is covered by an area \[m^2\] of the second, 0 to 1 beside rounding: all where the surfaces
+    /// touch, none from the largest gap of a pair on.
+    pub(crate) fn cover(&self, edge: f32, area: f32) -> f32 {
+        let nearness = (1.0 - self.gap / (PAIR_GAP * edge)).clamp(0.0, 1.0);
+        self.opposition() * (area * self.share(edge)) * nearness
     }
 }
 

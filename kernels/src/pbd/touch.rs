@@ -28,7 +28,7 @@ use crate::{
     kernel::declare,
     lanes::LANES,
     params::Params,
-    pbd::meeting::{PAIR_REACH, Pair, vector},
+    pbd::meeting::{Pair, vector},
 };
 
 declare! {
@@ -39,11 +39,8 @@ declare! {
     bound: 1e-4,
     twin: [pass(NAME, Nodes), pass("pbd::touching", Sponges), pass("pbd::joining", One)],
     constants: {
-        const PI: f32 = std::f32::consts::PI;
         /// Stiffness of a surface times the edge, over the modulus of the material \[1\].
         const CONTACT_STIFFNESS: f32 = 10.0;
-        /// Range of c in which a pair comes to its full stiffness \[1\].
-        const FACING_RANGE: f32 = 0.4;
         /// Speed at which what sticks may slip \[m/s\].
         const CREEP_SPEED: f32 = 2.0e-3;
     },
@@ -120,12 +117,10 @@ impl Task<'_> {
         }
         let (own, other) = (self.sponge[a], self.sponge[b]);
         let edge = self.params.pair_edge(own, other);
-        let reach = PAIR_REACH * edge;
-        let closeness = (1.0 - pair.aside / (reach * reach)).max(0.0);
-        let share = 3.0 / PI / (reach * reach) * closeness * closeness;
-        let facing = (pair.facing / FACING_RANGE).min(1.0);
         let area = normals[0][lane::nodes::normal::AREA] * normals[1][lane::nodes::normal::AREA];
-        let k = CONTACT_STIFFNESS * self.params.pair_modulus(own, other) / edge * facing * (area * share);
+        let k = CONTACT_STIFFNESS * self.params.pair_modulus(own, other) / edge
+            * pair.opposition()
+            * (area * pair.share(edge));
         let square = 4.0 * depth * depth / (edge * edge);
         let push = k * depth * (1.0 + square);
         let slip = (y_a - vector(self.position[a])) - (y_b - vector(self.position[b]));

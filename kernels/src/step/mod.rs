@@ -150,6 +150,7 @@ pub static POROUS_STEP: &[Phase] = &[
     Named(&SEARCH),
     Named(&CONTROLS),
     Run(&couple::wetting::KERNEL),
+    Run(&couple::contact_suction::KERNEL),
     Named(&PORES),
     Named(&IMAGES),
     Named(&FORCES),

@@ -124,3 +124,47 @@ fn a_cycle_of_wetting_loses_energy_and_never_gains_any() {
     let (gained, scale) = work_of_a_cycle(-100.0, way);
     assert!(gained > 0.02 * scale, "{gained:.2e} J of {scale:.2e}");
 }
+
+#[test]
+fn a_face_has_suction_as_far_as_another_covers_it() {
+    let mut covers = Vec::new();
+    // In edges of the thin block, which lies 0.45 above another.
+    for (shift, least, most) in [(-0.45, 0.9, 1.0), (-0.15, 0.44, 0.56), (0.16, 0.0, 0.0)] {
+        let options =
+            Options { bodies: false, walls: false, incompressible: true, porous: true, touch: true, ..FULL };
+        let mut scene = Scene::new(options);
+        let nodes = &mut scene.columns.nodes;
+        for node in 0..scene.columns.rows.nodes {
+            let [x, y, z, _] = nodes.rest[node];
+            let up = if nodes.sponge[node] == 2 { shift * 0.01 } else { 0.0 };
+            let w = nodes.position[node][lane::nodes::position::INVERSE_MASS];
+            nodes.position[node] = [x, y + up, z, w];
+        }
+        let mut scene = scene.before("couple::contact_suction", &best());
+        let before = scene.columns.controls.suction.clone();
+        scene.run(&best(), &["couple::contact_suction"]);
+        let columns = &scene.columns;
+        let middle = |node: &usize| {
+            let [x, y, z, _] = columns.nodes.rest[*node];
+            columns.nodes.sponge[*node] == 2
+                && y < 0.045
+                && (0.02..0.035).contains(&x)
+                && (0.015..0.03).contains(&z)
+        };
+        let faces: Vec<usize> = (0..columns.rows.nodes).filter(middle).collect();
+        assert_eq!(faces.len(), 4);
+        let own: Vec<f32> = faces.iter().map(|node| columns.nodes.cover[*node]).collect();
+        assert!(own.iter().all(|cover| (least..=most).contains(cover)), "{own:?} at a shift of {shift}");
+        for (row, node) in columns.controls.node.iter().enumerate() {
+            let (cover, share) = (columns.nodes.cover[*node as usize], columns.nodes.suction[*node as usize]);
+            let [was, is] = [before[row], columns.controls.suction[row]];
+            assert!(
+                if cover > share { is < was } else { is == was },
+                "{was} {is} of a node covered by {cover}"
+            );
+        }
+        covers.push(own[0]);
+    }
+    // Negative control: the gap counts.
+    assert!(covers[0] > covers[1] && covers[1] > covers[2], "{covers:?}");
+}

@@ -227,7 +227,7 @@ fn sponges_share(setting: &Setting) -> Result<Figure, Failure> {
         "saturation of a sponge under a wet one after 3 s, lack over that",
         "1",
         (1.0 - ratio).max(0.0),
-        0.5,
+        0.2,
     ))
 }
 
