@@ -9,9 +9,8 @@
 //! Pressure keeps particles half a spacing away from bodies at moderate speeds; this kernel is for faster motion.
 
 use crate::{
-    body::{Body, Placed, Shape, Wrench},
+    body::{Body, Piece, Placed, Shape, Wrench},
     columns::{Columns, Fluid},
-    compound::Piece,
     cpu::{Cpu, PerChunk},
     kernel::declare,
     lanes::{self, LANES, Simd, f32x8, prelude::*, select, with_lanes},
