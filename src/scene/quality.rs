@@ -11,8 +11,8 @@ use super::{FluidSolver, Scene, SceneError, Solver};
 /// [`Scene::scaled`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// Less run time: fewer neighbours, longer steps and fewer sweeps. The tolerance of the pressure is not looser: from
-    /// 3e-3 on, fine water separates from its walls.
+    /// Less run time: longer steps and fewer sweeps. The support radius is not smaller: at 1.8 spacings the pressure of water at rest is
+    /// 3.7 instead of 0.3 % off. The tolerance of the pressure is not looser: from 3e-3 on, fine water separates from its walls.
     Fast,
     /// The defaults of all keys.
     #[default]
@@ -46,7 +46,7 @@ impl Quality {
         match self {
             Self::Fast => Changes {
                 time: &[("maximum_step", "0.004"), ("courant", "0.4")],
-                fluid: &[("support", "1.8"), ("density_tolerance", "1e-3"), ("rounds", "200")],
+                fluid: &[("support", "2"), ("density_tolerance", "1e-3"), ("rounds", "200")],
                 sponge: &[("iterations", "2")],
             },
             Self::Balanced => Changes {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::{coord::Shift, prelude::*};
 
-use super::{Point, front};
+use super::{Point, front, mark_front};
 
 /// Width and height in pixels.
 const SIZE: (u32, u32) = (760, 460);
@@ -26,8 +26,8 @@ pub enum DiagramError {
     Drawing(String),
 }
 
-/// The points of one case as SVG: error over run time, both logarithmic, with a colour and a mark for every solver. The
-/// front is a line whose points have the numbers of [`front`].
+/// The points of one case as SVG: error over run time, both logarithmic, with a colour and a mark for every solver. Every
+/// solver has the line of its own front. Points of the front of all have the numbers of [`front`].
 ///
 /// # Errors
 /// [`DiagramError::Nothing`] without a finite point.
@@ -71,7 +71,6 @@ fn draw(area: &Area<'_>, case: &str, points: &[&Point]) -> Result<(), Box<dyn st
         .draw()?;
     let owned: Vec<Point> = points.iter().map(|point| (*point).clone()).collect();
     let front: Vec<(f64, f64)> = front(&owned).iter().map(|point| (point.seconds, point.error)).collect();
-    chart.draw_series(std::iter::once(PathElement::new(front.clone(), BLACK.mix(0.45).stroke_width(1))))?;
     let mut solvers: Vec<&str> = Vec::new();
     for point in points {
         if !solvers.contains(&point.solver) {
@@ -80,8 +79,13 @@ fn draw(area: &Area<'_>, case: &str, points: &[&Point]) -> Result<(), Box<dyn st
     }
     for (index, solver) in solvers.iter().enumerate() {
         let style = COLOURS[index % COLOURS.len()].filled();
-        let of = points.iter().filter(|point| point.solver == *solver);
-        let places = of.map(|point| (point.seconds, point.error));
+        let mut of: Vec<Point> = owned.iter().filter(|point| point.solver == *solver).cloned().collect();
+        let places: Vec<(f64, f64)> = of.iter().map(|point| (point.seconds, point.error)).collect();
+        mark_front(&mut of);
+        let line: Vec<(f64, f64)> =
+            self::front(&of).iter().map(|point| (point.seconds, point.error)).collect();
+        chart.draw_series(std::iter::once(PathElement::new(line, style.stroke_width(1))))?;
+        let places = places.into_iter();
         // Marks of different shapes are of different types.
         let series = match index % COLOURS.len() {
             0 => chart
