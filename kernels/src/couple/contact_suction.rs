@@ -21,7 +21,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Sponge, Porous, Touch],
+    needs: [Fluid, Sponge, Porous, Solver(Vbd), Touch],
     reads: [
         NodePosition, NodeNormal, NodePairs, NodeSponge, NodeSuction, NodeWetting, ControlNode, ControlPosition, ControlSaturation,
         ControlSuction,
