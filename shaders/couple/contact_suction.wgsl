@@ -23,15 +23,15 @@ fn main(
         return;
     }
     let node = control_node[row];
-    let traits = node_traits[node];
     let cover = node_cover[node];
-    if (cover <= traits.suction) {
+    if (cover <= 0.0) {
         return;
     }
     var receding = 0.0;
     if (params.has_wetting != 0u) {
         receding = node_wetting[node][NODE_WETTING_RECEDING_SHARE];
     }
-    let pressure = control_pressure(sponges.all[traits.sponge], control_saturation[row], receding);
-    control_suction[row] = pressure * cover * control_position[row][CONTROL_POSITION_VOLUME];
+    let pressure = control_pressure(sponges.all[node_traits[node].sponge], control_saturation[row], receding);
+    let suction = pressure * cover * control_position[row][CONTROL_POSITION_VOLUME];
+    control_suction[row] = min(control_suction[row], suction);
 }

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! c_a = min(sum_b A_b w_ab f_ab max(1 - max(g_ab, 0) / (PAIR_GAP e), 0), 1)
-//! p_a V_a  with the larger of c_a and the share of suction that the node has by itself
+//! p_a V_a <- min(p_a V_a, c_a p(S_a) V_a)
 //! ```
 //!
 //! over the pairs of `pbd::pairs`, with area A, weight w and facing f as in `pbd::touch`, and the gap g. The cover c is 1 where two
@@ -23,7 +23,7 @@ use crate::{
 declare! {
     needs: [Fluid, Sponge, Porous, Solver(Vbd), Touch],
     reads: [
-        NodePosition, NodeNormal, NodePairs, NodeSponge, NodeSuction, NodeWetting, ControlNode, ControlPosition, ControlSaturation,
+        NodePosition, NodeNormal, NodePairs, NodeSponge, NodeWetting, ControlNode, ControlPosition, ControlSaturation,
         ControlSuction,
     ],
     writes: [NodeCover, ControlSuction],
@@ -54,14 +54,15 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     cpu.for_chunks(&mut controls.suction[..count], |first, suction| {
         for (row, node) in order[first..].iter().take(suction.len()).enumerate() {
             let node = *node as usize;
-            if cover[node] <= nodes.suction[node] {
+            if cover[node] <= 0.0 {
                 continue;
             }
             let sponge = &params.sponges[nodes.sponge[node] as usize];
             let receding =
                 nodes.wetting.get(node).map_or(0.0, |row| row[lane::nodes::wetting::RECEDING_SHARE]);
             let pressure = sponge.control_pressure(saturation[first + row], receding);
-            suction[row] = pressure * cover[node] * position[first + row][lane::controls::position::VOLUME];
+            let volume = position[first + row][lane::controls::position::VOLUME];
+            suction[row] = suction[row].min(pressure * cover[node] * volume);
         }
     });
     columns.nodes.cover = cover;

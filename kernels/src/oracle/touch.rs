@@ -175,9 +175,6 @@ pub(crate) fn contact_suction(params: &Params, columns: &mut Columns) {
     let covers: Vec<f64> = (0..count).map(|node| cover(params, nodes, node, count)).collect();
     for control in 0..count {
         let node = columns.controls.node[control] as usize;
-        if covers[node] <= f64::from(nodes.suction[node]) {
-            continue;
-        }
         let sponge = &params.sponges[nodes.sponge[node] as usize];
         let row = nodes.wetting.get(node);
         let receding = row.map_or(0.0, |row| f64::from(row[lane::nodes::wetting::RECEDING_SHARE]));
@@ -185,7 +182,8 @@ pub(crate) fn contact_suction(params: &Params, columns: &mut Columns) {
         let dry = (1.0 - f64::from(columns.controls.saturation[control])).max(0.0);
         let volume = f64::from(columns.controls.position[control][lane::controls::position::VOLUME]);
         let suction = -pressure * (1.0 + f64::from(sponge.saturation_gain) * dry) * covers[node] * volume;
-        columns.controls.suction[control] = suction as f32;
+        let own = &mut columns.controls.suction[control];
+        *own = own.min(suction as f32);
     }
     let rows = columns.nodes.position.len();
     columns.nodes.cover = covers.into_iter().map(|cover| cover as f32).collect();

@@ -76,6 +76,8 @@ pub(super) fn fault_in(kernel: &Kernel, column: Column) -> f32 {
         Column::FluidMoment if kernel.name == "divergence::residual" => 0.01,
         // It only asks which particles are at a surface.
         Column::FluidRenormalisation if kernel.name == "divergence::shift" => 0.5,
+        // Water lies between sponges that touch: only what is below 1 counts.
+        Column::ControlSaturation if kernel.name == "couple::contact_suction" => 0.4,
         // Drag, its moments about the nodes, and contact are a small part of what a sponge lacks. Wetness is a part of what makes a tet.
         Column::NodeDragMoment | Column::NodeWetting => 1.5,
         Column::NodeReaction | Column::NodeDrag => 1.01,
