@@ -114,7 +114,6 @@ fn contact_of_sponges_is_looked_for_only_where_there_can_be_any() {
     let suction = |scene: &Scene| verdict(&of(scene), "couple::contact_suction");
     assert_eq!(suction(&common::preset("stack", 0.5)), Verdict::Runs);
     assert_eq!(suction(&common::preset("ball_drop", 0.5)), missing);
-    assert_ne!(suction(&folds), Verdict::Runs);
 }
 
 #[test]
