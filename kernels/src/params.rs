@@ -373,7 +373,7 @@ impl SpongeParams {
     /// Control pressure of a node at a saturation \[Pa\], below zero; `receding` is 0 where water advances and 1 where it recedes.
     pub(crate) fn control_pressure(&self, saturation: f32, receding: f32) -> f32 {
         let dry = 1.0 - saturation;
-        let dry = if dry > 0.0 { dry } else { 0.0 };
+        let dry = if dry < 0.0 { 0.0 } else { dry };
         -(self.entry_pressure + receding * self.wetting.receding) * (1.0 + self.saturation_gain * dry)
     }
 
