@@ -112,7 +112,9 @@ impl Steps {
         let sponges = || sponges().filter(|(index, _)| !is_out(*index)).map(|(_, own)| own);
         if let Some(water) = scene.fluid.as_ref().filter(|_| has_fluid) {
             let h = fluid.smoothing.support_radius;
-            let viscosity = (fluid.viscosity + CENTRAL * fluid.central_viscosity) / fluid.rest_density;
+            // The rate of strain counts twice, and what the rotation takes from that bounds nothing.
+            let all = fluid.viscosity + CENTRAL * fluid.central_viscosity + 2.0 * fluid.strain_viscosity;
+            let viscosity = all / fluid.rest_density;
             bounds.push((EXPLICIT * h * h / viscosity, Bound::Viscosity));
             if let Some(implicit) = &fluid.implicit_viscosity {
                 let viscosity = implicit.viscosity + implicit.central_viscosity;

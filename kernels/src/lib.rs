@@ -31,6 +31,7 @@ mod state;
 pub mod step;
 mod surface;
 mod sweep;
+mod symmetric;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
@@ -66,7 +67,7 @@ kernels! {
     /// The fluid: smoothed particle hydrodynamics, with an equation of state (the paper, section 3.1) or with a pressure
     /// solve \[BK17\].
     sph {
-        density, pressure, forces, surface_tension, deficit, cohesion, repulsion, boundary_pressure,
+        density, pressure, forces, spin, strain_rate, surface_tension, deficit, cohesion, repulsion, boundary_pressure,
         wall_friction, kick, viscosity_begin, viscosity_product, viscosity_update, viscosity_reaction,
         viscosity_kick, predict, boundary, factors, pressure_update, pressure_acceleration,
         pressure_residual, pressure_kick, position_correction, boundary_reaction, sweep, advect,
@@ -79,7 +80,7 @@ kernels! {
         images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick, shift,
     } shared {
         closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect,
-        pub(crate) symmetric, pub(crate) walls,
+        pub(crate) walls,
     }
     /// The sponge: elasticity of the lattice, by strain constraints on tets (the paper, section 3.2), by vertex block descent or by
     /// Neo-Hookean constraints. Contact of its nodes as well.

@@ -25,6 +25,8 @@ pub enum Need {
     NoSlip,
     /// Explicit viscosity, as part of the forces.
     ExplicitViscosity,
+    /// Explicit viscosity by the rate of strain.
+    StrainRate,
     /// Implicit viscosity, as a solve for the velocities at the end of the step.
     ImplicitViscosity,
     /// Pressure by an equation of state.

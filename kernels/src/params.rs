@@ -237,6 +237,8 @@ pub struct FluidParams {
     pub viscosity: f32,
     /// Dynamic viscosity between their velocities along the line between them, of `sph::forces` \[Pa s\].
     pub central_viscosity: f32,
+    /// Dynamic viscosity by the rate of strain, of `sph::strain_rate` \[Pa s\].
+    pub strain_viscosity: f32,
     /// All viscosity as a solve; none where it is part of the forces.
     pub implicit_viscosity: Option<ImplicitViscosity>,
     /// Compression that is allowed for the roughness of the pressure, over that roughness \[s^2\]; see `sph::factors`.

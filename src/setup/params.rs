@@ -80,6 +80,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             incompressible: None,
             viscosity: 0.0,
             central_viscosity: 0.0,
+            strain_viscosity: 0.0,
             implicit_viscosity: None,
             roughness: 0.0,
             wall_viscosity: 0.0,
@@ -111,6 +112,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             (0.0, fluid.viscosity / lattice_central_viscosity(fluid) + numerical)
         }
         (true, scene::ViscosityForm::Morris) => (fluid.viscosity / lattice_viscosity(fluid), numerical),
+        (_, scene::ViscosityForm::StrainRate) => (0.0, numerical),
         (false, scene::ViscosityForm::Monaghan) => (0.0, fluid.viscosity + numerical),
         // As in the paper.
         (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
@@ -126,6 +128,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     // Viscosity that is part of the solve must not act a second time in the forces.
     let (viscosity, central_viscosity) =
         if is_implicit { (0.0, 0.0) } else { (viscosity, central_viscosity) };
+    let is_by_strain = fluid.viscosity_form == scene::ViscosityForm::StrainRate;
+    let strain_viscosity = if is_by_strain { fluid.viscosity / lattice_viscosity(fluid) } else { 0.0 };
     // Half a spacing, the place of the first layer of a lattice. A particle at half the speed of sound stops at the surface.
     let range = 0.5 * fluid.spacing;
     let frequency = 0.5 * sound_speed / range;
@@ -142,6 +146,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         incompressible: incompressible(scene, fluid, &smoothing, sound_speed),
         viscosity,
         central_viscosity,
+        strain_viscosity,
         implicit_viscosity,
         // Without a stored pressure there is no stabilisation.
         roughness: if solver == scene::FluidSolver::Dfsph {

@@ -16,11 +16,11 @@
 use crate::{
     columns::{Columns, Controls, Fluid, lane},
     cpu::Cpu,
-    divergence::symmetric::Symmetric,
     kernel::declare,
     lanes::{self, LANES, select, with_lanes},
     params::Params,
     smoothing::Wendland,
+    symmetric::Symmetric,
     vector::{dot, minus, plus, times},
 };
 

@@ -14,10 +14,10 @@
 use crate::{
     columns::{Columns, Controls, Fluid, lane},
     cpu::Cpu,
-    divergence::symmetric::Symmetric,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
+    symmetric::Symmetric,
     vector::{dot, minus, plus, times},
 };
 

@@ -12,10 +12,10 @@
 use crate::{
     columns::{Columns, Fluid},
     cpu::Cpu,
-    divergence::symmetric::Symmetric,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
+    symmetric::Symmetric,
     vector::{dot, minus, plus, times},
 };
 

@@ -18,6 +18,7 @@ use crate::{
     params::Params,
     periodic::{Space, with_space},
     sph::obstacles::per_chunk,
+    symmetric::Symmetric,
     vector::{Vec3x8, dot, plus, times},
     wrench,
 };
@@ -26,7 +27,6 @@ use super::{
     image_rows::{ImageRows, NO_BODY},
     rate::Pushing,
     reflect::{react, vector},
-    symmetric::Symmetric,
 };
 
 declare! {

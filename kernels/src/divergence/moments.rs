@@ -33,6 +33,7 @@ use crate::{
     params::{Divergence, Params},
     periodic::{Space, with_space},
     sph::pressure_solve::Beginning,
+    symmetric::Symmetric,
     vector::{Vec3x8, dot, negative, plus, times},
 };
 
@@ -40,7 +41,6 @@ use super::{
     image_rows::{ImageRows, Images, NO_BODY, OfParticles},
     rate::{MINIMUM_MATERIAL, SPARSE},
     reflect::{mirrored_renormalisation, vector},
-    symmetric::Symmetric,
 };
 
 declare! {

@@ -11,13 +11,11 @@ use crate::{
     layout::constants,
     params::Params,
     periodic::{Space, with_space},
+    symmetric::Symmetric,
     vector::{Vec3x8, dot, minus, plus, times},
 };
 
-use super::{
-    image_rows::{ImageRows, Images},
-    symmetric::Symmetric,
-};
+use super::image_rows::{ImageRows, Images};
 
 constants! {
     /// Density over that at rest below which a particle has no pressure.

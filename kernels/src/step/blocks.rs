@@ -56,6 +56,8 @@ pub(super) static FORCES: Block = Block {
     name: "forces",
     phases: &[
         Run(&sph::forces::KERNEL),
+        Run(&sph::spin::KERNEL),
+        Run(&sph::strain_rate::KERNEL),
         Run(&sph::surface_tension::KERNEL),
         Run(&sph::deficit::KERNEL),
         Run(&sph::cohesion::KERNEL),

@@ -142,6 +142,8 @@ pub(super) const ACROSS: &[&str] = &[
     "grid::fluid_neighbors",
     "sph::density",
     "sph::forces",
+    "sph::spin",
+    "sph::strain_rate",
     "sph::surface_tension",
     "sph::deficit",
     "sph::cohesion",

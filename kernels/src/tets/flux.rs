@@ -15,10 +15,10 @@ use crate::{
     columns::{Columns, Fluid},
     couple::solid_mirrors::Mirrors,
     cpu::Cpu,
-    divergence::symmetric::Symmetric,
     kernel::declare,
     lanes::{self, LANES, with_lanes},
     params::Params,
+    symmetric::Symmetric,
     vector::{dot, minus, plus, times},
 };
 

@@ -62,6 +62,7 @@ pub(super) fn params(options: Options) -> Params {
                 .then(|| incompressible(radius, spacing, options.divergence)),
             viscosity: 0.5,
             central_viscosity: 0.3,
+            strain_viscosity: if options.strain_rate { 0.5 } else { 0.0 },
             implicit_viscosity: options.implicit_viscosity.then_some(IMPLICIT_VISCOSITY),
             roughness: if options.incompressible { 5.0e-7 } else { 0.0 },
             wall_viscosity: 5.0,

@@ -28,6 +28,8 @@ pub(crate) struct Options {
     /// Whether properties depend on how wet sponges are, where a kernel asks.
     pub(crate) wetting: bool,
     pub(crate) implicit_viscosity: bool,
+    /// Whether there is viscosity by the rate of strain.
+    pub(crate) strain_rate: bool,
     /// Axes on which space repeats, by the length of the block; for scenes without sponges.
     pub(crate) periodic: [bool; 3],
     /// Whether sponges touch each other, where a kernel asks.
@@ -53,6 +55,7 @@ pub(crate) const FULL: Options = Options {
     cohesion: false,
     wetting: false,
     implicit_viscosity: false,
+    strain_rate: false,
     periodic: [false; 3],
     touch: false,
     compound: false,
@@ -99,6 +102,7 @@ impl Options {
             barycentric: kernel.needs.contains(&Need::Barycentric),
             cohesion,
             implicit_viscosity,
+            strain_rate: kernel.needs.contains(&Need::StrainRate),
             wetting,
             touch,
             ..self
