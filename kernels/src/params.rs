@@ -237,7 +237,7 @@ pub struct FluidParams {
     pub viscosity: f32,
     /// Dynamic viscosity between their velocities along the line between them, of `sph::forces` \[Pa s\].
     pub central_viscosity: f32,
-    /// Dynamic viscosity by the rate of strain, of `sph::strain_rate` \[Pa s\].
+    /// Dynamic viscosity by the rate of strain, as part of the forces or of the solve \[Pa s\].
     pub strain_viscosity: f32,
     /// All viscosity as a solve; none where it is part of the forces.
     pub implicit_viscosity: Option<ImplicitViscosity>,

@@ -12,3 +12,8 @@ fn viscosity_pair(apart: vec3<f32>, relative: vec3<f32>) -> vec3<f32> {
         params.smoothing.gradient * (10.0 * params.implicit_central_viscosity * volume / params.rest_density);
     return u * (scale * relative + (central_scale * central) * apart);
 }
+
+// Whether there is viscosity between pairs: all may be by the rate of strain.
+fn has_viscous_pairs() -> bool {
+    return params.implicit_viscosity + params.implicit_central_viscosity > 0.0;
+}

@@ -27,7 +27,8 @@ fn main(
     let own = fluid_position[row];
     let own_pressure = own[FLUID_POSITION_PRESSURE_OVER_SQUARED_DENSITY];
     let own_velocity = fluid_velocity[row];
-    let end = fluid_neighbors[row];
+    let has_pairs = params.divergence == 0u || params.viscosity + params.central_viscosity > 0.0;
+    let end = select(0u, fluid_neighbors[row], has_pairs);
     var push = vec3<f32>(0.0);
     var pull = vec3<f32>(0.0);
     var central = vec3<f32>(0.0);

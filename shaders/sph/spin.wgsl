@@ -1,5 +1,5 @@
 // #include smoothing, images, image, shares
-// Spin of the fluid around every particle; `spin.rs` has the formulas.
+// Spin of the fluid around every particle; `strain.rs` has the formulas. The velocity may be another field in its place.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -1,5 +1,5 @@
-// #include smoothing, images, shares
-// Viscosity by the rate of strain; `strain_rate.rs` has the formulas.
+// #include smoothing, images, shares, strain
+// Viscosity by the rate of strain.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -20,22 +20,9 @@ fn main(
     }
     let rows = params.fluid_rows;
     let share = shared_row(group, groups, lane, rows);
-    let point = fluid_position[share.row].xyz;
-    let velocity = fluid_velocity[share.row].xyz;
-    let spin = fluid_spin[share.row].xyz;
-    let end = fluid_neighbors[share.row];
-    var part = vec3<f32>(0.0);
-    for (var k = share.first; k < end; k += SHARES) {
-        let other = fluid_neighbors[share.row + (k + 1u) * rows];
-        let apart = apart_from(point, fluid_position[other].xyz);
-        let turned = cross(apart, (spin + fluid_spin[other].xyz) * 0.5);
-        part += (fluid_velocity[other].xyz - velocity - turned) * closeness(params.smoothing, dot(apart, apart));
-    }
-    let sum = share_sum3(lane, part);
+    let acceleration = strain_acceleration(share, lane, rows);
     if (share.writes) {
-        let volume = params.particle_mass / params.rest_density;
-        let scale = params.smoothing.viscosity * (2.0 * params.strain_viscosity * volume / params.rest_density);
         let own = fluid_acceleration[share.row];
-        fluid_acceleration[share.row] = with_vector(own, own.xyz + sum * scale);
+        fluid_acceleration[share.row] = with_vector(own, own.xyz + acceleration);
     }
 }

@@ -2,6 +2,8 @@
 // Before the first round of a solve for the implicit viscosity: what pairs add to the residual, and the first direction.
 //
 //     r_i = p_i = -h D_i(v*)
+//
+// What `viscosity_strain.wgsl` left in the place of the product is part of D.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -11,6 +13,7 @@
 @group(0) @binding(5) var<storage, read_write> fluid_viscosity_residual: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> fluid_viscosity_direction: array<vec4<f32>>;
 @group(0) @binding(7) var<storage, read_write> fluid_viscosity_solve: ViscositySolve;
+@group(0) @binding(8) var<storage, read> fluid_viscosity_product: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -25,7 +28,7 @@ fn main(
     }
     let point = fluid_position[row].xyz;
     let own = fluid_velocity[row];
-    let end = fluid_neighbors[row];
+    let end = select(0u, fluid_neighbors[row], has_viscous_pairs());
     var slot = row;
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < end; k += 1u) {
@@ -33,6 +36,9 @@ fn main(
         let other = fluid_neighbors[slot];
         let there = fluid_velocity[other];
         sum += viscosity_pair(apart_from(point, fluid_position[other].xyz), own.xyz - there.xyz);
+    }
+    if (params.strain_viscosity > 0.0) {
+        sum += fluid_viscosity_product[row].xyz;
     }
     let residual = fluid_viscosity_residual[row].xyz - clock.step * sum;
     fluid_viscosity_residual[row] = vec4<f32>(residual, 0.0);

@@ -3,6 +3,8 @@
 // `viscosity_length.wgsl`.
 //
 //     q_i = p_i + h (D_i(p) + F_i p_i)
+//
+// What `viscosity_strain.wgsl` left in the place of q is part of D.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
@@ -30,7 +32,7 @@ fn main(
     if (row < rows) {
         let point = fluid_position[row].xyz;
         let own = fluid_viscosity_direction[row];
-        let end = fluid_neighbors[row];
+        let end = select(0u, fluid_neighbors[row], has_viscous_pairs());
         var slot = row;
         var sum = vec3<f32>(0.0);
         for (var k = 0u; k < end; k += 1u) {
@@ -42,6 +44,9 @@ fn main(
         let p = own.xyz;
         let between = fluid_friction_between[row].xyz;
         let slowed = fluid_friction[row].xyz * p + between.yzx * p.zxy + between.zxy * p.yzx;
+        if (params.strain_viscosity > 0.0) {
+            sum += fluid_viscosity_product[row].xyz;
+        }
         let q = p + clock.step * (sum + slowed);
         let r = fluid_viscosity_residual[row].xyz;
         fluid_viscosity_product[row] = vec4<f32>(q, 0.0);

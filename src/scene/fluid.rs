@@ -58,8 +58,7 @@ pub struct Fluid {
     pub sound_speed: Option<f32>,
     /// Dynamic viscosity. Range 0 to 1000 Pa s; default 0.001 (water).
     pub viscosity: f32,
-    /// Form of the viscosity between neighbours; default `morris`. `strain_rate` needs `explicit` viscosity and a solver other than
-    /// `wcsph`.
+    /// Form of the viscosity between neighbours; default `morris`. `strain_rate` needs a solver other than `wcsph`.
     pub viscosity_form: ViscosityForm,
     /// How viscosity is integrated; default `explicit`. `implicit` is faster above some Pa s at a spacing of 5 mm.
     pub viscosity_integration: ViscosityIntegration,
@@ -185,7 +184,7 @@ pub enum ViscosityForm {
     /// particles lie in rows \[M92\].
     Monaghan,
     /// By the rate of strain: all components beside those of the local rotation, so that a fluid that turns feels nothing. Conserves both
-    /// momenta, and has no stress at free surfaces. For explicit integration, and any solver but `wcsph` (docs/viscosity.md).
+    /// momenta, and has no stress at free surfaces. For any solver but `wcsph` (docs/viscosity.md).
     StrainRate,
 }
 

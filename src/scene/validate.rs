@@ -10,7 +10,6 @@ use super::number::{number_text, vector_text};
 use super::{
     BlockShape, Coupling, CouplingWeights, Domain, Fluid, FluidSolver, GravityKey, MAXIMUM_NODES,
     MAXIMUM_PARTICLES, Scene, SceneError, ShapeKind, Solver, Sponge, VERSION, ViscosityForm,
-    ViscosityIntegration,
 };
 
 /// Range of `edge / spacing`. Outside it water slips between the nodes, or nodes find no water.
@@ -221,12 +220,10 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         let rule = "needs `fluid.coupling` = \"porous\" and `fluid.solver` = \"divergence\"";
         problems.push(Problem::rule("fluid.coupling_weights", "\"barycentric\"", rule));
     }
-    if fluid.viscosity_form == ViscosityForm::StrainRate {
-        let is_implicit = fluid.viscosity_integration == ViscosityIntegration::Implicit;
-        if is_implicit || scene.fluid_solver() == Some(FluidSolver::Wcsph) {
-            let rule = "needs `fluid.viscosity_integration` = \"explicit\", and a `fluid.solver` other than \"wcsph\"";
-            problems.push(Problem::rule("fluid.viscosity_form", "\"strain_rate\"", rule));
-        }
+    let is_wcsph = scene.fluid_solver() == Some(FluidSolver::Wcsph);
+    if fluid.viscosity_form == ViscosityForm::StrainRate && is_wcsph {
+        let rule = "needs a `fluid.solver` other than \"wcsph\"";
+        problems.push(Problem::rule("fluid.viscosity_form", "\"strain_rate\"", rule));
     }
     // Corners are decimals, which f32 rounds: a thousandth of the spacing covers that.
     let slack = 1e-3 * fluid.spacing;

@@ -117,9 +117,11 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         // As in the paper.
         (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
     };
+    let is_by_strain = fluid.viscosity_form == scene::ViscosityForm::StrainRate;
+    let strain_viscosity = if is_by_strain { fluid.viscosity / lattice_viscosity(fluid) } else { 0.0 };
     let is_implicit = fluid.viscosity_integration == scene::ViscosityIntegration::Implicit;
-    let implicit_viscosity =
-        (is_implicit && viscosity + central_viscosity > 0.0).then_some(ImplicitViscosity {
+    let implicit_viscosity = (is_implicit && viscosity + central_viscosity + strain_viscosity > 0.0)
+        .then_some(ImplicitViscosity {
             viscosity,
             central_viscosity,
             tolerance: fluid.viscosity_tolerance,
@@ -128,8 +130,6 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     // Viscosity that is part of the solve must not act a second time in the forces.
     let (viscosity, central_viscosity) =
         if is_implicit { (0.0, 0.0) } else { (viscosity, central_viscosity) };
-    let is_by_strain = fluid.viscosity_form == scene::ViscosityForm::StrainRate;
-    let strain_viscosity = if is_by_strain { fluid.viscosity / lattice_viscosity(fluid) } else { 0.0 };
     // Half a spacing, the place of the first layer of a lattice. A particle at half the speed of sound stops at the surface.
     let range = 0.5 * fluid.spacing;
     let frequency = 0.5 * sound_speed / range;

@@ -58,6 +58,7 @@ const CONSTANTS: &[&[Constant]] = &[
     sph::friction::CONSTANTS,
     sph::obstacles::CONSTANTS,
     sph::pressure_solve::CONSTANTS,
+    sph::strain::CONSTANTS,
     stars::CONSTANTS,
     sum_layout::CONSTANTS,
     surface::CONSTANTS,

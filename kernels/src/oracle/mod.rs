@@ -23,6 +23,7 @@ mod shapes;
 mod shift;
 pub(crate) mod solid;
 pub(crate) mod sph;
+pub(crate) mod strain;
 pub(crate) mod surface;
 pub(crate) mod tets;
 pub(crate) mod touch;

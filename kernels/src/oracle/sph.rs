@@ -1,6 +1,6 @@
 //! The fluid, pair by pair.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::{apart, closeness, gradient, keep, pi_power, row, shapes, smoothing, vector, vectors};
 use crate::{
@@ -8,7 +8,6 @@ use crate::{
     columns::{Columns, lane},
     params::{EquationOfState, Params},
     reduce::{Extreme, Extremes},
-    sph::spin,
 };
 
 pub(crate) fn density(params: &Params, columns: &mut Columns) {
@@ -84,48 +83,6 @@ pub(crate) fn forces(params: &Params, columns: &mut Columns) {
         let central = f64::from(params.fluid.central_viscosity) * central;
         let sum = params.gravity.as_dvec3() + pressure + scale * (viscosity + central);
         fluid.acceleration[i] = row(sum, f64::from(params.fluid.roughness) * roughness);
-    }
-}
-
-/// The rotation that fits the velocities of the neighbours best, by the normal equations of the fit.
-pub(crate) fn spin(params: &Params, columns: &mut Columns) {
-    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
-    let (x, v) = (vectors(&fluid.position, count), vectors(&fluid.velocity, count));
-    fluid.spin.resize(fluid.position.len(), [0.0; 4]);
-    for i in 0..count {
-        let (mut inertia, mut moment) = (DMat3::ZERO, DVec3::ZERO);
-        for j in 0..count {
-            let arm = apart(params, x[j], x[i]);
-            let u = closeness(params.fluid.smoothing.support_radius, arm.length());
-            let square = DMat3::from_cols(arm * arm.x, arm * arm.y, arm * arm.z);
-            inertia += u * (DMat3::from_diagonal(DVec3::splat(arm.length_squared())) - square);
-            moment += u * arm.cross(v[j] - v[i]);
-        }
-        let trace = inertia.x_axis.x + inertia.y_axis.y + inertia.z_axis.z;
-        let regular = DMat3::from_diagonal(DVec3::splat(f64::from(spin::REGULAR) * trace));
-        let turn = if trace > 0.0 { (inertia + regular).inverse() * moment } else { DVec3::ZERO };
-        fluid.spin[i] = row(turn, 0.0);
-    }
-}
-
-pub(crate) fn strain_rate(params: &Params, columns: &mut Columns) {
-    let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
-    let (x, v) = (vectors(&fluid.position, count), vectors(&fluid.velocity, count));
-    let spin = vectors(&fluid.spin, count);
-    let radius = params.fluid.smoothing.support_radius;
-    let rest = f64::from(params.fluid.rest_density);
-    let volume = f64::from(params.fluid.particle_mass) / rest;
-    let scale = 2.0 * f64::from(params.fluid.strain_viscosity) * volume / rest;
-    for i in 0..count {
-        let mut sum = DVec3::ZERO;
-        for j in 0..count {
-            let arm = apart(params, x[j], x[i]);
-            let laplacian = 45.0 / pi_power(radius, 5) * closeness(radius, arm.length());
-            let turned = (0.5 * (spin[i] + spin[j])).cross(arm);
-            sum += laplacian * (v[j] - v[i] - turned);
-        }
-        let own = fluid.acceleration[i];
-        fluid.acceleration[i] = keep(own, vector(own) + scale * sum);
     }
 }
 

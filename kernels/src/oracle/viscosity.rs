@@ -33,6 +33,11 @@ fn pairs(params: &Params, implicit: &ImplicitViscosity, fluid: &Fluid, field: &[
     (0..field.len()).map(one).collect()
 }
 
+/// What the rate of strain adds, from the place of the product.
+fn strained(params: &Params, fluid: &Fluid, row: usize) -> DVec3 {
+    if params.fluid.strain_viscosity > 0.0 { vector(fluid.viscosity_product[row]) } else { DVec3::ZERO }
+}
+
 /// Rate of deceleration by a surface at a distance.
 fn rate(params: &Params, distance: f64) -> f64 {
     let radius = f64::from(params.fluid.smoothing.support_radius);
@@ -63,7 +68,7 @@ pub(crate) fn begin(params: &Params, columns: &mut Columns) {
     }
     for i in 0..count {
         let x = vector(fluid.position[i]);
-        let (mut matrix, mut sum) = (DMat3::ZERO, slowed[i]);
+        let (mut matrix, mut sum) = (DMat3::ZERO, slowed[i] + strained(params, fluid, i));
         if let Some((low, high)) = params.walls.filter(|_| params.no_slip) {
             for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
                 let distances = [(x - low.as_dvec3()).dot(axis), (high.as_dvec3() - x).dot(axis)];
@@ -95,13 +100,14 @@ pub(crate) fn product(params: &Params, columns: &mut Columns) {
     let mut sums = [0.0; 4];
     fluid.viscosity_product.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..count {
+        let strained = strained(params, fluid, i);
         let (axes, between) = (vector(fluid.friction[i]), vector(fluid.friction_between[i]));
         let matrix = DMat3::from_cols(
             DVec3::new(axes.x, between.z, between.y),
             DVec3::new(between.z, axes.y, between.x),
             DVec3::new(between.y, between.x, axes.z),
         );
-        let q = p[i] + f64::from(params.step) * (slowed[i] + matrix * p[i]);
+        let q = p[i] + f64::from(params.step) * (slowed[i] + strained + matrix * p[i]);
         let r = vector(fluid.viscosity_residual[i]);
         let own = [p[i].dot(q), r.dot(p[i]), r.dot(q), q.dot(q)];
         sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);

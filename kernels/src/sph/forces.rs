@@ -73,6 +73,7 @@ fn chunk<S: Simd, const PRESSURE: bool>(
     let roughness_scale = pressure_scale * fluid.roughness;
     // With a pressure solve particles keep their volume, and the fourth lane of the velocity has another quantity.
     let is_known = fluid.incompressible.is_some();
+    let has_pairs = PRESSURE || fluid.viscosity + fluid.central_viscosity > 0.0;
     let rest_volume = lanes::splat(simd, fluid.rest_volume());
     for row in (0..acceleration.len()).step_by(LANES) {
         let [x, y, z, p] = lanes::load_rows(simd, position, first + row);
@@ -83,7 +84,7 @@ fn chunk<S: Simd, const PRESSURE: bool>(
         let mut viscosity = [zero; 3];
         let mut central = [zero; 3];
         let mut roughness = zero;
-        for entry in lists.group(row) {
+        for entry in if has_pairs { lists.group(row) } else { &[] } {
             let [xj, yj, zj, pj] = lanes::gather_rows(simd, position, entry);
             let [vxj, vyj, vzj, volume_j] = lanes::gather_rows(simd, velocity, entry);
             let [dx, dy, dz] = space.apart([x, y, z], [xj, yj, zj]);

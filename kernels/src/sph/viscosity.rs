@@ -24,6 +24,7 @@ pub(super) struct Pairs<'a, S: Simd, P: Space<S>> {
     scale: f32x8<S>,
     central_scale: f32x8<S>,
     softening: f32x8<S>,
+    has_pairs: bool,
     position: &'a [[f32; 4]],
 }
 
@@ -43,6 +44,7 @@ impl<'a, S: Simd, P: Space<S>> Pairs<'a, S, P> {
             scale: kernel.viscosity_scale() * (viscosity * volume / fluid.rest_density),
             central_scale: kernel.gradient_scale() * (10.0 * central * volume / fluid.rest_density),
             softening: lanes::splat(simd, fluid.smoothing.softening()),
+            has_pairs: viscosity + central > 0.0,
             position,
         }
     }
@@ -54,6 +56,8 @@ impl<'a, S: Simd, P: Space<S>> Pairs<'a, S, P> {
         let [vx, vy, vz, _] = lanes::load_rows(self.simd, vectors, first);
         let zero = lanes::splat(self.simd, 0.0);
         let (mut all, mut central) = ([zero; 3], [zero; 3]);
+        // All viscosity may be by the rate of strain.
+        let list = if self.has_pairs { list } else { &[] };
         for entry in list {
             let [xj, yj, zj, _] = lanes::gather_rows(self.simd, self.position, entry);
             let [vxj, vyj, vzj, _] = lanes::gather_rows(self.simd, vectors, entry);

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! over the no-slip surfaces `s`, with `f` from `sph::wall_friction`, but without its limit by the step, and the pairs of
-//! `viscosity`. `viscosity_solve` has the iteration.
+//! `viscosity`. What `sph::viscosity_strain` left in the place of the product is part of D. `viscosity_solve` has the iteration.
 
 use crate::{
     body::{Body, Placed},
@@ -30,7 +30,7 @@ use super::{
 
 declare! {
     needs: [Fluid, ImplicitViscosity],
-    reads: [FluidPosition, FluidVelocity, FluidNeighbors, BodyStates],
+    reads: [FluidPosition, FluidVelocity, FluidNeighbors, FluidViscosityProduct, BodyStates],
     writes: [
         FluidFriction, FluidFrictionBetween, FluidViscosityResidual, FluidViscosityDirection,
         FluidViscosityChange, FluidViscositySolve,
@@ -50,6 +50,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         friction_between,
         viscosity_residual: residual,
         viscosity_direction: direction,
+        viscosity_product: strained,
         viscosity_change: change,
         viscosity_solve: solve,
         ..
@@ -58,7 +59,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
         rows.resize(position.len(), [0.0; 4]);
     }
     solve.begin();
-    let task = Task { params, bodies: &columns.bodies.states.0, position, velocity };
+    let task = Task { params, bodies: &columns.bodies.states.0, position, velocity, strained };
     let rows = (&mut friction[..], &mut friction_between[..], &mut residual[..], &mut direction[..]);
     cpu.for_chunks(rows, |first, (friction, between, residual, direction)| {
         let lists = neighbors.chunk(first);
@@ -76,6 +77,8 @@ struct Task<'a> {
     bodies: &'a [Body],
     position: &'a [[f32; 4]],
     velocity: &'a [[f32; 4]],
+    /// Deceleration by the rate of strain, if there is viscosity of that form.
+    strained: &'a [[f32; 4]],
 }
 
 /// The friction at eight particles.
@@ -104,6 +107,7 @@ impl Task<'_> {
         let pairs = Pairs::new((simd, space), self.params, self.position);
         let radius = self.params.fluid.smoothing.support_radius;
         let near = near(self.bodies, &self.position[first..first + residual.len()], radius);
+        let is_strained = self.params.fluid.strain_viscosity > 0.0;
         let zero = lanes::splat(simd, 0.0);
         let back = lanes::splat(simd, -self.params.step);
         for row in (0..residual.len()).step_by(LANES) {
@@ -114,6 +118,12 @@ impl Task<'_> {
                 self.add(simd, body, [x, y, z], [vx, vy, vz], &mut own);
             }
             let sum = plus(pairs.of(self.velocity, first + row, lists.group(row)), own.slowed);
+            let sum = if is_strained {
+                let [sx, sy, sz, _] = lanes::load_rows(simd, self.strained, first + row);
+                plus(sum, [sx, sy, sz])
+            } else {
+                sum
+            };
             let [rx, ry, rz] = times(sum, back);
             lanes::store_rows(residual, row, [rx, ry, rz, zero]);
             lanes::store_rows(direction, row, [rx, ry, rz, zero]);

@@ -4,7 +4,8 @@
 //! q_i = p_i + h (D_i(p) + F_i p_i)
 //! ```
 //!
-//! with the pairs of `viscosity` and the friction of `sph::viscosity_begin`.
+//! with the pairs of `viscosity` and the friction of `sph::viscosity_begin`. What `sph::viscosity_strain` left in the place of q is part
+//! of D.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -23,7 +24,7 @@ declare! {
     needs: [Fluid, ImplicitViscosity],
     reads: [
         FluidPosition, FluidNeighbors, FluidFriction, FluidFrictionBetween, FluidViscosityResidual,
-        FluidViscosityDirection, FluidViscositySolve,
+        FluidViscosityDirection, FluidViscosityProduct, FluidViscositySolve,
     ],
     writes: [FluidViscosityProduct, FluidViscositySolve],
     oracle: crate::oracle::viscosity::product,
@@ -70,6 +71,7 @@ fn chunk<S: Simd>(
     product: &mut [[f32; 4]],
 ) {
     let pairs = Pairs::new((simd, space), params, position);
+    let is_strained = params.fluid.strain_viscosity > 0.0;
     let step = lanes::splat(simd, params.step);
     let zero = lanes::splat(simd, 0.0);
     for row in (0..product.len()).step_by(LANES) {
@@ -78,6 +80,12 @@ fn chunk<S: Simd>(
         let [yz, zx, xy, _] = lanes::load_rows(simd, between, row);
         let slowed = [xx * x + xy * y + zx * z, xy * x + yy * y + yz * z, zx * x + yz * y + zz * z];
         let sum = plus(pairs.of(direction, first + row, lists.group(row)), slowed);
+        let sum = if is_strained {
+            let [sx, sy, sz, _] = lanes::load_rows(simd, product, row);
+            plus(sum, [sx, sy, sz])
+        } else {
+            sum
+        };
         let [qx, qy, qz] = plus([x, y, z], times(sum, step));
         lanes::store_rows(product, row, [qx, qy, qz, zero]);
     }

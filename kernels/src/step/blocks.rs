@@ -84,10 +84,18 @@ pub(super) static VISCOSITY: Block = Block {
     name: "viscosity",
     phases: &[
         Run(&sph::kick::KERNEL),
+        Run(&sph::viscosity_start::KERNEL),
+        Run(&sph::viscosity_spin::KERNEL),
+        Run(&sph::viscosity_strain::KERNEL),
         Run(&sph::viscosity_begin::KERNEL),
         Repeat {
             times: Times::UntilConverged(Solve::Viscosity),
-            phases: &[Run(&sph::viscosity_product::KERNEL), Run(&sph::viscosity_update::KERNEL)],
+            phases: &[
+                Run(&sph::viscosity_spin::KERNEL),
+                Run(&sph::viscosity_strain::KERNEL),
+                Run(&sph::viscosity_product::KERNEL),
+                Run(&sph::viscosity_update::KERNEL),
+            ],
         },
         Run(&sph::viscosity_reaction::KERNEL),
         Run(&sph::viscosity_kick::KERNEL),

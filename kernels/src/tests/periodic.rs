@@ -147,6 +147,8 @@ pub(super) const ACROSS: &[&str] = &[
     "sph::surface_tension",
     "sph::deficit",
     "sph::cohesion",
+    "sph::viscosity_spin",
+    "sph::viscosity_strain",
     "sph::viscosity_begin",
     "sph::viscosity_product",
     "sph::factors",

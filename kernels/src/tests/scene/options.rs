@@ -93,6 +93,9 @@ impl Options {
         let wetting = self.wetting && (reads || porous) || kernel.needs.contains(&Need::Wetting);
         let porous = porous || wetting || divergence && self.sponges;
         let implicit_viscosity = kernel.needs.contains(&Need::ImplicitViscosity);
+        // What the rate of strain leaves for a solve, and what is part of it.
+        let strain_rate = kernel.needs.contains(&Need::StrainRate)
+            || implicit_viscosity && kernel.reads.contains(&Column::FluidViscosityProduct);
         let of_touch = |column: &Column| matches!(column, Column::NodeTouch | Column::NodePairs);
         let touch = kernel.reads.iter().chain(kernel.writes).any(of_touch);
         Self {
@@ -102,7 +105,7 @@ impl Options {
             barycentric: kernel.needs.contains(&Need::Barycentric),
             cohesion,
             implicit_viscosity,
-            strain_rate: kernel.needs.contains(&Need::StrainRate),
+            strain_rate,
             wetting,
             touch,
             ..self
