@@ -77,7 +77,7 @@ kernels! {
     }
     /// The fluid, with a pressure solve for the divergence of the velocities.
     divergence {
-        images, moments, hydrostatic, approach, damping, expect, update, acceleration, residual, kick, shift,
+        images, moments, hydrostatic, approach, damping, pressure_guess, pressure_return, expect, update, acceleration, residual, kick, shift,
     } shared {
         closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect,
         pub(crate) walls,

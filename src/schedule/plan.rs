@@ -122,6 +122,15 @@ impl Plan {
                     let until_converged = matches!(times, Times::UntilConverged(_));
                     self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
                 }
+                Phase::With { need, phases } => {
+                    let first = self.lines.len();
+                    self.collect(phases, contents, repeat, groups);
+                    if let Some(reason) = need.missing(contents) {
+                        self.lines[first..]
+                            .iter_mut()
+                            .for_each(|line| line.verdict = Verdict::Skipped(reason));
+                    }
+                }
                 Phase::KeepDensity { solve, divergence, projection } => {
                     let kept = Phase::kept([solve, divergence, projection], contents);
                     self.collect(kept, contents, repeat, groups);

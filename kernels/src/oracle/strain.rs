@@ -69,6 +69,7 @@ pub(crate) fn viscosity_start(_: &Params, columns: &mut Columns) {
     let direction = &mut columns.fluid.viscosity_direction;
     *direction = velocities.into_iter().map(|velocity| row(velocity, 0.0)).collect();
     direction.resize(rows, [0.0; 4]);
+    columns.fluid.viscosity_product = vec![[0.0; 4]; rows];
 }
 
 pub(crate) fn viscosity_spin(params: &Params, columns: &mut Columns) {

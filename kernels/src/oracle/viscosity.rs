@@ -12,6 +12,23 @@ use crate::{
     params::{ImplicitViscosity, Params},
 };
 
+pub(crate) fn pressure_guess(_: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    for (velocity, correction) in
+        fluid.velocity.iter_mut().zip(&mut fluid.correction).take(columns.rows.fluid)
+    {
+        let (old, new) = (vector(*velocity), vector(*correction));
+        (*velocity, *correction) = (keep(*velocity, new), keep(*correction, new - old));
+    }
+}
+
+pub(crate) fn pressure_return(_: &Params, columns: &mut Columns) {
+    let fluid = &mut columns.fluid;
+    for (velocity, correction) in fluid.velocity.iter_mut().zip(&fluid.correction).take(columns.rows.fluid) {
+        *velocity = keep(*velocity, vector(*velocity) - vector(*correction));
+    }
+}
+
 /// Deceleration of a particle by its neighbours at these velocities, or at another field in their place.
 fn pairs(params: &Params, implicit: &ImplicitViscosity, fluid: &Fluid, field: &[DVec3]) -> Vec<DVec3> {
     let x = vectors(&fluid.position, field.len());

@@ -1,10 +1,10 @@
 //! The blocks that a step is made of.
 
-use crate::{couple, divergence, grid, pbd, sph, tets};
+use crate::{couple, divergence, grid, need::Need, pbd, sph, tets};
 
 use super::{
     Block,
-    Phase::{self, Host, KeepDensity, Repeat, Run},
+    Phase::{self, Host, KeepDensity, Repeat, Run, With},
     RIGID, Solve, Times,
 };
 
@@ -79,11 +79,21 @@ pub(super) static WALLS: Block = Block {
 pub(super) static NOISE: Block =
     Block { name: "noise", phases: &[Run(&divergence::approach::KERNEL), Run(&divergence::damping::KERNEL)] };
 
-/// Velocities by the forces, and by a solve for implicit viscosity.
+/// Velocities by the forces, and by a solve for implicit viscosity. That solve has the pressure of the last step, so that viscosity resists
+/// what pressure does.
 pub(super) static VISCOSITY: Block = Block {
     name: "viscosity",
     phases: &[
         Run(&sph::kick::KERNEL),
+        With {
+            need: Need::ImplicitViscosity,
+            phases: &[
+                Run(&divergence::expect::KERNEL),
+                Run(&divergence::update::KERNEL),
+                Run(&divergence::acceleration::KERNEL),
+                Run(&divergence::pressure_guess::KERNEL),
+            ],
+        },
         Run(&sph::viscosity_start::KERNEL),
         Run(&sph::viscosity_spin::KERNEL),
         Run(&sph::viscosity_strain::KERNEL),
@@ -99,6 +109,7 @@ pub(super) static VISCOSITY: Block = Block {
         },
         Run(&sph::viscosity_reaction::KERNEL),
         Run(&sph::viscosity_kick::KERNEL),
+        Run(&divergence::pressure_return::KERNEL),
     ],
 };
 

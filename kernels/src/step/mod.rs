@@ -18,6 +18,13 @@ pub enum Phase {
         /// What is repeated.
         phases: &'static [Self],
     },
+    /// Phases that a scene without `need` has no use for, although the kernels alone might run.
+    With {
+        /// What the scene must contain.
+        need: Need,
+        /// Phases, in order.
+        phases: &'static [Self],
+    },
     /// Keeps the density of the fluid, where there is no equation of state.
     KeepDensity {
         /// By a solve for the pressure.
