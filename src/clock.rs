@@ -112,16 +112,16 @@ impl Steps {
         let sponges = || sponges().filter(|(index, _)| !is_out(*index)).map(|(_, own)| own);
         if let Some(water) = scene.fluid.as_ref().filter(|_| has_fluid) {
             let h = fluid.smoothing.support_radius;
-            // The rate of strain counts twice, and what the rotation takes from that bounds nothing.
-            let strain = 2.0 * fluid.strain_viscosity;
             if let Some(implicit) = &fluid.implicit_viscosity {
-                let viscosity = implicit.viscosity + implicit.central_viscosity + strain;
+                let viscosity = implicit.viscosity + implicit.central_viscosity + fluid.strain_viscosity;
                 let explicit = EXPLICIT * h * h / (viscosity / fluid.rest_density);
                 let stopped = bodies.iter().enumerate().filter(|(_, body)| body.no_slip);
                 let longest = stopped.map(|(index, body)| stopping(params, body, engine, index));
                 bounds.push((longest.fold(IMPLICIT * explicit, f32::min), Bound::Viscosity));
             } else {
-                let viscosity = fluid.viscosity + CENTRAL * fluid.central_viscosity + strain;
+                // The rate of strain counts twice. What the rotation takes from that bounds nothing.
+                let viscosity =
+                    fluid.viscosity + CENTRAL * fluid.central_viscosity + 2.0 * fluid.strain_viscosity;
                 bounds.push((EXPLICIT * h * h / (viscosity / fluid.rest_density), Bound::Viscosity));
             }
             let capillary = fluid.rest_density * h * h * h / (2.0 * PI * water.surface_tension);

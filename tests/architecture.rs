@@ -77,6 +77,11 @@ impl Figure {
                     self.note(indent, &repetition(*times));
                     self.phases(indent + 2, phases);
                 }
+                Phase::With { need: Need::ImplicitViscosity, phases } => {
+                    self.note(indent, "with implicit viscosity:");
+                    self.phases(indent + 2, phases);
+                }
+                Phase::With { need, .. } => panic!("{need:?} has no words"),
                 Phase::KeepDensity { solve, divergence, projection } => {
                     self.phases(indent, solve);
                     self.note(indent, "or, with divergence:");

@@ -235,11 +235,13 @@ fn water_runs_through_a_channel_for_ever() {
 #[test]
 fn viscous_flow_is_as_slow_as_its_viscosity_says() {
     // Along the axes of a lattice Monaghan's form has 0.6 of its viscosity (docs/viscosity.md).
-    for (form, most) in [(ViscosityForm::Morris, 1.1), (ViscosityForm::Monaghan, 1.7)] {
+    for (form, most) in
+        [(ViscosityForm::Morris, 1.1), (ViscosityForm::StrainRate, 1.1), (ViscosityForm::Monaghan, 1.7)]
+    {
         let mut scene = full([true, false, true]);
         scene.gravity = Vec3::X;
         let water = fluid(&mut scene);
-        (water.viscosity, water.viscosity_form, water.no_slip) = (30.0, form, true);
+        (water.viscosity, water.viscosity_form, water.no_slip) = (30.0, Some(form), true);
         let kinematic = water.viscosity / water.rest_density;
         let mut world = common::world(&scene);
         // Twice the time in which viscosity crosses the channel.

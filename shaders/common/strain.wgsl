@@ -1,7 +1,7 @@
 // Acceleration by the strains of the pairs of a particle, whole in the thread that writes; `strain.rs` has the formulas. Needs `smoothing`,
 // `images` and `shares`. The pass binds `fluid_position`, `fluid_velocity`, `fluid_neighbors` and `fluid_spin`.
 
-fn strain_acceleration(share: Share, lane: u32, rows: u32) -> vec3<f32> {
+fn strain_acceleration(share: SharedRow, lane: u32, rows: u32) -> vec3<f32> {
     let point = fluid_position[share.row].xyz;
     let velocity = fluid_velocity[share.row].xyz;
     let spin = fluid_spin[share.row].xyz;

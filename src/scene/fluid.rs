@@ -58,8 +58,10 @@ pub struct Fluid {
     pub sound_speed: Option<f32>,
     /// Dynamic viscosity. Range 0 to 1000 Pa s; default 0.001 (water).
     pub viscosity: f32,
-    /// Form of the viscosity between neighbours; default `morris`. `strain_rate` needs a solver other than `wcsph`.
-    pub viscosity_form: ViscosityForm,
+    /// Form of the viscosity between neighbours; default `morris`, and `strain_rate` for `implicit` viscosity. `strain_rate` needs a solver
+    /// other than `wcsph`, for which the default is always `morris`.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub viscosity_form: Option<ViscosityForm>,
     /// How viscosity is integrated; default `explicit`. `implicit` is faster above some Pa s at a spacing of 5 mm.
     pub viscosity_integration: ViscosityIntegration,
     /// Tolerance of the solve for `implicit` viscosity: residual over the change of the velocities in a step. Range 1e-6 to
@@ -112,7 +114,7 @@ impl Default for Fluid {
             equation_of_state: EquationOfState::Tait,
             sound_speed: None,
             viscosity: 0.001,
-            viscosity_form: ViscosityForm::Morris,
+            viscosity_form: None,
             viscosity_integration: ViscosityIntegration::Explicit,
             viscosity_tolerance: 1e-3,
             viscosity_rounds: 200,
@@ -138,6 +140,15 @@ impl Fluid {
     #[must_use]
     pub fn numerical_viscosity(&self, solver: FluidSolver) -> f32 {
         self.artificial_viscosity.unwrap_or(if solver == FluidSolver::Divergence { 0.0 } else { 0.05 })
+    }
+
+    /// `viscosity_form`, or the default of a solver: what the forms differ in counts where fluids are thick, and water need not pay for it.
+    #[must_use]
+    pub fn form_of_viscosity(&self, solver: FluidSolver) -> ViscosityForm {
+        let is_thick =
+            self.viscosity_integration == ViscosityIntegration::Implicit && solver != FluidSolver::Wcsph;
+        let default = if is_thick { ViscosityForm::StrainRate } else { ViscosityForm::Morris };
+        self.viscosity_form.unwrap_or(default)
     }
 
     /// Radius of the neighbour search \[m\]: the support radius or, with a surface energy, that of the energy.
@@ -171,14 +182,13 @@ pub enum FluidSolver {
 
 /// Form of the viscosity between neighbours.
 ///
-/// Numerical viscosity (`artificial_viscosity`) has the form `monaghan` in either case, except for `wcsph` with `morris`,
+/// Numerical viscosity (`artificial_viscosity`) has the form `monaghan` in any case, except for `wcsph` with `morris`,
 /// which is the model of the paper.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ViscosityForm {
     /// Between all components of the velocities: accurate in shear, conserves linear momentum \[MFZ97; MCG03\].
-    #[default]
     Morris,
     /// Between the components along the line between the particles: conserves angular momentum as well. Less accurate where
     /// particles lie in rows \[M92\].

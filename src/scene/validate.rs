@@ -221,7 +221,7 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         problems.push(Problem::rule("fluid.coupling_weights", "\"barycentric\"", rule));
     }
     let is_wcsph = scene.fluid_solver() == Some(FluidSolver::Wcsph);
-    if fluid.viscosity_form == ViscosityForm::StrainRate && is_wcsph {
+    if fluid.viscosity_form == Some(ViscosityForm::StrainRate) && is_wcsph {
         let rule = "needs a `fluid.solver` other than \"wcsph\"";
         problems.push(Problem::rule("fluid.viscosity_form", "\"strain_rate\"", rule));
     }

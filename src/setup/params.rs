@@ -107,7 +107,8 @@ fn fluid_params(scene: &Scene) -> FluidParams {
     // h = H / 2 [M05, eq. 8.8].
     let numerical = fluid.rest_density * fluid.numerical_viscosity(solver) * sound_speed * support / 20.0;
     let is_incompressible = solver != scene::FluidSolver::Wcsph;
-    let (viscosity, central_viscosity) = match (is_incompressible, fluid.viscosity_form) {
+    let form = fluid.form_of_viscosity(solver);
+    let (viscosity, central_viscosity) = match (is_incompressible, form) {
         (true, scene::ViscosityForm::Monaghan) => {
             (0.0, fluid.viscosity / lattice_central_viscosity(fluid) + numerical)
         }
@@ -117,7 +118,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         // As in the paper.
         (false, scene::ViscosityForm::Morris) => (fluid.viscosity + numerical, 0.0),
     };
-    let is_by_strain = fluid.viscosity_form == scene::ViscosityForm::StrainRate;
+    let is_by_strain = form == scene::ViscosityForm::StrainRate;
     let strain_viscosity = if is_by_strain { fluid.viscosity / lattice_viscosity(fluid) } else { 0.0 };
     let is_implicit = fluid.viscosity_integration == scene::ViscosityIntegration::Implicit;
     let implicit_viscosity = (is_implicit && viscosity + central_viscosity + strain_viscosity > 0.0)

@@ -7,10 +7,14 @@ use super::scene::{FULL, Options, Scene, best};
 /// Free fluid: nothing takes momentum from it.
 const FREE: Options =
     Options { sponges: false, bodies: false, walls: false, implicit_viscosity: true, ..FULL };
+/// Free fluid with viscosity by the rate of strain.
+const STRAINED: Options = Options { strain_rate: true, ..FREE };
 /// Fluid among bodies that it does not slide along.
 const AMONG: Options = Options { bodies: true, ..FREE };
 
-const ROUND: [&str; 2] = ["sph::viscosity_product", "sph::viscosity_update"];
+/// An iteration, which begins later without viscosity by the rate of strain.
+const ROUND: [&str; 4] =
+    ["sph::viscosity_spin", "sph::viscosity_strain", "sph::viscosity_product", "sph::viscosity_update"];
 
 fn vector(row: [f32; 4]) -> DVec3 {
     DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]))
@@ -34,9 +38,10 @@ fn solve(scene: &mut Scene) -> [Vec<DVec3>; 2] {
         scene.columns.fluid.velocity[..scene.columns.rows.fluid].iter().map(|row| vector(*row)).collect()
     };
     let before = velocities(scene);
+    let is_strained = scene.params.fluid.strain_viscosity > 0.0;
     scene.run(&best(), &["sph::viscosity_begin"]);
     loop {
-        scene.run(&best(), &ROUND);
+        scene.run(&best(), if is_strained { &ROUND } else { &ROUND[2..] });
         if scene.columns.fluid.viscosity_solve.is_converged() {
             break;
         }
@@ -64,8 +69,9 @@ fn given(scene: &Scene, before: &Scene) -> DVec3 {
 
 #[test]
 fn pairs_keep_momentum_after_any_number_of_rounds() {
-    for (tolerance, rounds) in [(0.0, 1), (0.0, 2), (0.0, 7), (1e-3, 200)] {
-        let mut scene = kicked(FREE, 0.02);
+    let ends = [(0.0, 1), (0.0, 2), (0.0, 7), (1e-3, 200)];
+    for (options, (tolerance, rounds)) in [FREE, STRAINED].iter().flat_map(|o| ends.map(|end| (*o, end))) {
+        let mut scene = kicked(options, 0.02);
         set(&mut scene, tolerance, rounds);
         let mut motion = solve(&mut scene);
         let error = gained(&scene, &motion, DVec3::ZERO);
@@ -74,6 +80,33 @@ fn pairs_keep_momentum_after_any_number_of_rounds() {
         motion[1][500] *= 1.1;
         assert!(gained(&scene, &motion, DVec3::ZERO) > 5e-6);
     }
+}
+
+/// Angular momentum that the fluid gains, over the sum of the magnitudes of what its particles gain.
+fn turned(scene: &Scene, [before, after]: &[Vec<DVec3>; 2]) -> f64 {
+    let points = scene.columns.fluid.position.iter().map(|row| vector(*row));
+    let gains = before.iter().zip(after).zip(points).map(|((before, after), x)| x.cross(*after - *before));
+    let (sum, magnitude) =
+        gains.fold((DVec3::ZERO, 0.0), |(sum, all), gain| (sum + gain, all + gain.length()));
+    assert!(magnitude > 0.0, "nothing happens");
+    sum.length() / magnitude
+}
+
+#[test]
+fn viscosity_by_the_rate_of_strain_turns_nothing() {
+    let of = |options| {
+        let mut scene = kicked(options, 0.02);
+        if options.strain_rate {
+            let implicit = scene.params.fluid.implicit_viscosity.as_mut().expect("the options ask for it");
+            (implicit.viscosity, implicit.central_viscosity) = (0.0, 0.0);
+        }
+        set(&mut scene, 1e-3, 200);
+        let motion = solve(&mut scene);
+        turned(&scene, &motion)
+    };
+    assert!(of(STRAINED) < 2e-6, "{:.1e}", of(STRAINED));
+    // The control: the form that acts on all of the relative velocity.
+    assert!(of(FREE) > 1e-4, "{:.1e}", of(FREE));
 }
 
 #[test]

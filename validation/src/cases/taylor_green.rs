@@ -99,7 +99,7 @@ fn scene(
     let fluid = Fluid {
         spacing: spacing as f32,
         viscosity: setting.planted(1.0, 2.0) * vortex.viscosity as f32 * rest_density,
-        viscosity_form,
+        viscosity_form: Some(viscosity_form),
         artificial_viscosity: Some(artificial_viscosity),
         // Ten times the largest speed, which the scene cannot derive.
         sound_speed: Some(10.0 * SPEED as f32),
