@@ -85,13 +85,15 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "sinking",
         "divergence",
         "sphere of 1.12: path",
-        "too heavy by 3 % of the water that it displaces, with 8 particles across; cause unknown",
+        "a held sphere is lifted by 0.98 to 0.993 of the water that it displaces with 8 particles across, by 0.993 with 12: images \
+         mirror in tangent planes (docs/history.md, lift of held bodies)",
     ),
     miss(
         "sinking",
         "divergence",
         "sphere of 0.98: path",
-        "7.1 instead of 5.7 mm at full size; cause unknown",
+        "7.1 instead of 5.7 mm at full size: the force on a held sphere scatters by a hundredth of the water that it displaces from \
+         frame to frame, half of what moves this one (docs/history.md, lift of held bodies)",
     ),
     miss("sinking", "divergence", "cuboid of 0.9", EDGES),
     miss("sinking", "divergence", "cuboid of 1.0", EDGES),

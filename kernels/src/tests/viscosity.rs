@@ -104,7 +104,7 @@ fn viscosity_by_the_rate_of_strain_turns_nothing() {
         let motion = solve(&mut scene);
         turned(&scene, &motion)
     };
-    assert!(of(STRAINED) < 2e-6, "{:.1e}", of(STRAINED));
+    assert!(of(STRAINED) < 5e-6, "{:.1e}", of(STRAINED));
     // The control: the form that acts on all of the relative velocity.
     assert!(of(FREE) > 1e-4, "{:.1e}", of(FREE));
 }
