@@ -77,11 +77,11 @@ impl Figure {
                     self.note(indent, &repetition(*times));
                     self.phases(indent + 2, phases);
                 }
-                Phase::With { need: Need::ImplicitViscosity, phases } => {
-                    self.note(indent, "with implicit viscosity:");
+                Phase::With { needs, phases } => {
+                    let needs = needs.iter().filter_map(condition).collect::<Vec<_>>();
+                    self.note(indent, &format!("with {}:", needs.join(", ")));
                     self.phases(indent + 2, phases);
                 }
-                Phase::With { need, .. } => panic!("{need:?} has no words"),
                 Phase::KeepDensity { solve, divergence, projection } => {
                     self.phases(indent, solve);
                     self.note(indent, "or, with divergence:");

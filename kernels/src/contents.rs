@@ -77,6 +77,7 @@ impl Need {
             Self::ExplicitViscosity => (fluid.implicit_viscosity.is_none(), "viscosity is implicit"),
             Self::StrainRate => (fluid.strain_viscosity > 0.0, "no viscosity by the rate of strain"),
             Self::ImplicitViscosity => (fluid.implicit_viscosity.is_some(), "viscosity is explicit"),
+            Self::NoSponges => (rows.nodes == 0, "sponges take a part of the pressure"),
             Self::EquationOfState => (fluid.incompressible.is_none(), "pressure is solved for"),
             Self::Incompressible => (fluid.incompressible.is_some(), "pressure by an equation of state"),
             Self::Density => (

@@ -29,6 +29,8 @@ pub enum Need {
     StrainRate,
     /// Implicit viscosity, as a solve for the velocities at the end of the step.
     ImplicitViscosity,
+    /// No sponges: no material takes a part of the pressure.
+    NoSponges,
     /// Pressure by an equation of state.
     EquationOfState,
     /// A pressure solve, or position based fluids.

@@ -122,10 +122,10 @@ impl Plan {
                     let until_converged = matches!(times, Times::UntilConverged(_));
                     self.lines[first..].iter_mut().for_each(|line| line.until_converged = until_converged);
                 }
-                Phase::With { need, phases } => {
+                Phase::With { needs, phases } => {
                     let first = self.lines.len();
                     self.collect(phases, contents, repeat, groups);
-                    if let Some(reason) = need.missing(contents) {
+                    if let Some(reason) = needs.iter().find_map(|need| need.missing(contents)) {
                         self.lines[first..]
                             .iter_mut()
                             .for_each(|line| line.verdict = Verdict::Skipped(reason));

@@ -70,7 +70,7 @@ const TOGETHER: [&[&str]; 4] = [
         "divergence::residual",
     ],
     &["sph::pressure_update", "sph::pressure_acceleration", "couple::solid_yield", "sph::pressure_residual"],
-    &["sph::viscosity_product", "sph::viscosity_update"],
+    &["sph::viscosity_spin", "sph::viscosity_strain", "sph::viscosity_product", "sph::viscosity_update"],
 ];
 
 /// Kernels of a scene that can be placed separately.

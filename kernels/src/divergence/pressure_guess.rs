@@ -5,7 +5,8 @@
 //! ```
 //!
 //! with `w = v + h a` by that pressure (`divergence::acceleration`). Without it viscosity does not resist what the pressure does after it in
-//! the same step: a column of paste falls by its weight times the step too fast. `divergence::pressure_return` takes d back.
+//! the same step: a column of paste falls by its weight times the step too fast. `divergence::pressure_return` takes d back. In scenes with
+//! sponges, whose material takes a part of the pressure, thick fluid would throw nodes.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -15,7 +16,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Divergence, ImplicitViscosity],
+    needs: [Fluid, Divergence, ImplicitViscosity, NoSponges],
     reads: [FluidVelocity, FluidCorrection],
     writes: [FluidVelocity, FluidCorrection],
     oracle: crate::oracle::viscosity::pressure_guess,

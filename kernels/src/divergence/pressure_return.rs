@@ -14,7 +14,7 @@ use crate::{
 };
 
 declare! {
-    needs: [Fluid, Divergence, ImplicitViscosity],
+    needs: [Fluid, Divergence, ImplicitViscosity, NoSponges],
     reads: [FluidVelocity, FluidCorrection],
     writes: [FluidVelocity],
     oracle: crate::oracle::viscosity::pressure_return,

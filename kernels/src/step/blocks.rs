@@ -86,7 +86,7 @@ pub(super) static VISCOSITY: Block = Block {
     phases: &[
         Run(&sph::kick::KERNEL),
         With {
-            need: Need::ImplicitViscosity,
+            needs: &[Need::ImplicitViscosity, Need::NoSponges],
             phases: &[
                 Run(&divergence::expect::KERNEL),
                 Run(&divergence::update::KERNEL),

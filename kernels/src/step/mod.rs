@@ -18,10 +18,10 @@ pub enum Phase {
         /// What is repeated.
         phases: &'static [Self],
     },
-    /// Phases that a scene without `need` has no use for, although the kernels alone might run.
+    /// Phases that a scene without all of `needs` has no use for, although the kernels alone might run.
     With {
         /// What the scene must contain.
-        need: Need,
+        needs: &'static [Need],
         /// Phases, in order.
         phases: &'static [Self],
     },

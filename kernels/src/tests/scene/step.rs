@@ -43,9 +43,8 @@ fn add(names: &mut Vec<&'static str>, phases: &[Phase], way: Way, options: Optio
         match phase {
             Phase::Run(kernel) => names.push(kernel.name),
             Phase::Named(block) => add(names, block.phases, way, options),
-            // Of what else scenes may lack, no block depends on it.
-            Phase::With { need, phases } => {
-                if *need != Need::ImplicitViscosity || options.implicit_viscosity {
+            Phase::With { needs, phases } => {
+                if !needs.contains(&Need::ImplicitViscosity) || options.implicit_viscosity {
                     add(names, phases, way, options);
                 }
             }
