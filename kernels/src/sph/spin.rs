@@ -16,7 +16,7 @@ declare! {
     oracle: crate::oracle::strain::spin,
     bound: 2e-5,
     // Few particles in a row leave the rotation about it open, which no pair feels: 6.1e-4.
-    twin_bound: 2e-3,
+    twin_bound: 8e-4,
     twin: [pass(NAME, Fluid)],
 }
 

@@ -16,7 +16,7 @@ declare! {
     oracle: crate::oracle::strain::viscosity_spin,
     bound: 2e-5,
     // As in `sph::spin`.
-    twin_bound: 2e-3,
+    twin_bound: 8e-4,
     twin: [pass("sph::spin", Fluid).on(&[("fluid_velocity", "fluid_viscosity_direction")])],
 }
 
