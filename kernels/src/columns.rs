@@ -132,10 +132,10 @@ columns! {
         FluidViscosityProduct = viscosity_product: rows("m/s"), Scratch, needs ImplicitViscosity;
         /// Change of the velocity by the implicit viscosity so far.
         FluidViscosityChange = viscosity_change: rows("m/s"), Scratch, needs ImplicitViscosity;
-        /// Rotation that fits the velocities of the neighbours of a particle best.
-        FluidSpin = spin: rows("rad/s"), Scratch, needs StrainRate;
         /// State of that solve.
         FluidViscositySolve = viscosity_solve: ViscositySolve("1"), Scratch;
+        /// Rotation that fits the velocities of the neighbours of a particle best, or the direction of that solve.
+        FluidSpin = spin: rows("rad/s"), Scratch, needs StrainRate;
         /// Extremes over chunks of particles, for the time step.
         FluidExtremes = extremes: Extremes("m/s"), Scratch;
     }

@@ -25,7 +25,7 @@ pub enum Need {
     NoSlip,
     /// Explicit viscosity, as part of the forces.
     ExplicitViscosity,
-    /// Explicit viscosity by the rate of strain.
+    /// Viscosity by the rate of strain.
     StrainRate,
     /// Implicit viscosity, as a solve for the velocities at the end of the step.
     ImplicitViscosity,

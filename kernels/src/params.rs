@@ -210,8 +210,7 @@ impl FluidParams {
     #[must_use]
     pub fn prompt_roughness(&self, step: f32) -> f32 {
         let delayed = self.roughness * step / (step + ROUGHNESS_DELAY * self.roughness.sqrt());
-        let at_once = PROMPT_ROUGHNESS * step * step;
-        let maximum = if at_once > delayed { at_once } else { delayed };
+        let maximum = delayed.max(PROMPT_ROUGHNESS * step * step);
         if maximum < self.roughness { maximum } else { self.roughness }
     }
 }

@@ -3,7 +3,7 @@
 //
 //     r_i = p_i = -h D_i(v*)
 //
-// What `viscosity_strain.wgsl` left in the place of the product is part of D.
+// What `sph::viscosity_strain` left in the place of the product is part of D.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -4,7 +4,7 @@
 //
 //     q_i = p_i + h (D_i(p) + F_i p_i)
 //
-// What `viscosity_strain.wgsl` left in the place of q is part of D.
+// What `sph::viscosity_strain` left in the place of q is part of D.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

@@ -30,6 +30,7 @@ mod error;
 mod estimate;
 mod flows;
 mod fluid;
+mod fluid_block;
 mod limits;
 mod material;
 mod mesh;
@@ -72,9 +73,9 @@ pub use error::{Defect, Problem, SceneError};
 pub use estimate::{Estimate, MAXIMUM_NODES, MAXIMUM_PARTICLES};
 pub use flows::{Drain, Emitter};
 pub use fluid::{
-    Coupling, CouplingWeights, EquationOfState, Fluid, FluidBlock, FluidSolver, ViscosityForm,
-    ViscosityIntegration,
+    Coupling, CouplingWeights, EquationOfState, Fluid, FluidSolver, ViscosityForm, ViscosityIntegration,
 };
+pub use fluid_block::FluidBlock;
 pub(crate) use limits::limit;
 pub use limits::{Limit, limits};
 pub use material::Material;

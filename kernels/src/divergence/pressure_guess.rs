@@ -4,9 +4,9 @@
 //! d_i = w_i - v_i,   v_i <- w_i
 //! ```
 //!
-//! with `w = v + h a` by that pressure (`divergence::acceleration`). Without it viscosity does not resist what the pressure does after it in
-//! the same step: a column of paste falls by its weight times the step too fast. `divergence::pressure_return` takes d back. In scenes with
-//! sponges, whose material takes a part of the pressure, thick fluid would throw nodes.
+//! with `w = v + h a` by that pressure (`divergence::acceleration`). Without it viscosity does not resist what the pressure
+//! does after it in the same step: a column of paste falls too fast, in proportion to the step. `divergence::pressure_return`
+//! takes d back. In scenes with sponges, whose material takes a part of the pressure, thick fluid would throw nodes.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -16,7 +16,10 @@ declare! {
     writes: [FluidViscosityProduct],
     oracle: crate::oracle::strain::viscosity_strain,
     bound: 2e-6,
-    twin: [pass(NAME, Fluid).on(&[("fluid_velocity", "fluid_viscosity_direction")])],
+    twin: [pass("sph::strain_rate", Fluid).from("deceleration").on(&[
+        ("fluid_velocity", "fluid_viscosity_direction"),
+        ("fluid_acceleration", "fluid_viscosity_product"),
+    ])],
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
