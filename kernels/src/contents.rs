@@ -74,6 +74,7 @@ impl Need {
                 let sticks = params.no_slip || bodies.iter().any(|body| body.no_slip);
                 (sticks && fluid.wall_viscosity > 0.0, "fluid slides along everything")
             }
+            Self::Retention => (fluid.retention.is_some(), "films and drops do not stick"),
             Self::ExplicitViscosity => (fluid.implicit_viscosity.is_none(), "viscosity is implicit"),
             Self::StrainRate => (fluid.strain_viscosity > 0.0, "no viscosity by the rate of strain"),
             Self::ImplicitViscosity => (fluid.implicit_viscosity.is_some(), "viscosity is explicit"),

@@ -68,17 +68,17 @@ kernels! {
     /// solve \[BK17\].
     sph {
         density, pressure, forces, spin, strain_rate, surface_tension, deficit, cohesion, repulsion, boundary_pressure,
-        wall_friction, kick, viscosity_start, viscosity_spin, viscosity_strain, viscosity_begin, viscosity_product,
+        adhesion, wall_friction, kick, viscosity_start, viscosity_spin, viscosity_strain, viscosity_begin, viscosity_product,
         viscosity_update, viscosity_reaction, viscosity_kick, predict, boundary, factors, pressure_update, pressure_acceleration,
         pressure_residual, pressure_kick, position_correction, boundary_reaction, sweep, advect,
     } shared {
-        pub(crate) container, pub(crate) friction, pub lattice, pub obstacles, pub pressure_solve, pub(crate) strain,
+        pub(crate) container, pub(crate) friction, pub lattice, pub obstacles, pub pressure_solve, push, pub(crate) strain,
         pub(crate) viscosity, pub viscosity_solve,
     }
     /// The fluid, with a pressure solve for the divergence of the velocities.
     divergence {
         images, moments, hydrostatic, approach, damping, pressure_guess, pressure_return, expect, update, acceleration,
-        residual, kick, shift,
+        residual, kick, retention, shift,
     } shared {
         closing, pub(crate) collect, pub image_rows, pub(crate) mirror, near, pub(crate) rate, pub(crate) reflect,
         pub(crate) walls,

@@ -23,6 +23,8 @@ pub enum Need {
     Cohesion,
     /// No-slip walls or bodies.
     NoSlip,
+    /// Fluid whose films and drops stick to what they lie on.
+    Retention,
     /// Explicit viscosity, as part of the forces.
     ExplicitViscosity,
     /// Viscosity by the rate of strain.

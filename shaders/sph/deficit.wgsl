@@ -1,4 +1,4 @@
-// #include smoothing, images, sum_of_shapes, body, surface
+// #include smoothing, images, sum_of_shapes, body, surface, cohesion_share
 // Deficit of neighbours of particles near the surface of the fluid.
 //
 //     e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
@@ -11,23 +11,10 @@
 @group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> fluid_deficit: array<f32>;
 
-// Volume fraction of a surface at a distance, as in `boundary.rs`.
-fn share_of(distance: f32) -> f32 {
-    let depth = clamp(1.0 - distance / params.cohesion_range, 0.0, MAXIMUM_DEPTH);
-    let cube = depth * depth * depth;
-    return params.cohesion_share * cube * cube;
-}
-
-fn share_at(point: vec3<f32>) -> f32 {
-    var share = 0.0;
-    if (params.has_walls != 0u) {
-        for (var axis = 0u; axis < 3u; axis += 1u) {
-            share += share_of(point[axis] - params.wall_low[axis]);
-            share += share_of(params.wall_high[axis] - point[axis]);
-        }
-    }
+fn share_of_all(point: vec3<f32>) -> f32 {
+    var share = cohesion_share_of_walls(point).w;
     for (var index = 0u; index < params.body_rows; index += 1u) {
-        share += share_of(body_surface(body_states[index], point).distance);
+        share += cohesion_share_of_body(body_states[index], point).w;
     }
     return share;
 }
@@ -49,5 +36,5 @@ fn main(
     }
     let point = fluid_position[row].xyz;
     let there = sum_of_shapes(params.cohesion, row) * (params.cohesion.value * params.cohesion_volume);
-    fluid_deficit[row] = weight(max(FULL_SHARE - there - share_at(point), 0.0));
+    fluid_deficit[row] = weight(max(FULL_SHARE - there - share_of_all(point), 0.0));
 }

@@ -73,8 +73,13 @@ pub struct Fluid {
     pub artificial_viscosity: Option<f32>,
     /// Surface tension. Range 0 to 10 N/m; default 0 (off; water has 0.072).
     ///
-    /// `dfsph` derives it from a surface energy, `wcsph` from the colour field as in the paper.
+    /// Solvers with a pressure solve derive it from a surface energy, `wcsph` from the colour field as in the paper. With the former water
+    /// meets walls and bodies at a right angle, and draws them together where it lies between them.
     pub surface_tension: f32,
+    /// Force that holds a drop on walls and bodies, over the width of the drop. Range 0 to 1 N/m; default 0 (off). Water on plastic has
+    /// 0.02: its surface tension times the difference of the cosines of its receding and advancing contact angles \[F62\]. Acts on water
+    /// one particle thick; needs `solver` = "divergence".
+    pub retention: f32,
     /// Whether water sticks to the walls of the container (no-slip); default false: it slides along them (free slip). Bodies
     /// have a key of their own. Matters where the boundary layer is at least a spacing thick.
     pub no_slip: bool,
@@ -115,6 +120,7 @@ impl Default for Fluid {
             viscosity_rounds: 200,
             artificial_viscosity: None,
             surface_tension: 0.0,
+            retention: 0.0,
             no_slip: false,
             repulsion_damping: 0.1,
             absorption: None,

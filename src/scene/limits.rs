@@ -137,6 +137,7 @@ pub(super) const FLUID: &[Row<Fluid>] = fields! { Fluid, "fluid.";
     viscosity_rounds: 1.0 to 1000.0, "1";
     artificial_viscosity: 0.0 to 1.0, "1";
     surface_tension: 0.0 to 10.0, "N/m";
+    retention: 0.0 to 1.0, "N/m";
     repulsion_damping: 0.0 to 1.0, "1";
     absorption: 0.0 to 1e5, "1/m";
     colour: 0.0 to 1.0, "1";

@@ -225,6 +225,10 @@ fn water(fluid: &Fluid, scene: &Scene, problems: &mut Vec<Problem>) {
         let rule = "needs a `fluid.solver` other than \"wcsph\"";
         problems.push(Problem::rule("fluid.viscosity_form", "\"strain_rate\"", rule));
     }
+    if fluid.retention > 0.0 && scene.fluid_solver() != Some(FluidSolver::Divergence) {
+        let rule = "needs `fluid.solver` = \"divergence\"";
+        problems.push(Problem::rule("fluid.retention", fluid.retention.to_string(), rule));
+    }
     // Corners are decimals, which f32 rounds: a thousandth of the spacing covers that.
     let slack = 1e-3 * fluid.spacing;
     for (index, block) in fluid.blocks.iter().enumerate() {

@@ -1,5 +1,7 @@
 //! Parameters of the kernels from the keys of a scene.
 
+use std::f32::consts::PI;
+
 use glam::Vec3;
 use sorb_kernels::{
     asleep::Asleep,
@@ -7,7 +9,7 @@ use sorb_kernels::{
     grid::cells::Domain,
     params::{
         Cohesion, Divergence, EquationOfState, FluidParams, ImplicitViscosity, Incompressible, NO_WALL,
-        Params, Solver, SpongeParams, WettingParams,
+        Params, Retention, Solver, SpongeParams, WettingParams,
     },
     periodic::Periodic,
     smoothing::Wendland,
@@ -84,6 +86,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             implicit_viscosity: None,
             roughness: 0.0,
             wall_viscosity: 0.0,
+            retention: None,
             surface_tension: 0.0,
             cohesion: None,
             repulsion_range: 0.0,
@@ -156,6 +159,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
             0.0
         },
         wall_viscosity: fluid.viscosity,
+        retention: retention(fluid, &smoothing),
         surface_tension: if is_incompressible { 0.0 } else { fluid.surface_tension },
         cohesion: cohesion(fluid).filter(|_| is_incompressible),
         repulsion_range: range,
@@ -174,17 +178,22 @@ fn lattice_central_viscosity(fluid: &scene::Fluid) -> f32 {
     Wendland::lattice_central_viscosity(f64::from(fluid.support_radius()), f64::from(fluid.spacing)) as f32
 }
 
+/// What holds films and drops, if anything does. Particles of the first layer lie half a spacing above a surface.
+fn retention(fluid: &scene::Fluid, smoothing: &Wendland) -> Option<Retention> {
+    let (density, edge) = lattice::film(smoothing, fluid.spacing);
+    let strength = fluid.retention / (PI * (fluid.rest_density * fluid.spacing).powi(2) * edge);
+    let density = density * fluid.rest_density;
+    (fluid.retention > 0.0).then_some(Retention { strength, density, range: fluid.spacing })
+}
+
 /// Surface tension from a surface energy, if there is any.
 fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
     let (spacing, smoothing) = (fluid.spacing, Wendland::new(fluid.neighbor_radius()));
     let sum = Wendland::lattice_sum(f64::from(smoothing.support_radius), f64::from(spacing));
-    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
     (fluid.surface_tension > 0.0).then(|| Cohesion {
         stiffness: cohesion_stiffness(&smoothing, spacing, fluid.surface_tension),
         smoothing,
         volume: (f64::from(spacing).powi(3) / sum) as f32,
-        boundary_range,
-        boundary_share,
     })
 }
 

@@ -35,6 +35,28 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "fall of the middle of a column",
         "21 % with 8 particles across, 7 % with 16: free surfaces lack pairs that resist (docs/viscosity.md, columns of paste)",
     ),
+    miss("everyday_water", "dfsph", "a drop on plastic", NO_RETENTION),
+    miss("everyday_water", "pbf", "a drop on plastic", NO_RETENTION),
+    miss("everyday_water", "wcsph", "a drop on plastic", NO_RETENTION),
+    miss(
+        "bridge",
+        "divergence",
+        "pull on a plate",
+        "21, 19 and 17 % too large with 8, 10 and 14 particles over the radius; cause unknown (docs/pressure-solve.md, surface tension)",
+    ),
+    miss(
+        "bridge",
+        "dfsph",
+        "pressure in the middle",
+        "18 % too low with 8 particles over the radius; the pull is in bounds; cause unknown",
+    ),
+    miss("bridge", "wcsph", "", "the colour field of the paper's source tears bridges apart"),
+    miss(
+        "bridge",
+        "pbf",
+        "",
+        "pairs reach less far than the energy of the surface: the bridge does not hold",
+    ),
     miss("dam_break", "", "height at the wall", "5 % at quick resolution; see the full run"),
     miss(
         "dam_spheric",
@@ -166,6 +188,15 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "water in the lower half of the lower face has no pressure: in bounds with the 10 cells across of the full run",
     ),
     miss("consolidation", "dfsph+vbd", "pressure", JUMPS),
+    miss("consolidation", "dfsph+vbd", "rows", JUMPS),
+    miss("consolidation", "dfsph+vbd", "jump", JUMPS),
+    miss(
+        "consolidation",
+        "divergence+vbd",
+        "jump",
+        "35 and 40 % of the largest within a frame of 5 ms, at full size on a GPU: errors of the density in pores are put right within \
+         20 ms",
+    ),
     miss(
         "consolidation",
         "divergence+vbd",
@@ -219,6 +250,7 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
     ),
 ];
 
+const NO_RETENTION: &str = "only `divergence` holds drops on walls";
 const WIDE: &str =
     "too fast by a constant, with a hundredth of the width free; in a full channel particles jam";
 const RIBS: &str = "water around the ribs moves by some millimetres a second, in either direction";

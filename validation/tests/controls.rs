@@ -73,6 +73,7 @@ caught! {
     litre
     splash
     drop
+    bridge
     channel
     honey
     patch

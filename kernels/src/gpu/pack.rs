@@ -9,7 +9,8 @@ use crate::{
     columns::RowCounts,
     layout::{constants, layout},
     params::{
-        Cohesion, Divergence, EquationOfState, ImplicitViscosity, Incompressible, Params, SpongeParams,
+        Cohesion, Divergence, EquationOfState, ImplicitViscosity, Incompressible, Params, Retention,
+        SpongeParams,
     },
     pbd::{
         lattice::{COLORS, Topology, VERTEX_COLORS},
@@ -57,6 +58,10 @@ layout! {
         repulsion_damping: f32,
         roughness: f32,
         wall_viscosity: f32,
+        /// What holds films and drops; all zero where nothing does.
+        retention_strength: f32,
+        retention_density: f32,
+        retention_range: f32,
         no_slip: bool,
         /// Whether a property of a sponge depends on how wet it is.
         has_wetting: bool,
@@ -78,8 +83,6 @@ layout! {
         cohesion: Wendland,
         cohesion_stiffness: f32,
         cohesion_volume: f32,
-        cohesion_range: f32,
-        cohesion_share: f32,
         /// Whether pressure is solved for; the next six are those of the solve.
         incompressible: bool,
         solve_tolerance: f32,
@@ -190,12 +193,13 @@ impl StepParams {
             (self.surface_moment, self.surface_lack, self.lightest) =
                 (surface_moment, surface_lack, lightest);
         }
-        if let Some(Cohesion { stiffness, smoothing, volume, boundary_range, boundary_share }) =
-            &params.fluid.cohesion
-        {
+        if let Some(Retention { strength, density, range }) = params.fluid.retention {
+            (self.retention_strength, self.retention_density, self.retention_range) =
+                (strength, density, range);
+        }
+        if let Some(Cohesion { stiffness, smoothing, volume }) = &params.fluid.cohesion {
             self.cohesion = *smoothing;
             (self.cohesion_stiffness, self.cohesion_volume) = (*stiffness, *volume);
-            (self.cohesion_range, self.cohesion_share) = (*boundary_range, *boundary_share);
         }
         if let Some(ImplicitViscosity { viscosity, central_viscosity, tolerance, rounds }) =
             params.fluid.implicit_viscosity

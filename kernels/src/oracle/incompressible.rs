@@ -64,40 +64,34 @@ pub(crate) fn predict(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Volume fraction of a surface at a distance, and its slope into the surface.
-fn profile(params: &Params, distance: f64) -> (f64, f64) {
-    let Some(solve) = &params.fluid.incompressible else { return (0.0, 0.0) };
-    let (range, share) = (f64::from(solve.boundary_range), f64::from(solve.boundary_share));
-    let depth = (1.0 - distance / range).clamp(0.0, 1.25);
-    (share * depth.powi(6), 6.0 * share / range * depth.powi(5))
+/// Range and share at the surface of the volume fraction of walls and bodies: none without a pressure solve.
+fn profile(params: &Params) -> [f64; 2] {
+    let solve = params.fluid.incompressible.as_ref();
+    solve.map_or([1.0, 0.0], |solve| [solve.boundary_range, solve.boundary_share].map(f64::from))
 }
 
-fn walls(params: &Params, x: DVec3) -> (DVec3, f64) {
+/// Slope of such a volume fraction into a surface at a distance, and the fraction.
+fn at([range, share]: [f64; 2], distance: f64) -> (f64, f64) {
+    let depth = (1.0 - distance / range).clamp(0.0, 1.25);
+    (6.0 * share / range * depth.powi(5), share * depth.powi(6))
+}
+
+fn walls(params: &Params, profile: [f64; 2], x: DVec3) -> (DVec3, f64) {
     let (mut slope, mut share) = (DVec3::ZERO, 0.0);
     let Some((low, high)) = params.walls else { return (slope, share) };
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-        let below = profile(params, (x - low.as_dvec3()).dot(axis));
-        let above = profile(params, (high.as_dvec3() - x).dot(axis));
-        slope += axis * (above.1 - below.1);
-        share += below.0 + above.0;
+        let below = at(profile, (x - low.as_dvec3()).dot(axis));
+        let above = at(profile, (high.as_dvec3() - x).dot(axis));
+        slope += axis * (above.0 - below.0);
+        share += below.1 + above.1;
     }
     (slope, share)
 }
 
-fn solid(params: &Params, body: &Body, x: DVec3) -> (DVec3, f64) {
+fn solid(body: &Body, profile: [f64; 2], x: DVec3) -> (DVec3, f64) {
     let (distance, normal) = shapes::distance(body, x);
-    let (share, slope) = profile(params, distance);
+    let (slope, share) = at(profile, distance);
     (normal * -slope, share)
-}
-
-/// Boundary volume fraction of walls and bodies at the beginning of the step, by a profile of its own.
-pub(super) fn share(params: &Params, bodies: &[Body], [range, share]: [f64; 2], x: DVec3) -> f64 {
-    let at = |distance: f64| share * (1.0 - distance / range).clamp(0.0, 1.25).powi(6);
-    let walls = params.walls.map_or(0.0, |(low, high)| {
-        let (below, above) = (x - low.as_dvec3(), high.as_dvec3() - x);
-        below.to_array().into_iter().chain(above.to_array()).map(at).sum()
-    });
-    walls + bodies.iter().map(|body| at(shapes::distance(body, x).0)).sum::<f64>()
 }
 
 fn at_end(params: &Params, columns: &Columns) -> Vec<Body> {
@@ -120,9 +114,9 @@ pub(crate) fn boundary(params: &Params, columns: &mut Columns) {
     fluid.boundary.resize(fluid.position.len(), [0.0; 4]);
     for i in 0..columns.rows.fluid {
         let x = vector(fluid.predicted[i]);
-        let (mut slope, mut share) = walls(params, x);
+        let (mut slope, mut share) = walls(params, profile(params), x);
         for body in &bodies {
-            let own = solid(params, body, x);
+            let own = solid(body, profile(params), x);
             (slope, share) = (slope + own.0, share + own.1);
         }
         fluid.boundary[i] = row(slope, share);
@@ -137,9 +131,9 @@ pub(crate) fn boundary_pressure(params: &Params, columns: &mut Columns) {
         let x = vector(fluid.position[i]);
         let pressure = f64::from(fluid.position[i][lane::fluid::position::PRESSURE_OVER_SQUARED_DENSITY])
             * f64::from(params.fluid.rest_density);
-        let mut slope = walls(params, x).0;
+        let mut slope = walls(params, profile(params), x).0;
         for (body, wrench) in bodies.iter().zip(&mut wrenches) {
-            let own = solid(params, body, x).0;
+            let own = solid(body, profile(params), x).0;
             slope += own;
             wrench.add(own * (pressure * momentum), x - body.state.position.as_dvec3());
         }
@@ -159,7 +153,7 @@ pub(crate) fn boundary_reaction(params: &Params, columns: &mut Columns) {
         let x = vector(fluid.predicted[i]);
         let impulse = f64::from(fluid.predicted[i][lane::fluid::predicted::PRESSURE_CHANGE]) * momentum;
         for (body, wrench) in bodies.iter().zip(&mut wrenches) {
-            wrench.add(solid(params, body, x).0 * impulse, x - body.state.position.as_dvec3());
+            wrench.add(solid(body, profile(params), x).0 * impulse, x - body.state.position.as_dvec3());
         }
     }
     columns.bodies.fluid_wrenches.0 = wrenches;

@@ -6,7 +6,7 @@ use super::{keep, row, shapes, vector};
 use crate::{
     body::{Body, Piece, Shape, Wrench},
     columns::{Columns, lane},
-    params::Params,
+    params::{Params, Retention},
     sweep,
 };
 
@@ -187,6 +187,39 @@ pub(crate) fn wall_friction(params: &Params, columns: &mut Columns) {
         }
         let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) - sum, allowed);
+    }
+    columns.bodies.fluid_wrenches.0 = wrenches;
+}
+
+pub(crate) fn retention(params: &Params, columns: &mut Columns) {
+    let Some(Retention { strength, density, range }) = params.fluid.retention else { return };
+    let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
+    let mut wrenches = given(&columns.bodies.fluid_wrenches.0, bodies.len());
+    let (h, mass) = (f64::from(params.step), f64::from(params.fluid.particle_mass));
+    for i in 0..columns.rows.fluid {
+        let lack = f64::from(density) - f64::from(fluid.density[i]);
+        if lack <= 0.0 || fluid.moment[i][lane::fluid::moment::MATERIAL] > 0.02 {
+            continue;
+        }
+        let most = h * f64::from(strength) * lack;
+        let slowed = |distance: f64, relative: DVec3, normal: DVec3| {
+            let slide = relative - normal * relative.dot(normal);
+            if distance < f64::from(range) { slide.clamp_length_max(most) } else { DVec3::ZERO }
+        };
+        let (x, mut v) = (vector(fluid.position[i]), vector(fluid.velocity[i]));
+        if let Some((low, high)) = params.walls {
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                v -= slowed((x - low.as_dvec3()).dot(axis), v, axis);
+                v -= slowed((high.as_dvec3() - x).dot(axis), v, axis);
+            }
+        }
+        for (body, wrench) in bodies.iter().zip(&mut wrenches) {
+            let (distance, normal) = shapes::distance(body, x);
+            let taken = slowed(distance, v - shapes::velocity(body, x), normal);
+            v -= taken;
+            wrench.add(taken * mass, x - body.state.position.as_dvec3());
+        }
+        fluid.velocity[i] = row(v, f64::from(fluid.velocity[i][3]));
     }
     columns.bodies.fluid_wrenches.0 = wrenches;
 }

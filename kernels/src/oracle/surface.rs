@@ -1,9 +1,12 @@
 //! Surface tension from a surface energy, pair by pair.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
-use super::{apart, gradient, incompressible, row, smoothing, vector, vectors};
+use super::{apart, gradient, obstacles::given, row, shapes, smoothing, vector, vectors};
 use crate::{
+    body::Body,
     columns::{Columns, lane},
     params::Params,
 };
@@ -13,12 +16,11 @@ pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
     let (fluid, count) = (&mut columns.fluid, columns.rows.fluid);
     let x = vectors(&fluid.position, count);
     let (radius, volume) = (cohesion.smoothing.support_radius, f64::from(cohesion.volume));
-    let profile = [cohesion.boundary_range, cohesion.boundary_share].map(f64::from);
     fluid.deficit.resize(fluid.position.len(), 0.0);
     for i in 0..count {
         let volume_at = |other: &DVec3| volume * smoothing(radius, apart(params, x[i], *other).length());
         let there: f64 = x.iter().map(volume_at).sum();
-        let share = incompressible::share(params, &columns.bodies.states.0, profile, x[i]);
+        let share = beyond(params, &columns.bodies.states.0, x[i]).iter().map(|beyond| beyond.1).sum::<f64>();
         fluid.deficit[i] = weight((0.98 - there - share).max(0.0)) as f32;
     }
 }
@@ -43,4 +45,64 @@ pub(crate) fn cohesion(params: &Params, columns: &mut Columns) {
         let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
         fluid.acceleration[i] = row(vector(fluid.acceleration[i]) + factor * sum, allowed);
     }
+}
+
+/// Slope and part of the smoothing function that lies beyond the walls, and beyond every body.
+fn beyond(params: &Params, bodies: &[Body], x: DVec3) -> Vec<(DVec3, f64)> {
+    let radius = params.fluid.cohesion.as_ref().map_or(1.0, |cohesion| cohesion.smoothing.support_radius);
+    let at = |distance: f64, into: DVec3| {
+        let (slope, part) = half_space(radius, distance);
+        (into * slope, part)
+    };
+    let mut all = vec![(DVec3::ZERO, 0.0)];
+    if let Some((low, high)) = params.walls {
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let below = at((x - low.as_dvec3()).dot(axis), -axis);
+            let above = at((high.as_dvec3() - x).dot(axis), axis);
+            all[0] = (all[0].0 + below.0 + above.0, all[0].1 + below.1 + above.1);
+        }
+    }
+    all.extend(bodies.iter().map(|body| {
+        let (distance, normal) = shapes::distance(body, x);
+        at(distance, -normal)
+    }));
+    all
+}
+
+/// Slope and part of a smoothing function beyond a plane, by slices of it.
+fn half_space(radius: f32, distance: f64) -> (f64, f64) {
+    const SLICES: usize = 2000;
+    let end = f64::from(radius);
+    let from = distance.clamp(0.0, end);
+    let width = (end - from) / SLICES as f64;
+    // From the outside: a plane at z holds 2 pi int r W dr from z to H.
+    let (mut plane, mut part) = (0.0, 0.0);
+    for k in (0..SLICES).rev() {
+        let r = from + (k as f64 + 0.5) * width;
+        let ring = TAU * r * smoothing(radius, r) * width;
+        part += (plane + 0.5 * ring) * width;
+        plane += ring;
+    }
+    (plane, part)
+}
+
+pub(crate) fn adhesion(params: &Params, columns: &mut Columns) {
+    let Some(cohesion) = &params.fluid.cohesion else { return };
+    let (fluid, bodies) = (&mut columns.fluid, &columns.bodies.states.0);
+    let mut wrenches = given(&columns.bodies.fluid_wrenches.0, bodies.len());
+    let mass = f64::from(params.fluid.particle_mass);
+    let stiffness = f64::from(cohesion.stiffness) * f64::from(cohesion.volume) / mass;
+    for i in 0..columns.rows.fluid {
+        let x = vector(fluid.position[i]);
+        let pull = stiffness * f64::from(fluid.deficit[i]);
+        let slopes = beyond(params, bodies, x);
+        for ((slope, _), (body, wrench)) in slopes[1..].iter().zip(bodies.iter().zip(&mut wrenches)) {
+            let impulse = -pull * mass * f64::from(params.step) * *slope;
+            wrench.add(impulse, x - body.state.position.as_dvec3());
+        }
+        let sum: DVec3 = slopes.iter().map(|(slope, _)| *slope).sum();
+        let allowed = f64::from(fluid.acceleration[i][lane::fluid::acceleration::ALLOWED_COMPRESSION]);
+        fluid.acceleration[i] = row(vector(fluid.acceleration[i]) + pull * sum, allowed);
+    }
+    columns.bodies.fluid_wrenches.0 = wrenches;
 }

@@ -49,7 +49,7 @@ pub fn shares(cpu: &Cpu, params: &Params, columns: &Columns) -> Vec<[f32; 4]> {
 fn fill(cpu: &Cpu, params: &Params, bodies: &[Body], points: &[[f32; 4]], boundary: &mut [[f32; 4]]) {
     let Some(profile) = Profile::of(params) else { return };
     cpu.for_chunks(boundary, |first, boundary| {
-        let near = near(bodies, &points[first..first + boundary.len()], profile.range);
+        let near = near(bodies, &points[first..first + boundary.len()], profile.range());
         with_lanes!(cpu, simd => {
             for row in (0..boundary.len()).step_by(LANES) {
                 let [x, y, z, _] = lanes::load_rows(simd, points, first + row);

@@ -38,7 +38,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let scale = params.fluid.particle_mass * params.step;
     cpu.for_chunks(PerChunk(&mut per_chunk), |first, wrenches| {
         let end = predicted.len().min(first + crate::cpu::CHUNK);
-        let near = near(&bodies, &predicted[first..end], profile.range);
+        let near = near(&bodies, &predicted[first..end], profile.range());
         with_lanes!(cpu, simd => {
             for row in (first..end).step_by(LANES) {
                 let [x, y, z, change] = lanes::load_rows(simd, predicted, row);

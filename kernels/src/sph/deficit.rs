@@ -4,11 +4,11 @@
 //! e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 //! ```
 //!
-//! with a smoothing function of its own. The boundary volume fraction (`sph::boundary`) counts as full, so that walls and
-//! bodies are no surface. The noise of particles deep inside stays below the two per cent. The kernel writes w, the
-//! derivative of the energy density of `sph::cohesion` by the deficit. With w = e the layers below a surface attract each
-//! other much more strongly than the surface contracts. With this w the energy hardly depends on their distance, so that it
-//! is that of the surface alone (docs/pressure-solve.md).
+//! with a smoothing function of its own. `lambda_i` is the part of it that lies in walls and bodies: `u^6 (3.5 - 4.5 u + 1.5 u^2)` at the
+//! distance y of a plane, with u = 1 - y / H. They count as full, so that they are no surface. The noise of particles deep inside stays
+//! below the two per cent. The kernel writes w, the derivative of the energy density of `sph::cohesion` by the deficit. With w = e the
+//! layers below a surface attract each other much more strongly than the surface contracts. With this w the energy hardly depends on
+//! their distance, so that it is that of the surface alone (docs/pressure-solve.md).
 
 use crate::{
     body::Body,
@@ -97,8 +97,8 @@ impl Task<'_> {
         let cohesion = self.cohesion;
         let kernel = cohesion.smoothing.lanes(simd);
         let value = kernel.value_scale() * cohesion.volume;
-        let profile = Profile { range: cohesion.boundary_range, share: cohesion.boundary_share };
-        let near = near(self.bodies, &self.position[first..first + deficit.len()], profile.range);
+        let profile = Profile::HalfSpace { radius: cohesion.smoothing.support_radius };
+        let near = near(self.bodies, &self.position[first..first + deficit.len()], profile.range());
         for row in (0..deficit.len()).step_by(LANES) {
             let [x, y, z, _] = lanes::load_rows(simd, self.position, first + row);
             let mut sum = lanes::splat(simd, 0.0);

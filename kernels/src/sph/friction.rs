@@ -28,6 +28,6 @@ pub(super) fn friction_rate<S: Simd>(simd: S, fluid: &FluidParams, distance: f32
 
 /// Components of vectors along a surface.
 #[inline(always)]
-pub(super) fn along<S: Simd>(vector: Vec3x8<S>, normal: Vec3x8<S>) -> Vec3x8<S> {
+pub(crate) fn along<S: Simd>(vector: Vec3x8<S>, normal: Vec3x8<S>) -> Vec3x8<S> {
     minus(vector, times(normal, dot(vector, normal)))
 }

@@ -32,6 +32,21 @@ pub fn surface(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     (moment, lack)
 }
 
+/// Of a film one particle thick, the density over that at rest, and what a particle at a straight edge of it lacks of that \[1\]. See
+/// `divergence::retention`.
+#[must_use]
+pub fn film(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
+    let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
+    let reach = (radius / d).ceil() as i32;
+    let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
+    let row = |x: i32| -> f64 {
+        let places = (-reach..=reach).map(|y| f64::from(x * x + y * y).sqrt() * d);
+        places.map(|distance| volume * Wendland::value_f64(radius, distance)).sum()
+    };
+    let edge: f64 = (1..=reach).map(row).sum();
+    ((row(0) + 2.0 * edge) as f32, edge as f32)
+}
+
 /// Sum of a function of `c_ij`, and of the offset along the first axis and the distance of j.
 fn sum(smoothing: &Wendland, spacing: f32, function: impl Fn(f64, f64, f64) -> f64) -> f32 {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));

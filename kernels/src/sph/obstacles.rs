@@ -43,29 +43,49 @@ constants! {
 
 /// The volume fraction of a surface as a function of the distance from it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Profile {
-    pub(super) range: f32,
-    pub(super) share: f32,
+pub(super) enum Profile {
+    /// That of the pressure solve, with twice the slope at the first layer (`boundary_profile`).
+    Pressure { range: f32, share: f32 },
+    /// The part of a smoothing function of that support radius that lies beyond a plane.
+    HalfSpace { radius: f32 },
 }
 
 impl Profile {
     pub(super) fn of(params: &Params) -> Option<Self> {
         let Incompressible { boundary_range: range, boundary_share: share, .. } =
             *params.fluid.incompressible.as_ref()?;
-        Some(Self { range, share })
+        Some(Self::Pressure { range, share })
+    }
+
+    /// Distance from which on there is none.
+    pub(super) fn range(self) -> f32 {
+        match self {
+            Self::Pressure { range, .. } => range,
+            Self::HalfSpace { radius } => radius,
+        }
     }
 
     /// Volume fraction, and its slope into the surface, at a distance. Deep inside as at a quarter of the range below the
     /// surface.
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, distance: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
-        let depth = lanes::splat(simd, 1.0) - distance * (1.0 / self.range);
-        let depth = lanes::positive(simd, depth);
-        let deepest = lanes::splat(simd, MAXIMUM_DEPTH);
-        let depth = lanes::select(depth.simd_gt(deepest), deepest, depth);
-        let square = depth * depth;
-        let fifth = square * square * depth;
-        (fifth * depth * self.share, fifth * (6.0 * self.share / self.range))
+        let splat = |value| lanes::splat(simd, value);
+        let depth = lanes::positive(simd, splat(1.0) - distance * (1.0 / self.range()));
+        match self {
+            Self::Pressure { range, share } => {
+                let depth = depth.min(splat(MAXIMUM_DEPTH));
+                let square = depth * depth;
+                let fifth = square * square * depth;
+                (fifth * depth * share, fifth * (6.0 * share / range))
+            }
+            Self::HalfSpace { radius } => {
+                let depth = depth.min(splat(1.0));
+                let square = depth * depth;
+                let fifth = square * square * depth;
+                let share = fifth * depth * (splat(3.5) - depth * 4.5 + square * 1.5);
+                (share, fifth * (splat(21.0) - depth * 31.5 + square * 12.0) * (1.0 / radius))
+            }
+        }
     }
 
     /// Gradient and volume fraction of the walls of the container.

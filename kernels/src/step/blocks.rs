@@ -71,6 +71,7 @@ pub(super) static WALLS: Block = Block {
     phases: &[
         Run(&sph::boundary_pressure::KERNEL),
         Run(&divergence::hydrostatic::KERNEL),
+        Run(&sph::adhesion::KERNEL),
         Run(&sph::wall_friction::KERNEL),
     ],
 };
@@ -268,6 +269,7 @@ pub(super) static ELASTIC_WITH_DRAG: Block = Block {
 pub(super) static MOTION: Block = Block {
     name: "motion",
     phases: &[
+        Run(&divergence::retention::KERNEL),
         Run(&divergence::shift::KERNEL),
         Run(&sph::sweep::KERNEL),
         Run(&sph::advect::KERNEL),

@@ -73,7 +73,9 @@ pub(super) fn fault_in(kernel: &Kernel, column: Column) -> f32 {
         // The target is a small part of what remains.
         Column::FluidFactors if kernel.name == "divergence::residual" => 1.05,
         // It only asks which particles are in pores.
-        Column::FluidMoment if kernel.name == "divergence::residual" => 0.01,
+        Column::FluidMoment if ["divergence::residual", "divergence::retention"].contains(&kernel.name) => {
+            0.01
+        }
         // It only asks which particles are at a surface.
         Column::FluidRenormalisation if kernel.name == "divergence::shift" => 0.5,
         // Water lies between sponges that touch: only what is below 1 counts.

@@ -336,3 +336,13 @@ fn the_divergence_step_has_sponges_as_porous_media_only() {
         assert!(message.contains("`fluid.solver`") && message.contains("\"paper\""), "{message}");
     }
 }
+
+#[test]
+fn retention_needs_the_divergence_step() {
+    let mut scene = full();
+    fluid(&mut scene).solver = Some(FluidSolver::Dfsph);
+    assert_eq!(scene.problems(), []);
+    fluid(&mut scene).retention = 0.05;
+    let message = only(&scene).to_string();
+    assert!(message.contains("`fluid.retention`") && message.contains("\"divergence\""), "{message}");
+}

@@ -1,5 +1,7 @@
 //! A soaked sponge in a vessel is pushed down, and settles as the water leaves it.
 
+use std::collections::BTreeMap;
+
 use sorb::{
     World,
     glam::{DVec3, UVec3, Vec3},
@@ -37,6 +39,8 @@ const GRAVITY: f64 = 9.81;
 const WATER: f64 = 1000.0;
 /// Time in which the water comes to rest \[s\].
 const FILLS: f64 = 4.0;
+/// Time before the push over which rest is measured \[s\].
+const RESTS: f64 = 0.5;
 /// Final strain, and the share of the duration over which the top moves.
 const STRAIN: f64 = 0.04;
 const MOVES: f64 = 0.3;
@@ -83,10 +87,14 @@ impl Vessel {
         0.5 * f64::from(self.cells.x) * self.edge
     }
 
-    fn settle(&self, setting: &Setting) -> Result<[Figure; 2], Failure> {
+    fn settle(&self, setting: &Setting) -> Result<Vec<Figure>, Failure> {
         let mut world = setting.world(&self.scene(setting)?)?;
+        let mut before = Vec::new();
         while world.clock().time < FILLS {
             setting.advance(&mut world)?;
+            if world.clock().time > FILLS - RESTS {
+                before.push(self.at_rest(&world)?);
+            }
         }
         let (at_rest, end) = (self.middle(&world), FILLS + self.layer.duration());
         let (mut sunk, mut pressure) = (Vec::new(), Vec::new());
@@ -98,7 +106,26 @@ impl Vessel {
             pressure.push(self.pressure(&world, time)?);
         }
         let at = format!("at K {:.0e}", self.layer.permeability);
-        Ok([
+        Ok(vec![
+            Figure::relative(
+                format!("pressure before the push {at}, over the weight of the water"),
+                "1",
+                1.0,
+                mean(before.iter().map(|at_rest| at_rest.0)),
+                0.02,
+            ),
+            Figure::error(
+                format!("rows at one height before the push {at}, rms of their deviation"),
+                "1",
+                mean(before.iter().map(|at_rest| at_rest.1)),
+                0.05,
+            ),
+            Figure::error(
+                format!("jump of the pressure between frames {at}, over the largest"),
+                "1",
+                jump(&pressure),
+                0.1,
+            ),
             Figure::error(
                 format!("way down at half height {at}, L2 over the largest"),
                 "1",
@@ -174,6 +201,25 @@ impl Vessel {
         mean(near.map(|(_, now)| f64::from(now[1])))
     }
 
+    /// Pressure of the water in the second layer of cells, over that of its weight: the mean, and the root mean square of the deviations
+    /// of the rows at one height from it, those along the walls among them.
+    fn at_rest(&self, world: &World) -> Result<(f64, f64), Failure> {
+        let level = surface(world, self.half() - self.edge)?;
+        // A row is the particles at one height in a square of an edge.
+        let mut rows = BTreeMap::<[i32; 3], Vec<f64>>::new();
+        for (row, pressure) in world.particle_positions().iter().zip(world.particle_pressures()) {
+            let [x, y, z] = [0, 1, 2].map(|axis| f64::from(row[axis]));
+            if (self.edge..2.0 * self.edge).contains(&y) {
+                let place = [x, 2.0 * y, z].map(|x| (x / self.edge).floor() as i32);
+                let share = POROSITY * f64::from(pressure) / (WATER * GRAVITY * (level - y));
+                rows.entry(place).or_default().push(share);
+            }
+        }
+        let means: Vec<f64> = rows.into_values().map(mean).collect();
+        let all = mean(means.iter().copied());
+        Ok((all, root_mean_square(means.iter().map(|row| row - all))))
+    }
+
     /// Pressure of the water above that of its own weight, mean over the second layer of cells away from the walls, and the
     /// reference \[Pa\].
     ///
@@ -192,6 +238,12 @@ impl Vessel {
         }
         Ok((mean(measured), mean(expected)))
     }
+}
+
+/// Largest change of the measured pressure between frames, over the largest reference.
+fn jump(curve: &[(f64, f64)]) -> f64 {
+    let largest = curve.iter().map(|point| point.1).fold(0.0, f64::max);
+    curve.windows(2).map(|pair| (pair[1].0 - pair[0].0).abs()).fold(0.0, f64::max) / largest
 }
 
 /// Root mean square of measured less reference, over the largest reference.

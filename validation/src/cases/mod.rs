@@ -1,6 +1,7 @@
 //! The cases, in the order in which they are listed and run.
 
 mod bar;
+mod bridge;
 mod cantilever;
 mod channel;
 mod consolidation;
@@ -47,6 +48,7 @@ pub const CASES: &[&Case] = &[
     &litre::CASE,
     &splash::CASE,
     &drop::CASE,
+    &bridge::CASE,
     &channel::CASE,
     &honey::CASE,
     &patch::CASE,

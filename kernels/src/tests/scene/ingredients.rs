@@ -9,8 +9,8 @@ use crate::{
     body::{Body, BodyKind, BodyState, Compound, ConvexPart, Shape},
     grid::cells::Domain,
     params::{
-        Cohesion, Divergence, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Solver,
-        SpongeParams, WettingParams,
+        Cohesion, Divergence, FluidParams, ImplicitViscosity, Incompressible, NO_WALL, Params, Retention,
+        Solver, SpongeParams, WettingParams,
     },
     periodic::Periodic,
     rounding::Rounding,
@@ -66,6 +66,12 @@ pub(super) fn params(options: Options) -> Params {
             implicit_viscosity: options.implicit_viscosity.then_some(IMPLICIT_VISCOSITY),
             roughness: if options.incompressible { 5.0e-7 } else { 0.0 },
             wall_viscosity: 5.0,
+            // Most particles lack something of it.
+            retention: options.retention.then_some(Retention {
+                strength: 0.02,
+                density: 1500.0,
+                range: 1.5 * spacing,
+            }),
             // The colour field knows volumes that change.
             surface_tension: if options.incompressible { 0.0 } else { 0.07 },
             cohesion: options.cohesion.then(|| cohesion(radius, spacing)),
@@ -106,9 +112,8 @@ fn incompressible(radius: f32, spacing: f32, divergence: bool) -> Incompressible
 
 fn cohesion(radius: f32, spacing: f32) -> Cohesion {
     let smoothing = Wendland::new(1.5 * radius);
-    let (boundary_range, boundary_share) = boundary_profile(&smoothing, spacing);
     let sum = Wendland::lattice_sum(1.5 * f64::from(radius), f64::from(spacing)) as f32;
-    Cohesion { stiffness: 500.0, smoothing, volume: spacing.powi(3) / sum, boundary_range, boundary_share }
+    Cohesion { stiffness: 500.0, smoothing, volume: spacing.powi(3) / sum }
 }
 
 fn sponges(has_wetting: bool, touch: bool) -> Vec<SpongeParams> {

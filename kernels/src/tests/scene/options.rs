@@ -30,6 +30,8 @@ pub(crate) struct Options {
     pub(crate) implicit_viscosity: bool,
     /// Whether there is viscosity by the rate of strain.
     pub(crate) strain_rate: bool,
+    /// Whether films and drops stick to what they lie on.
+    pub(crate) retention: bool,
     /// Axes on which space repeats, by the length of the block; for scenes without sponges.
     pub(crate) periodic: [bool; 3],
     /// Whether sponges touch each other, where a kernel asks.
@@ -56,6 +58,7 @@ pub(crate) const FULL: Options = Options {
     wetting: false,
     implicit_viscosity: false,
     strain_rate: false,
+    retention: false,
     periodic: [false; 3],
     touch: false,
     compound: false,
@@ -106,6 +109,7 @@ impl Options {
             cohesion,
             implicit_viscosity,
             strain_rate,
+            retention: kernel.needs.contains(&Need::Retention),
             wetting,
             touch,
             ..self
