@@ -31,17 +31,16 @@ const GAP: f64 = 0.008;
 const TENSION: f64 = 0.0728;
 /// Half extents of a plate \[m\].
 const PLATE: Vec3 = Vec3::new(0.02, 0.004, 0.02);
-/// Time from which and until which means are taken \[s\].
-const MEANS: (f64, f64) = (0.2, 0.5);
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
     let spacing = RADIUS / f64::from(setting.count(setting.pick(PARTICLES, PARTICLES * 4 / 5)));
     let mut world = setting.world(&scene(setting, spacing))?;
     let radius = (world.particle_ids().len() as f64 * spacing.powi(3) / (PI * GAP)).sqrt();
     let (mut pulls, mut pressures) = (Vec::new(), Vec::new());
-    while world.clock().time < MEANS.1 {
+    let (begin, end) = setting.pick((0.2, 0.5), (0.1, 0.25));
+    while world.clock().time < end {
         setting.advance(&mut world)?;
-        if world.clock().time > MEANS.0 {
+        if world.clock().time > begin {
             pulls.push(pull(&world));
             pressures.push(pressure(&world));
         }
