@@ -50,12 +50,12 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "pressure in the middle",
         "18 % too low with 8 particles over the radius; the pull is in bounds; cause unknown",
     ),
-    miss("bridge", "wcsph", "", "the colour field of the paper's source tears bridges apart"),
+    miss("bridge", "wcsph", "", "probably as in `drop`: the colour field of the paper's source"),
     miss(
         "bridge",
         "pbf",
         "",
-        "pairs reach less far than the energy of the surface: the bridge does not hold",
+        "no pull at all; probably because pairs reach less far than the energy of the surface",
     ),
     miss("dam_break", "", "height at the wall", "5 % at quick resolution; see the full run"),
     miss(

@@ -248,6 +248,9 @@ fn cubes_apart(setting: &Setting) -> Result<Figure, Failure> {
 
 /// Force on a drop of water on plastic over its width \[N/m\].
 const RETENTION: f64 = 0.02;
+/// Time for which drops are watched \[s\].
+const SLIDES: f64 = 0.5;
+
 /// A drop of one particle on a floor whose angle has that sine, for half a second: the way down, and the acceleration without retention
 /// and with that of a round drop of its width.
 fn way_on_plastic(setting: &Setting, sine: f64) -> Result<(f64, [f64; 2]), Failure> {
@@ -263,15 +266,12 @@ fn way_on_plastic(setting: &Setting, sine: f64) -> Result<(f64, [f64; 2]), Failu
     let retention = if holds { RETENTION as f32 } else { 0.0 };
     scene.fluid.iter_mut().for_each(|fluid| fluid.retention = retention);
     let along = |world: &World| mean(world.particle_positions().iter().map(|row| f64::from(row[0])));
-    let world = setting.world(&scene)?;
+    let mut world = setting.world(&scene)?;
     let start = along(&world);
-    let world = after(setting, &scene, SLIDES)?;
+    advance(setting, &mut world, SLIDES, |_| ())?;
     let held = RETENTION / (DENSITY * d * d);
     Ok((along(&world) - start, [GRAVITY * sine, GRAVITY * sine - held]))
 }
-
-/// Time for which drops are watched \[s\].
-const SLIDES: f64 = 0.5;
 
 fn drop_stays(setting: &Setting) -> Result<Figure, Failure> {
     let (way, [free, _]) = way_on_plastic(setting, 0.06)?;
