@@ -61,8 +61,8 @@ pub struct Clock {
 const CAPILLARY_COURANT: f32 = 0.1;
 
 /// Step of explicit viscosity over the time in which velocity diffuses over a support radius. On a lattice the sum over pairs is stable
-/// below 0.097 of it with a support of 1.6 spacings, 0.078 with 2 and 0.073 with 3. Along the line between particles, below 0.028 with
-/// any: `CENTRAL` is how much stiffer that form is taken to be.
+/// below 0.097 of it with a support of 1.6 spacings. The bound is 0.078 with 2 and 0.073 with 3. Along the line between particles it is
+/// 0.028 with any: `CENTRAL` is how much stiffer that form is taken to be.
 const EXPLICIT: f32 = 0.0625;
 const CENTRAL: f32 = 2.5;
 

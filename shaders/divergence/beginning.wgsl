@@ -1,7 +1,7 @@
 // #include sums, shares
 // Third pass of `divergence::moments`: the pressure to begin with.
-// Sums of the squared speeds, outside of pores of the squared pressures and of the targets, and the number of particles at a free surface,
-// for `begin_solve.wgsl`.
+// Sums of the squared speeds, and outside of pores of the squared pressures and of the targets. Also the number of particles at a free
+// surface. All are for `begin_solve.wgsl`.
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

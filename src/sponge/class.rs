@@ -11,9 +11,9 @@ const _: () = assert!(COLORS == 2 * TET_CLASS_COUNT, "a colour for each class an
 
 /// Local frame of each class: columns `d`, `o e`, `s f` of a proper rotation, entries 0 and +-1.
 ///
-/// `d` is the axis of the A edge, `s f` points from the middle of the A edge to the middle of the B edge, `o e` runs
-/// along the B edge. The order is `CLASS_FRAME[class][column][axis]`. It turns a local deformation gradient into a global one,
-/// `F = [f_d f_e f_f] P^T`. Only anisotropic materials and the output of stress need it.
+/// `d` is the axis of the A edge. `s f` points from the middle of the A edge to the middle of the B edge. `o e` runs along the B edge. The
+/// order is `CLASS_FRAME[class][column][axis]`. It turns a local deformation gradient into a global one, `F = [f_d f_e f_f] P^T`. Only
+/// anisotropic materials and the output of stress need it.
 pub const CLASS_FRAME: [[[i32; 3]; 3]; TET_CLASS_COUNT] = class_frames();
 
 /// Index offsets from the cell of a tet to its nodes: `CLASS_OFFSET[class][slot][axis]`.
@@ -25,7 +25,7 @@ pub const CLASS_OFFSET: [[[i32; 3]; 4]; TET_CLASS_COUNT] = class_offsets();
 /// Vertex colour held by each slot of the tets of a colour: `SLOT_VERTEX_COLOR[color][slot]`.
 ///
 /// For a cell of parity `q`, slot 0 is A of parity `q` and slot 1 is A of the other parity. Of slots 2 and 3 the one with an
-/// even sum of offsets is B of parity `q`, the other one B of the other parity.
+/// even sum of offsets is B of parity `q`. The other one is B of the other parity.
 pub const SLOT_VERTEX_COLOR: [[u8; 4]; COLORS] = slot_vertex_colors();
 
 /// Slot that holds a vertex colour: `VERTEX_COLOR_SLOT[color][vertex_color]`, the inverse of

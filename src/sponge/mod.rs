@@ -1,10 +1,10 @@
 //! Set-up of sponges: tetragonal disphenoids on a body-centred cubic lattice.
 //!
-//! A block of `[nx, ny, nz]` cubic cells of edge `a` has sublattice A on the cell corners, `A(i,j,k)` with `0 <= i <= nx`,
-//! and sublattice B on the cell centres, `B(i,j,k)` with `0 <= i < nx`. Every tet has one long edge A-A and one long edge
-//! B-B, both of length `a` and perpendicular to each other. All tets are therefore congruent, with volume `a^3/12`. A block
-//! keeps the tets that lie wholly inside it. Every boundary square is then a pit, a pyramid of depth `a/2` without a tet. The tets fill
-//! `1 - 1/n` of the box with `n^3` cells. The tets around a pit stand for it ([`Lattice::tet_weight`]) and its corners have its mass
+//! A block of `[nx, ny, nz]` cubic cells of edge `a` has two sublattices. Sublattice A is on the cell corners, `A(i,j,k)` with
+//! `0 <= i <= nx`. Sublattice B is on the cell centres, `B(i,j,k)` with `0 <= i < nx`. Every tet has one long edge A-A and one long edge
+//! B-B, both of length `a` and perpendicular to each other. All tets are therefore congruent, with volume `a^3/12`. A block keeps the tets
+//! that lie wholly inside it. Every boundary square is then a pit, a pyramid of depth `a/2` without a tet. The tets fill `1 - 1/n` of the
+//! box with `n^3` cells. The tets around a pit stand for it ([`Lattice::tet_weight`]) and its corners have its mass
 //! ([`Lattice::node_volume`]). A block then has the weight, stiffness and pore volume of its box. [`SpongeSummary::rest_volume`] is the
 //! sum.
 //!

@@ -1,10 +1,9 @@
 //! Pits: volume between the faces of a sponge and its lattice that no tet fills.
 //!
 //! A tet with one node outside of the block is left out, and half of it lies inside. This half lies between its other nodes
-//! and the middle of the long edge to the missing node, which is in the face of the block. Four such halves around one edge
-//! are a pit: the pyramid between a square of the face and the node below it, of volume `a^3/6`. All pits are what a block
-//! lacks of its box. Where a node is missing because a body occupies its place, the same halves count if there is room for
-//! the middle of the edge.
+//! and the middle of the long edge to the missing node. That middle is in the face of the block. Four such halves around one edge are a
+//! pit: the pyramid between a square of the face and the node below it, of volume `a^3/6`. All pits are what a block lacks of its box.
+//! Where a node is missing because a body occupies its place, the same halves count if there is room for the middle of the edge.
 //!
 //! A half belongs to the tet behind its inner face, which then stands for more than its own volume. Where there is none, as at the edges of
 //! a box, it belongs to all tets with a face on the same pit. If there are none either, it belongs to all tets at the node below it. Its

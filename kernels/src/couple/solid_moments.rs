@@ -10,8 +10,8 @@
 //! ```
 //!
 //! `1 / D_a` is the velocity of a node by an impulse, within the solve for the pressure. Its neighbours hold it by a quarter of its
-//! stiffness against theirs, because they follow as well. B and N are the parts of the diagonal of the system by the particle with
-//! what the drag moves, and by the forces on nodes (`couple::solid_diagonal`).
+//! stiffness against theirs, because they follow as well. B and N are the parts of the diagonal of the system (`couple::solid_diagonal`). B
+//! is that by the particle with what the drag moves, N that by the forces on nodes.
 
 use crate::{
     columns::{Columns, Controls, Fluid, lane},

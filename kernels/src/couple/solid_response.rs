@@ -6,10 +6,9 @@
 //! w_a = u_a + (Q_a + I_a) / D_a
 //! ```
 //!
-//! with the velocity u of the node before the step and the impulse Q that it is expected to receive from everything but the pressure
-//! (`couple::solid_expect`). Both count with the same response: at rest they cancel, whatever `D` is.
-//! Without the response the scheme is the drained split of poroelasticity, which is unstable for an incompressible fluid
-//! (docs/porous.md).
+//! u is the velocity of the node before the step. Q is the impulse that it is expected to receive from everything but the pressure
+//! (`couple::solid_expect`). Both count with the same response: at rest they cancel, whatever `D` is. Without the response the scheme is
+//! the drained split of poroelasticity, which is unstable for an incompressible fluid (docs/porous.md).
 
 use crate::{
     columns::{Columns, Controls, Fluid, lane},

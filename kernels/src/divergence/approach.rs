@@ -4,8 +4,8 @@
 //! (F v)_i = 1 / m_0 sum_j c_ij (v_j - v_i) . x_ij x_ij
 //! ```
 //!
-//! with the images of the velocities, and with the second moment `m_0` of a lattice, so that velocities that differ by chance yield
-//! about as much as they differ. `divergence::damping` takes the same of it.
+//! The sum includes the images of the velocities. With the second moment `m_0` of a lattice, velocities that differ by chance yield about
+//! as much as they differ. `divergence::damping` takes the same of it.
 
 use crate::{
     columns::Columns,

@@ -4,8 +4,8 @@
 //! v_g = Q (R (v_s - u(x_s)) + u(x_b))
 //! ```
 //!
-//! with the signs Q of the walls, the map R of the body, the field u of velocities of the body, at the particle and at its image in the
-//! body.
+//! Q has the signs of the walls, and R is the map of the body. u is the field of velocities of the body, at the particle and at its image
+//! in the body.
 
 use glam::{DVec3, Vec3};
 

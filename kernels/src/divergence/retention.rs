@@ -6,7 +6,7 @@
 //! v_i -= (v_i - v_wall)_t min(1, h s_i / |(v_i - v_wall)_t|)  within a spacing of the surface
 //! ```
 //!
-//! R is the force over the width of a drop \[N/m\], `rho_1` the density of a film one particle thick, and l what a straight edge of it
+//! R is the force over the width of a drop \[N/m\]. `rho_1` is the density of a film one particle thick, and l what a straight edge of it
 //! lacks. A particle has a line of a spacing for every such lack. The line of a round drop is pi times as long as the drop is wide: hence
 //! the factor. Water that is deeper than one particle has no such line, but in the corners of a tank.
 //!

@@ -9,11 +9,10 @@
 //! y += h (u + w x (x - c)),   u = dP / M,   w = I^-1 (dL - c x dP)
 //! ```
 //!
-//! with the external impulses J and the drag impulses D, whose moments about the nodes are M. Moments are taken at the
-//! positions x of the beginning of the step, at which `sum x x m v` is the angular momentum of the new velocities for any
-//! new positions. Nodes in contact and held nodes stay in place. M, I and the centre c count them with the mass `h^2 k`, by
-//! their stiffness k. A sponge that stands on something is then not shaken. What they touch receives their part of the
-//! momentum:
+//! with the external impulses J and the drag impulses D, whose moments about the nodes are M. Moments are taken at the positions x of the
+//! beginning of the step. There `sum x x m v` is the angular momentum of the new velocities for any new positions. Nodes in contact and
+//! held nodes stay in place. M, I and the centre c count them with the mass `h^2 k`, by their stiffness k. A sponge that stands on
+//! something is then not shaken. What they touch receives their part of the momentum:
 //!
 //! ```text
 //! J -= h^2 k (u + w x (x - c))

@@ -11,7 +11,7 @@
 //! cancel, so that they must be solved together. The multipliers begin at zero, so that more than one sweep per step does
 //! not converge to the material: steps must be short instead.
 //!
-//! With F' the cofactors of F, and g, a the gradients by F and by F' - F, the change is `w (s g + v a)`, where
+//! F' are the cofactors of F, and g, a the gradients by F and by F' - F. The change is `w (s g + v a)`, where
 //! `s = l_D / |F| + l_H` and `v = l_H`. Products of g and a, and s, are as small as the strain.
 
 use crate::{

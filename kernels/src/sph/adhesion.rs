@@ -4,7 +4,7 @@
 //! a_i += k V / m w_i grad lambda_i,   impulse of a body = -m h sum_i of it
 //! ```
 //!
-//! A wall or body counts as full in the deficits of `sph::deficit`, so that the fluid has no surface there and meets it at a right angle.
+//! A wall or body counts as full in the deficits of `sph::deficit`. The fluid therefore has no surface there and meets it at a right angle.
 //! This is the derivative of that energy by the place of the wall. Along the line where the surface meets the wall, it pulls at the wall
 //! with the surface tension. Without this term only the pressure of the fluid acts there, and a bridge of water pushes two plates apart
 //! that it should draw together.

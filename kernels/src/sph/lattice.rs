@@ -14,8 +14,8 @@ pub fn moment(smoothing: &Wendland, spacing: f32) -> f32 {
     sum(smoothing, spacing, |c, x, _| c * x * x)
 }
 
-/// Of the first layer of a lattice below a plane, the length of the sum of `c_ij x_ij` \[1/m\], and the part of a full neighbourhood
-/// that it lacks \[1\]. See `divergence::moments`.
+/// Two numbers of the first layer of a lattice below a plane. They are the length of the sum of `c_ij x_ij` \[1/m\], and the part of a full
+/// neighbourhood that it lacks \[1\]. See `divergence::moments`.
 #[must_use]
 pub fn surface(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     let moment = sum(smoothing, spacing, |c, x, _| if x > 0.0 { c * x } else { 0.0 });
@@ -32,8 +32,8 @@ pub fn surface(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     (moment, lack)
 }
 
-/// Of a film one particle thick, the density over that at rest, and what a particle at a straight edge of it lacks of that \[1\]. See
-/// `divergence::retention`.
+/// Two numbers of a film one particle thick. They are the density over that at rest, and what a particle at a straight edge of it lacks of
+/// that \[1\]. See `divergence::retention`.
 #[must_use]
 pub fn film(smoothing: &Wendland, spacing: f32) -> (f32, f32) {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));

@@ -12,7 +12,7 @@
 //! vanishes, instead of `mu grad v`. A fluid that turns as a whole feels nothing.
 //!
 //! Forces are equal and opposite. Because w is the best fit by the same weights, the sum over j of `u_ij x_ij x (v_ji - w_i x x_ji)` is
-//! zero for every i, so that angular momentum is conserved. The power is `-sum_ij u_ij |v_ji - w_i x x_ji|^2`: never above zero.
+//! zero for every i. Angular momentum is therefore conserved. The power is `-sum_ij u_ij |v_ji - w_i x x_ji|^2`: never above zero.
 //!
 //! The matrix of the fit is that of the moments of inertia. It is divided by its trace, and `REGULAR` is added to its diagonal. Then it has
 //! an inverse for any number of neighbours. Of the torque of a form without spins, some ten thousandths are left.

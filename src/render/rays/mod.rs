@@ -1,7 +1,7 @@
 //! The realistic view: rays from the eye through water, sponges and bodies in a room.
 //!
-//! One file is one pass or one thing that rays meet. There are maps of light on the floor (`photons`, `ground`), the next event of a ray
-//! (`setting`, `tree`), what solids look like (`matter`, `skin`, `foam`), paths (`path`, `optics`, `room`) and pixels.
+//! One file is one pass or one thing that rays meet. There are maps of light on the floor (`photons`, `ground`), and the next event of a
+//! ray (`setting`, `tree`). Others are what solids look like (`matter`, `skin`, `foam`), paths (`path`, `optics`, `room`) and pixels.
 
 mod beads;
 mod foam;

@@ -106,8 +106,8 @@ impl Cells {
         full && count as f32 >= least
     }
 
-    /// Calls `visit` with the places of all points within two cells of a point, in a fixed order, and with the bounds of
-    /// their cells in `start`.
+    /// Calls `visit` with the places of all points within two cells of a point, in a fixed order. `visit` also gets the
+    /// bounds of their cells in `start`.
     pub(super) fn around(&self, point: Vec3, mut visit: impl FnMut(Range<usize>, Range<usize>)) {
         let cell = self.cell(point);
         let range = |axis: usize| {

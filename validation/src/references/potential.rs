@@ -4,8 +4,8 @@
 //! sum over faces of a_f A (phi_n - phi) / h = q,   phi given at free surfaces
 //! ```
 //!
-//! `a_f` is the part of a face that is outside of the solid. What moves at the speed U along y pushes `q = U A (a_top - a_bottom)` out
-//! of a cell, because the open faces of a cell and the surface of the solid in it close. Second order in the size of the cells.
+//! `a_f` is the part of a face that is outside of the solid. The open faces of a cell and the surface of the solid in it close. What moves
+//! at the speed U along y therefore pushes `q = U A (a_top - a_bottom)` out of a cell. Second order in the size of the cells.
 
 /// A tank of equal cubes; faces without a neighbour are walls.
 #[derive(Clone, Debug)]
