@@ -41,8 +41,11 @@ columns! {
         FluidDensity = density: values("kg/m^3"), Kept;
         /// Acceleration by all forces of this step; w: permitted compression without delay, see `sph::forces`.
         FluidAcceleration = acceleration: rows("m/s^2"; ALLOWED_COMPRESSION 3 "1"), Scratch;
-        /// Weight of the deficit of neighbours of a particle near the surface, see `sph::deficit`.
+        /// Weight of the deficit of neighbours of a particle near the surface, over the part that walls and bodies leave, see
+        /// `sph::deficit`.
         FluidDeficit = deficit: values("1"), Scratch, needs Cohesion;
+        /// Weight of that deficit times the part of what walls and bodies leave that is filled.
+        FluidAdhesion = adhesion: values("1"), Scratch, needs Cohesion;
         /// For every particle, the control rows within the suction radius.
         FluidControls = controls: Neighbors("1"), Scratch, needs Sponge;
         /// For every entry of those lists, node volume times W.

@@ -4,7 +4,7 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> fluid_deficit: array<f32>;
+@group(0) @binding(3) var<storage, read> fluid_adhesion: array<f32>;
 @group(0) @binding(4) var<storage, read> body_states: array<Body>;
 @group(0) @binding(5) var<storage, read> planes: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> fluid_acceleration: array<vec4<f32>>;
@@ -26,7 +26,7 @@ fn main(
     var sum = vec3<f32>(0.0);
     if (is_row) {
         point = fluid_position[row].xyz;
-        pull = params.cohesion_stiffness * (params.cohesion_volume / params.particle_mass) * fluid_deficit[row];
+        pull = params.cohesion_stiffness * (params.cohesion_volume / params.particle_mass) * fluid_adhesion[row];
         sum = pull * cohesion_share_of_walls(point).xyz;
     }
     for (var index = 0u; index < params.body_rows; index += 1u) {

@@ -1,7 +1,7 @@
 // #include smoothing, images
 // Surface tension: force on the particles by a surface energy.
 //
-//     E = k sum_i V f(e_i),   a_i = k V^2 / m sum_j (w_i + w_j) grad W_ij   with w = f'
+//     E = k sum_i V f(e_i),   a_i = k V^2 / m sum_j (w_i / phi_i + w_j / phi_j) grad W_ij   with w = f'
 
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;

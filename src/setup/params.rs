@@ -161,7 +161,7 @@ fn fluid_params(scene: &Scene) -> FluidParams {
         wall_viscosity: fluid.viscosity,
         retention: retention(fluid, &smoothing),
         surface_tension: if is_incompressible { 0.0 } else { fluid.surface_tension },
-        cohesion: cohesion(fluid).filter(|_| is_incompressible),
+        cohesion: cohesion(fluid, solver).filter(|_| is_incompressible),
         repulsion_range: range,
         repulsion_stiffness: frequency * frequency,
         repulsion_damping: 2.0 * fluid.repulsion_damping * frequency,
@@ -186,12 +186,18 @@ fn retention(fluid: &scene::Fluid, smoothing: &Wendland) -> Option<Retention> {
     (fluid.retention > 0.0).then_some(Retention { strength, density, range: fluid.spacing })
 }
 
+/// Surface energy of drops that have settled, over that of the layers of a lattice that ends in a plane and has the same area. `divergence`
+/// leaves particles less in layers than the solvers of the density do.
+const SETTLED: f64 = 0.97;
+const SETTLED_DIVERGENCE: f64 = 1.03;
+
 /// Surface tension from a surface energy, if there is any.
-fn cohesion(fluid: &scene::Fluid) -> Option<Cohesion> {
+fn cohesion(fluid: &scene::Fluid, solver: scene::FluidSolver) -> Option<Cohesion> {
+    let settled = if solver == scene::FluidSolver::Divergence { SETTLED_DIVERGENCE } else { SETTLED };
     let (spacing, smoothing) = (fluid.spacing, Wendland::new(fluid.neighbor_radius()));
     let sum = Wendland::lattice_sum(f64::from(smoothing.support_radius), f64::from(spacing));
     (fluid.surface_tension > 0.0).then(|| Cohesion {
-        stiffness: cohesion_stiffness(&smoothing, spacing, fluid.surface_tension),
+        stiffness: cohesion_stiffness(&smoothing, spacing, fluid.surface_tension, settled),
         smoothing,
         volume: (f64::from(spacing).powi(3) / sum) as f32,
     })

@@ -17,11 +17,16 @@ pub(crate) fn deficit(params: &Params, columns: &mut Columns) {
     let x = vectors(&fluid.position, count);
     let (radius, volume) = (cohesion.smoothing.support_radius, f64::from(cohesion.volume));
     fluid.deficit.resize(fluid.position.len(), 0.0);
+    fluid.adhesion.resize(fluid.position.len(), 0.0);
     for i in 0..count {
         let volume_at = |other: &DVec3| volume * smoothing(radius, apart(params, x[i], *other).length());
         let there: f64 = x.iter().map(volume_at).sum();
-        let share = beyond(params, &columns.bodies.states.0, x[i]).iter().map(|beyond| beyond.1).sum::<f64>();
-        fluid.deficit[i] = weight((0.98 - there - share).max(0.0)) as f32;
+        let open =
+            beyond(params, &columns.bodies.states.0, x[i]).iter().map(|beyond| beyond.1).product::<f64>();
+        let filled = (0.05 + there) / open;
+        let lacks = weight((1.03 - filled).max(0.0));
+        fluid.deficit[i] = (lacks / open) as f32;
+        fluid.adhesion[i] = (lacks * filled) as f32;
     }
 }
 
@@ -47,19 +52,19 @@ pub(crate) fn cohesion(params: &Params, columns: &mut Columns) {
     }
 }
 
-/// Slope and part of the smoothing function that lies beyond the walls, and beyond every body.
+/// Of the walls, and of every body: the slope of the logarithm of what they leave of the smoothing function, and what they leave.
 fn beyond(params: &Params, bodies: &[Body], x: DVec3) -> Vec<(DVec3, f64)> {
     let radius = params.fluid.cohesion.as_ref().map_or(1.0, |cohesion| cohesion.smoothing.support_radius);
     let at = |distance: f64, into: DVec3| {
         let (slope, part) = half_space(radius, distance);
-        (into * slope, part)
+        (into * slope / (1.0 - part), 1.0 - part)
     };
-    let mut all = vec![(DVec3::ZERO, 0.0)];
+    let mut all = vec![(DVec3::ZERO, 1.0)];
     if let Some((low, high)) = params.walls {
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             let below = at((x - low.as_dvec3()).dot(axis), -axis);
             let above = at((high.as_dvec3() - x).dot(axis), axis);
-            all[0] = (all[0].0 + below.0 + above.0, all[0].1 + below.1 + above.1);
+            all[0] = (all[0].0 + below.0 + above.0, all[0].1 * below.1 * above.1);
         }
     }
     all.extend(bodies.iter().map(|body| {
@@ -94,7 +99,7 @@ pub(crate) fn adhesion(params: &Params, columns: &mut Columns) {
     let stiffness = f64::from(cohesion.stiffness) * f64::from(cohesion.volume) / mass;
     for i in 0..columns.rows.fluid {
         let x = vector(fluid.position[i]);
-        let pull = stiffness * f64::from(fluid.deficit[i]);
+        let pull = stiffness * f64::from(fluid.adhesion[i]);
         let slopes = beyond(params, bodies, x);
         for ((slope, _), (body, wrench)) in slopes[1..].iter().zip(bodies.iter().zip(&mut wrenches)) {
             let impulse = -pull * mass * f64::from(params.step) * *slope;

@@ -1,13 +1,13 @@
 //! Surface tension at walls and bodies: the part of the surface energy of `sph::cohesion` that they have.
 //!
 //! ```text
-//! a_i += k V / m w_i grad lambda_i,   impulse of a body = -m h sum_i of it
+//! a_i += k V / m w_i s_i sum_k grad lambda_ik / (1 - lambda_ik),   impulse of a body = -m h sum_i of its part
 //! ```
 //!
-//! A wall or body counts as full in the deficits of `sph::deficit`. The fluid therefore has no surface there and meets it at a right angle.
-//! This is the derivative of that energy by the place of the wall. Along the line where the surface meets the wall, it pulls at the wall
-//! with the surface tension. Without this term only the pressure of the fluid acts there, and a bridge of water pushes two plates apart
-//! that it should draw together.
+//! In the deficits of `sph::deficit` what a wall or body takes of a neighbourhood does not lack. The fluid therefore has no surface there and
+//! meets it at a right angle. This is the derivative of that energy by the place of the wall, with `s_i` and `lambda_ik` as there. Along the
+//! line where the surface meets the wall, it pulls at the wall with the surface tension. Without this term only the pressure of the fluid
+//! acts there, and a bridge of water pushes two plates apart that it should draw together.
 
 use crate::{
     columns::{Columns, Fluid},
@@ -24,7 +24,7 @@ use super::{
 
 declare! {
     needs: [Fluid, Cohesion, Obstacles],
-    reads: [FluidPosition, FluidDeficit, FluidAcceleration, BodyStates, BodyFluidWrenches],
+    reads: [FluidPosition, FluidAdhesion, FluidAcceleration, BodyStates, BodyFluidWrenches],
     writes: [FluidAcceleration, BodyFluidWrenches],
     oracle: crate::oracle::surface::adhesion,
     bound: 3e-5,
@@ -34,10 +34,10 @@ declare! {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
     let count = columns.rows.fluid;
-    let Fluid { position, deficit, acceleration, .. } = &mut columns.fluid;
+    let Fluid { position, adhesion, acceleration, .. } = &mut columns.fluid;
     let bodies = &columns.bodies.states.0;
     let profile = Profile::HalfSpace { radius: cohesion.smoothing.support_radius };
-    let pressures = Tension { deficit, scale: scale(cohesion, params.fluid.particle_mass) };
+    let pressures = Tension { adhesion, scale: scale(cohesion, params.fluid.particle_mass) };
     let push = Push { params, profile, bodies, position, count, pressures };
     let mut wrenches = per_chunk(&mut columns.bodies.fluid_wrenches.0, acceleration.len(), bodies.len());
     cpu.for_chunks((&mut acceleration[..], PerChunk(&mut wrenches)), |first, (acceleration, wrenches)| {
@@ -50,15 +50,15 @@ fn scale(cohesion: &Cohesion, mass: f32) -> f32 {
     -cohesion.stiffness * (cohesion.volume / mass)
 }
 
-/// Weights of deficits as pressures.
+/// Weights of the deficits at walls as pressures.
 struct Tension<'a> {
-    deficit: &'a [f32],
+    adhesion: &'a [f32],
     scale: f32,
 }
 
 impl Pressures for Tension<'_> {
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, row: usize) -> f32x8<S> {
-        lanes::load(simd, self.deficit, row) * self.scale
+        lanes::load(simd, self.adhesion, row) * self.scale
     }
 }

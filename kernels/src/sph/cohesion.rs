@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! E = k sum_i V f(e_i),   f' = w
-//! a_i = -dE/dx_i / m = k V^2 / m sum_j (w_i + w_j) grad W_ij
+//! a_i = -dE/dx_i / m = k V^2 / m sum_j (w_i / phi_i + w_j / phi_j) grad W_ij
 //! ```
 //!
-//! with the deficits e of `sph::deficit` and their weights w. The fluid keeps its volume, so that this energy grows with its
+//! with the deficits e of `sph::deficit`, their weights w, and the part phi of a neighbourhood that walls leave. The fluid keeps its volume, so that this energy grows with its
 //! surface alone. Forces are equal and opposite and act along the line between particles, which conserves momentum and
 //! angular momentum. Deep inside there are none, so that the fluid stays fluid.
 

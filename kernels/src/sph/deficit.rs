@@ -1,14 +1,18 @@
 //! Deficit of neighbours of particles near the surface of the fluid, within twice the support radius.
 //!
 //! ```text
-//! e_i = max(0, 0.98 - sum_j V W_ij - lambda_i),   w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
+//! e_i = max(0, 1.03 - s_i),   s_i = (0.05 + sum_j V W_ij) / phi_i,   phi_i = prod_k (1 - lambda_ik)
+//! w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 //! ```
 //!
-//! with a smoothing function of its own. `lambda_i` is the part of it that lies in walls and bodies: `u^6 (3.5 - 4.5 u + 1.5 u^2)` at the
-//! distance y of a plane, with u = 1 - y / H. They count as full, so that they are no surface. The noise of particles deep inside stays
-//! below the two per cent. The kernel writes w, the derivative of the energy density of `sph::cohesion` by the deficit. With w = e the
-//! layers below a surface attract each other much more strongly than the surface contracts. With this w the energy hardly depends on
-//! their distance, so that it is that of the surface alone (docs/pressure-solve.md).
+//! with a smoothing function of its own. `lambda_ik` is the part of it that lies in a wall or body k: `u^6 (3.5 - 4.5 u + 1.5 u^2)` at the
+//! distance y of a plane, with u = 1 - y / H. What they leave, `phi_i`, is all that water could fill. A surface that meets a wall at a right
+//! angle therefore has the deficits of one that goes on beyond it. The noise of particles deep inside stays below two per cent. Walls add
+//! three per cent of their part, because layers beside them are less even.
+//!
+//! The kernel writes `w_i / phi_i`, with w the derivative of the energy density of `sph::cohesion` by the deficit. For `sph::adhesion` it
+//! writes `w_i s_i`. With w = e the layers below a surface attract each other much more strongly than the surface contracts. With this w the
+//! energy hardly depends on their distance, so that it is that of the surface alone (docs/pressure-solve.md).
 
 use crate::{
     body::Body,
@@ -28,14 +32,16 @@ use super::obstacles::{Profile, near};
 declare! {
     needs: [Fluid, Cohesion],
     reads: [FluidPosition, FluidNeighbors, BodyStates],
-    writes: [FluidDeficit],
+    writes: [FluidDeficit, FluidAdhesion],
     oracle: crate::oracle::surface::deficit,
     // Weights of deficits are a tenth of the sums whose differences they are.
     bound: 4e-5,
     twin: [pass(NAME, Fluid)],
     constants: {
-        /// Share of the neighbourhood above which nothing lacks.
-        pub(crate) const FULL_SHARE: f32 = 0.98;
+        /// Share of the neighbourhood that may lack by noise, away from walls.
+        pub(crate) const NOISE_SHARE: f32 = 0.02;
+        /// The same beside walls and bodies, over their part of the neighbourhood.
+        const WALL_NOISE_SHARE: f32 = 0.03;
         /// How fast the weight of a deficit falls. With 2.4 the layers below a flat surface pull together least in the continuum. 2.5
         /// spreads the periods of drops least.
         const DEFICIT_FALL: f64 = 2.5;
@@ -43,10 +49,6 @@ declare! {
         const MINIMUM_DEFICIT_WEIGHT: f64 = 0.01;
     },
 }
-
-/// Surface tension of drops that have settled, over that of the layers of a lattice that ends in a plane. Measured on eight drops
-/// of 16 to 19 particles across.
-const SETTLED: f64 = 0.97;
 
 /// Weight of a deficit: the derivative of `energy`.
 #[must_use]
@@ -66,15 +68,18 @@ fn energy(deficit: f64) -> f64 {
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let Some(cohesion) = &params.fluid.cohesion else { return };
     let count = columns.rows.fluid;
-    let Fluid { position, neighbors, deficit, .. } = &mut columns.fluid;
+    let Fluid { position, neighbors, deficit, adhesion, .. } = &mut columns.fluid;
     deficit.resize(position.len(), 0.0);
+    adhesion.resize(position.len(), 0.0);
     let task = Task { params, cohesion, position, bodies: &columns.bodies.states.0 };
-    cpu.for_chunks(&mut deficit[..], |first, deficit| {
+    cpu.for_chunks((&mut deficit[..], &mut adhesion[..]), |first, (deficit, adhesion)| {
         let lists = neighbors.chunk(first);
-        with_space!(cpu, params, simd, space => task.chunk((simd, space), first, lists, deficit));
+        let rows = (&mut *deficit, &mut *adhesion);
+        with_space!(cpu, params, simd, space => task.chunk((simd, space), first, lists, rows));
         // Padding rows are no surface.
         let used = count.saturating_sub(first).min(deficit.len());
         deficit[used..].fill(0.0);
+        adhesion[used..].fill(0.0);
     });
 }
 
@@ -92,7 +97,7 @@ impl Task<'_> {
         (simd, space): (S, impl Space<S>),
         first: usize,
         lists: &ChunkLists,
-        deficit: &mut [f32],
+        (deficit, adhesion): (&mut [f32], &mut [f32]),
     ) {
         let cohesion = self.cohesion;
         let kernel = cohesion.smoothing.lanes(simd);
@@ -109,10 +114,14 @@ impl Task<'_> {
             }
             let [_, _, _, mut share] = profile.walls(simd, self.params, [x, y, z]);
             for body in &near {
-                share += profile.body(simd, &self.bodies[*body], [x, y, z])[3];
+                share = profile.both(share, profile.body(simd, &self.bodies[*body], [x, y, z])[3]);
             }
-            let lacks = lanes::splat(simd, FULL_SHARE) - sum * value - share;
-            lanes::store(deficit, row, weights(simd, lanes::positive(simd, lacks)));
+            let open = lanes::splat(simd, 1.0) - share;
+            let filled = (sum * value + (NOISE_SHARE + WALL_NOISE_SHARE)) / open;
+            let weight =
+                weights(simd, lanes::positive(simd, lanes::splat(simd, 1.0 + WALL_NOISE_SHARE) - filled));
+            lanes::store(deficit, row, weight / open);
+            lanes::store(adhesion, row, weight * filled);
         }
     }
 }
@@ -126,9 +135,9 @@ fn weights<S: Simd>(simd: S, deficit: f32x8<S>) -> f32x8<S> {
 }
 
 /// Stiffness \[Pa\] with which a lattice that ends in a plane has the surface tension \[N/m\]: energy density over energy of
-/// a deficit.
+/// a deficit. `settled` is the energy of a surface that has settled, over that of the lattice.
 #[must_use]
-pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f32 {
+pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32, settled: f64) -> f32 {
     let (radius, d) = (f64::from(smoothing.support_radius), f64::from(spacing));
     let reach = (radius / d).ceil() as i32;
     let volume = d.powi(3) / Wendland::lattice_sum(radius, d);
@@ -142,9 +151,9 @@ pub fn cohesion_stiffness(smoothing: &Wendland, spacing: f32, tension: f32) -> f
             let distance = f64::from(x * x + y * y + z * z).sqrt() * d;
             missing += volume * Wendland::value_f64(radius, distance);
         }
-        energies += energy((missing + f64::from(FULL_SHARE) - 1.0).max(0.0));
+        energies += energy((missing - f64::from(NOISE_SHARE)).max(0.0));
     }
-    (f64::from(tension) * d * d / (SETTLED * volume * energies)) as f32
+    (f64::from(tension) * d * d / (settled * volume * energies)) as f32
 }
 
 #[cfg(test)]

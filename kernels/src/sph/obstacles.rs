@@ -46,7 +46,8 @@ constants! {
 pub(super) enum Profile {
     /// That of the pressure solve, with twice the slope at the first layer (`boundary_profile`).
     Pressure { range: f32, share: f32 },
-    /// The part of a smoothing function of that support radius that lies beyond a plane.
+    /// The part of a smoothing function of that support radius that lies beyond a plane. Several planes leave the product of what each
+    /// leaves, as planes at right angles do. The slope is that of the logarithm of what is left.
     HalfSpace { radius: f32 },
 }
 
@@ -83,8 +84,18 @@ impl Profile {
                 let square = depth * depth;
                 let fifth = square * square * depth;
                 let share = fifth * depth * (splat(3.5) - depth * 4.5 + square * 1.5);
-                (share, fifth * (splat(21.0) - depth * 31.5 + square * 12.0) * (1.0 / radius))
+                let slope = fifth * (splat(21.0) - depth * 31.5 + square * 12.0) * (1.0 / radius);
+                (share, slope / (splat(1.0) - share))
             }
+        }
+    }
+
+    /// Volume fraction of two surfaces together.
+    #[inline(always)]
+    pub(super) fn both<S: Simd>(self, one: f32x8<S>, other: f32x8<S>) -> f32x8<S> {
+        match self {
+            Self::Pressure { .. } => one + other,
+            Self::HalfSpace { .. } => one + other - one * other,
         }
     }
 
@@ -98,7 +109,7 @@ impl Profile {
             let (below, falling) = self.at(simd, point[axis] - low[axis]);
             let (above, rising) = self.at(simd, lanes::splat(simd, high[axis]) - point[axis]);
             sum[axis] = rising - falling;
-            sum[3] = sum[3] + below + above;
+            sum[3] = self.both(self.both(sum[3], below), above);
         }
         sum
     }
