@@ -196,8 +196,8 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "consolidation",
         "divergence+vbd",
         "jump",
-        "35 and 40 % of the largest within a frame of 5 ms, at full size on a GPU: errors of the density in pores are put right within \
-         20 ms",
+        "35 to 108 % of the largest within a frame of 5 ms, at full size on a GPU: errors of the density in pores are put right \
+         within 20 ms",
     ),
     miss(
         "consolidation",
