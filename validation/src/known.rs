@@ -49,7 +49,7 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "bridge",
         "dfsph",
         "pressure in the middle",
-        "13 to 18 % too low with 8 particles over the radius; the pull is in bounds; cause unknown",
+        "12 % too low with 8 particles over the radius; the pull is in bounds; cause unknown",
     ),
     miss("bridge", "wcsph", "", "probably as in `drop`: the colour field of the paper's source"),
     miss(

@@ -4,10 +4,10 @@
 //! a_i += k V / m w_i s_i sum_k grad lambda_ik / (1 - lambda_ik),   impulse of a body = -m h sum_i of its part
 //! ```
 //!
-//! In the deficits of `sph::deficit` what a wall or body takes of a neighbourhood does not lack. The fluid therefore has no surface there and
-//! meets it at a right angle. This is the derivative of that energy by the place of the wall, with `s_i` and `lambda_ik` as there. Along the
-//! line where the surface meets the wall, it pulls at the wall with the surface tension. Without this term only the pressure of the fluid
-//! acts there, and a bridge of water pushes two plates apart that it should draw together.
+//! In the deficits of `sph::deficit` what a wall or body takes of a neighbourhood does not lack. The fluid therefore has no surface there
+//! and meets it at a right angle. This is the derivative of that energy by the place of the wall, with `s_i` and `lambda_ik` as there.
+//! Along the line where the surface meets the wall, it pulls at the wall with the surface tension. Without this term only the pressure of
+//! the fluid acts there, and a bridge of water pushes two plates apart that it should draw together.
 
 use crate::{
     columns::{Columns, Fluid},

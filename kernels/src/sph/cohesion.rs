@@ -5,9 +5,9 @@
 //! a_i = -dE/dx_i / m = k V^2 / m sum_j (w_i / phi_i + w_j / phi_j) grad W_ij
 //! ```
 //!
-//! with the deficits e of `sph::deficit`, their weights w, and the part phi of a neighbourhood that walls leave. The fluid keeps its volume, so that this energy grows with its
-//! surface alone. Forces are equal and opposite and act along the line between particles, which conserves momentum and
-//! angular momentum. Deep inside there are none, so that the fluid stays fluid.
+//! with the deficits e of `sph::deficit`, their weights w, and the part phi of a neighbourhood that walls leave. The fluid keeps its
+//! volume, so that this energy grows with its surface alone. Forces are equal and opposite and act along the line between particles,
+//! which conserves momentum and angular momentum. Deep inside there are none, so that the fluid stays fluid.
 
 use crate::{
     columns::{Columns, Fluid},

@@ -5,14 +5,14 @@
 //! w_i = e_i (1 - 2.5 e_i), and 0.01 beyond where it has fallen to that
 //! ```
 //!
-//! with a smoothing function of its own. `lambda_ik` is the part of it that lies in a wall or body k: `u^6 (3.5 - 4.5 u + 1.5 u^2)` at the
-//! distance y of a plane, with u = 1 - y / H. What they leave, `phi_i`, is all that water could fill. A surface that meets a wall at a right
-//! angle therefore has the deficits of one that goes on beyond it. The noise of particles deep inside stays below two per cent. Walls add
-//! three per cent of their part, because layers beside them are less even.
+//! with a smoothing function of its own. `lambda_ik` is the part of it that lies in a wall or body k: `u^6 (3.5 - 4.5 u + 1.5 u^2)` at
+//! the distance y of a plane, with u = 1 - y / H. What they leave, `phi_i`, is all that water could fill. A surface that meets a wall
+//! at a right angle therefore has the deficits of one that goes on beyond it. The noise of particles deep inside stays below two per
+//! cent. Walls add three per cent of their part, because layers beside them are less even.
 //!
-//! The kernel writes `w_i / phi_i`, with w the derivative of the energy density of `sph::cohesion` by the deficit. For `sph::adhesion` it
-//! writes `w_i s_i`. With w = e the layers below a surface attract each other much more strongly than the surface contracts. With this w the
-//! energy hardly depends on their distance, so that it is that of the surface alone (docs/pressure-solve.md).
+//! The kernel writes `w_i / phi_i`, with w the derivative of the energy density of `sph::cohesion` by the deficit. For `sph::adhesion`
+//! it writes `w_i s_i`. With w = e the layers below a surface attract each other much more strongly than the surface contracts. With
+//! this w the energy hardly depends on their distance, so that it is that of the surface alone (docs/pressure-solve.md).
 
 use crate::{
     body::Body,
