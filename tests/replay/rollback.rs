@@ -2,7 +2,7 @@
 
 use ggrs::{Config, GgrsError, GgrsRequest, PredictRepeatLast, SessionBuilder, SyncTestSession};
 use sorb::{
-    Command, Options, Snapshot, World,
+    Command, Snapshot, World,
     glam::Vec3,
     scene::{Body, Fluid, FluidBlock, Scene, ShapeKind, Sponge},
 };
@@ -60,7 +60,7 @@ fn input(player: usize, frame: u32) -> i8 {
 
 /// Plays; `fault` is what a frame that is played again does otherwise.
 fn play(frames: u32, fault: f32) -> Result<World, GgrsError> {
-    let mut world = World::with_options(&scene(), &options(2, sorb::SimdLevel::best()))
+    let mut world = World::with_options(&scene(), &options(1, sorb::SimdLevel::best()))
         .unwrap_or_else(|error| panic!("{error}"));
     let mut snapshots: Vec<Snapshot> = (0..2 * BACK).map(|_| Snapshot::new()).collect();
     let mut session = session();
@@ -102,8 +102,8 @@ fn two_players_push_a_sponge_through_600_frames_of_roll_backs() {
     assert!(world.clock().frames == u64::from(FRAMES) || world.clock().frames == u64::from(FRAMES) - 1);
     let centre = world.measures().sponge_centre;
     assert!(centre.x.abs() > 1e-3, "nobody has pushed the sponge: {centre}");
-    // The same without any roll back.
-    let mut straight = World::with_options(&scene(), &Options { threads: Some(1), ..Options::default() })
+    // The same without any roll back, on two threads.
+    let mut straight = World::with_options(&scene(), &options(2, sorb::SimdLevel::best()))
         .unwrap_or_else(|error| panic!("{error}"));
     for frame in 0..world.clock().frames as u32 {
         for (player, body) in (0..2).zip(0..) {
