@@ -29,7 +29,7 @@ pub(super) static CASE: Case = Case {
 const SIDE: f64 = 0.1;
 /// Its height \[m\].
 const HEIGHT: f64 = 0.05;
-/// Side of the tank and depth of the water without the slab \[m\].
+/// Least side of the tank and depth of the water without the slab \[m\].
 const TANK: (f64, f64) = (0.24, 0.12);
 /// Particles over the side of the slab.
 const PARTICLES: u32 = 12;
@@ -91,7 +91,7 @@ fn float(setting: &Setting, density: f64, spacing: f64) -> Result<Vec<Figure>, F
 
 /// The slab starts a fifth of its height above its draft.
 fn scene(setting: &Setting, density: f64, spacing: f64) -> Scene {
-    let half = (0.5 * TANK.0) as f32;
+    let half = (0.5 * tank(spacing)) as f32;
     let minimum = Vec3::new(-half, 0.0, -half);
     let fluid = Fluid {
         spacing: spacing as f32,
@@ -113,9 +113,17 @@ fn scene(setting: &Setting, density: f64, spacing: f64) -> Scene {
         .with_body(body)
 }
 
+/// Side of the tank: a whole number of spacings \[m\].
+///
+/// A block of water leaves what is less than a spacing free. With 0.8 spacings of it the level beside the slab is half a spacing below that
+/// which the volume of the water gives.
+fn tank(spacing: f64) -> f64 {
+    (TANK.0 / spacing - 1e-6).ceil() * spacing
+}
+
 /// Mean level on a square half way between slab and walls.
 fn level(world: &World, spacing: f64) -> Result<f64, Failure> {
-    let side = (0.25 * (SIDE + TANK.0)).max(0.5 * SIDE + 2.0 * spacing);
+    let side = (0.25 * (SIDE + tank(spacing))).max(0.5 * SIDE + 2.0 * spacing);
     let along = |index: i32| side * f64::from(index) / 4.0;
     let points: Vec<_> = (-4..=4)
         .flat_map(|i| [(along(i), side), (along(i), -side), (side, along(i)), (-side, along(i))])
