@@ -251,8 +251,8 @@ const WIDE: &str =
     "too fast by a constant, with a hundredth of the width free; in a full channel particles jam";
 const RIBS: &str = "edges of the ribs push the water in proportion to the pressure, in either direction: after a second 4.6 mm/s in \
 the mean of eight starts, where 4.8 are due, with a standard deviation of 22 mm/s (docs/history.md, friction of edges)";
-const EDGES: &str = "edges rub in proportion to the pressure, with 0.01 to 0.03 of the weight of the water displaced, probably because images at \
-edges do not mirror how particles are arranged (docs/history.md, friction of edges)";
+const EDGES: &str = "edges rub in proportion to the pressure, with 0.01 to 0.03 of the weight of the water displaced, probably because \
+images at edges do not mirror how particles are arranged (docs/history.md, friction of edges)";
 const LIGHT: &str = "particles have the mass with which a lattice sums up to rest density: 3.3 % too little at a support of two spacings";
 const DISORDER: &str = "pressure on disordered particles damps and makes noise, in proportion to spacing and pressure; alpha 0.05 \
 alone adds a tenth of the viscosity";
