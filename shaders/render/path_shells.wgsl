@@ -98,25 +98,32 @@ fn seen_at(x: f32, y: f32) -> Shine {
     let direction = direction_of(x, y);
     let end = behind_shells(origin, direction);
     var search = begin_water(origin, direction);
-    var water = next_water(origin, direction, &search);
-    var sponge = next_sponge(origin, direction, 0.0);
+    var water = no_shell();
+    var sponge = no_shell();
+    var seeks_water = true;
+    var seeks_sponge = true;
+    var start = 0.0;
     var light = vec3(0.0);
     var through = 1.0;
     var met = 0u;
+    // The next shells are sought at one place of the text: what is inlined often takes long to compile.
     for (var count = 0u; count < 2u * SHELLS_SHELLS; count++) {
-        let is_water = water.distance <= sponge.distance;
+        if (seeks_water) {
+            water = next_water(origin, direction, &search);
+        }
+        if (seeks_sponge) {
+            sponge = next_sponge(origin, direction, start);
+        }
+        seeks_water = water.distance <= sponge.distance;
+        seeks_sponge = !seeks_water;
         var shell = sponge;
-        if (is_water) {
+        if (seeks_water) {
             shell = water;
         }
         if (!is_near(shell.distance) || shell.distance >= end.distance - SHELLS_TOUCHING) {
             break;
         }
-        if (is_water) {
-            water = next_water(origin, direction, &search);
-        } else {
-            sponge = next_sponge(origin, direction, shell.distance + scene.nudge);
-        }
+        start = shell.distance + scene.nudge;
         met = meet(met, shell.code);
         let normal = select(shell.normal, -shell.normal, dot(shell.normal, direction) > 0.0);
         let slant = 1.0 + dot(direction, normal);
