@@ -20,6 +20,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let pixel = id.y * scene.width + id.x;
+    if (pixel == 0u) {
+        atomicStore(&edge_count[EDGES_LISTED], 1u);
+    }
     let own = samples[pixel];
     let sideways = max(share_of(own, max(id.x, 1u) - 1u, id.y), share_of(own, id.x + 1u, id.y));
     let upright = max(share_of(own, id.x, max(id.y, 1u) - 1u), share_of(own, id.x, id.y + 1u));

@@ -68,6 +68,7 @@ const OWN: &[Constant] = constants! {
     EVENT_MATTER = 1_u32,
     EVENT_CLEAR = 2_u32,
     EVENT_SURFACE = 3_u32,
+    EDGES_LISTED = 1_u32,
 };
 
 /// Declarations of all of them.

@@ -4,7 +4,7 @@ use glam::Vec3;
 use sorb_kernels::gpu::GpuError;
 
 use super::mesh::{Bodies, Mesh};
-use super::passes::{Work, groups_of, tiles_of};
+use super::passes::{Work, groups_of, tiles_of, two_dimensional};
 use super::read::{self, BOUNDS_BYTES, BOX_BYTES, Bounds};
 use super::scene::Scene;
 use super::water::{SKIPS, densities};
@@ -14,6 +14,9 @@ use crate::render::{View, rays::foam, stage::Stage};
 /// Buffers that passes bind whether or not a picture has what they are for.
 const BOUND: [&str; 9] =
     ["nothing", "surfel_cells", "surfels", "cells", "balls", "densities", "sunk", "away", "other_bricks"];
+
+/// How many pixels are at edges, and whether they are listed.
+const EDGES_BYTES: u64 = 8;
 
 impl Renderer {
     /// Uploads what the host knows of a picture.
@@ -44,7 +47,7 @@ impl Renderer {
         self.reserve_particles(scene)?;
         let (width, height) = (u64::from(scene.width), u64::from(scene.height));
         self.buffers.reserve("samples", 16 * width * height)?;
-        self.buffers.reserve("edge_count", 4)
+        self.buffers.reserve("edge_count", EDGES_BYTES)
     }
 
     /// The box around all particles, and the middle of a part of them.
@@ -106,10 +109,11 @@ impl Renderer {
             (Water::Balls, _) => ("render::path_balls", &[][..]),
         };
         let tiles = tiles_of(scene.width, scene.height);
-        work.clear("edge_count", 4);
-        work.run_entry(path, "trace", names, tiles)?;
+        work.clear("edge_count", EDGES_BYTES);
+        // A ray for every pixel, then more for those at edges.
+        work.run(path, names, two_dimensional(tiles.map(u64::from).iter().product()))?;
         work.run("render::edges", &[], tiles)?;
-        work.run_entry(path, "refine", names, groups_of(u64::from(scene.width) * u64::from(scene.height)))?;
+        work.run(path, names, groups_of(u64::from(scene.width) * u64::from(scene.height)))?;
         work.run("render::picture", &[], tiles)?;
         work.submit(&[], self.profile.as_mut()).map(|_| ())
     }

@@ -29,20 +29,20 @@ pub(super) fn tiles_of(width: u32, height: u32) -> [u32; 2] {
     [width.div_ceil(8).max(1), height.div_ceil(8).max(1)]
 }
 
-/// Pipelines by shader and entry point.
+/// Pipelines by shader.
 #[derive(Debug, Default)]
-pub(super) struct Passes(BTreeMap<(&'static str, &'static str), Arc<Pipeline>>);
+pub(super) struct Passes(BTreeMap<&'static str, Arc<Pipeline>>);
 
 impl Passes {
-    fn get(&mut self, gpu: &Gpu, name: &'static str, entry: &'static str) -> Result<Arc<Pipeline>, GpuError> {
-        if let Some(found) = self.0.get(&(name, entry)) {
+    fn get(&mut self, gpu: &Gpu, name: &'static str) -> Result<Arc<Pipeline>, GpuError> {
+        if let Some(found) = self.0.get(name) {
             return Ok(Arc::clone(found));
         }
         let shader = shaders::render_shader(name)
             .ok_or_else(|| GpuError::Refused { reason: format!("there is no shader {name}") })?;
         let text = [shader.source, &DECLARATIONS].concat();
-        let made = Arc::new(gpu.guarded(None, || gpu.compile_with(shader, &text, entry, &[]))?);
-        self.0.insert((name, entry), Arc::clone(&made));
+        let made = Arc::new(gpu.guarded(None, || gpu.compile_with(shader, &text, "main", &[]))?);
+        self.0.insert(name, Arc::clone(&made));
         Ok(made)
     }
 }
@@ -81,18 +81,7 @@ impl<'a> Work<'a> {
         names: &[(&'static str, &'static str)],
         groups: [u32; 2],
     ) -> Result<(), GpuError> {
-        self.run_entry(name, "main", names, groups)
-    }
-
-    /// The same for an entry point of a shader.
-    pub(super) fn run_entry(
-        &mut self,
-        name: &'static str,
-        entry: &'static str,
-        names: &[(&'static str, &'static str)],
-        groups: [u32; 2],
-    ) -> Result<(), GpuError> {
-        let pipeline = self.passes.get(self.gpu, name, entry)?;
+        let pipeline = self.passes.get(self.gpu, name)?;
         let mut entries = Vec::new();
         for binding in &pipeline.bindings {
             let other = names.iter().find(|(variable, _)| *variable == binding.name);
