@@ -47,7 +47,7 @@ fn main(
     let relaxed = moved(x.xyz, quadratic.way * relaxation);
     var start = relaxed;
     var point = relaxed;
-    // Obstacles stand at one place of the text: what is inlined twice takes four times as long to compile.
+    // Obstacles stand at one place of the text: what is inlined twice takes long to compile.
     for (var round = 0u; round < 2u; round += 1u) {
         point = pushed(quadratic, start, old, sponge);
         let off = point - start;
