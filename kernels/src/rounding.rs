@@ -9,11 +9,15 @@ use glam::{DVec3, Vec3};
 
 use crate::shape::Shape;
 
-/// Radius of edges over the spacing of the particles.
-const EDGE_RADIUS: f32 = 1.5;
+/// Radius of edges over the spacing of the particles: smaller ones rub (docs/history.md, friction of edges).
+const EDGE_RADIUS: f32 = 2.0;
 
-/// The same at most, over the smallest distance of a face from the centre.
-const MAXIMUM_RADIUS: f32 = 0.4;
+/// The same at most, over the smallest distance of a face from the centre, unless the core is thick without that: water leaks between thin
+/// plates with rounder edges.
+const THIN_RADIUS: f32 = 0.4;
+
+/// Distance of the nearest face of a core from the centre over the spacing that suffices in any case.
+const THICK_CORE: f32 = 2.2;
 
 /// Steps of Newton's method for the volume.
 const NEWTON_STEPS: usize = 20;
@@ -61,8 +65,14 @@ impl Rounding {
     }
 }
 
+/// Radius of the ball \[m\] by the smallest distance of a face from the centre and the spacing of the particles \[m\].
+fn edge_radius(thinnest: f32, spacing: f32) -> f32 {
+    let most = (THIN_RADIUS * thinnest).max(thinnest - THICK_CORE * spacing);
+    most.min(EDGE_RADIUS * spacing)
+}
+
 fn cuboid(half_extents: Vec3, spacing: f32) -> Rounding {
-    let radius = (EDGE_RADIUS * spacing).min(MAXIMUM_RADIUS * half_extents.min_element());
+    let radius = edge_radius(half_extents.min_element(), spacing);
     let (half, r) = (half_extents.as_dvec3(), f64::from(radius));
     let faces = |k: DVec3| k.x * k.y + k.y * k.z + k.z * k.x;
     let volume = |k: DVec3| {
@@ -78,7 +88,7 @@ fn cuboid(half_extents: Vec3, spacing: f32) -> Rounding {
 
 fn hull(planes: &[(Vec3, f32)], vertices: &[Vec3], triangles: &[[u32; 3]], spacing: f32) -> Rounding {
     let thinnest = planes.iter().map(|(_, offset)| *offset).fold(f32::INFINITY, f32::min);
-    let radius = (EDGE_RADIUS * spacing).min(MAXIMUM_RADIUS * thinnest);
+    let radius = edge_radius(thinnest, spacing);
     let r = f64::from(radius);
     // Steiner's formula: the volume of a convex solid that is swept by a ball.
     let (volume, area, curvature) = measures(vertices, triangles);
@@ -138,7 +148,7 @@ mod tests {
 
     /// Volume of a rounded box, by counting points.
     fn counted(half: Vec3, rounding: &Rounding) -> f64 {
-        let n = 101;
+        let n = 201;
         let reach = half * 1.237;
         let at = |i: i32| (i as f32 + 0.5) / n as f32 * 2.0 - 1.0;
         let mut inside = 0;
@@ -155,7 +165,7 @@ mod tests {
         let half = Vec3::new(0.03, 0.025, 0.04);
         let volume = f64::from((2.0 * half).element_product());
         let rounding = Rounding::new(&Shape::Cuboid { half_extents: half }, 0.005);
-        assert!((rounding.radius - 0.0075).abs() < 1e-7);
+        assert!((rounding.radius - 0.01).abs() < 1e-7);
         assert!((counted(half, &rounding) / volume - 1.0).abs() < 0.01);
         // Negative control: faces that are not moved outwards leave too little.
         let sunk = Rounding { core: half - rounding.radius, ..rounding };
@@ -163,6 +173,8 @@ mod tests {
         // The edges of thin boxes are less round.
         let thin = Rounding::new(&Shape::Cuboid { half_extents: Vec3::new(0.03, 0.004, 0.03) }, 0.005);
         assert!((thin.radius - 0.0016).abs() < 1e-7 && thin.core.min_element() > 0.0);
+        // A core of 2.2 spacings is thick enough.
+        assert!((edge_radius(0.02, 0.005) - 0.009).abs() < 1e-7);
     }
 
     #[test]
