@@ -50,12 +50,14 @@ columns! {
         FluidControls = controls: Neighbors("1"), Scratch, needs Sponge;
         /// For every entry of those lists, node volume times W.
         FluidControlWeights = control_weights: ListValues("1"), Scratch on host;
-        /// Interior value of the particle: sum of node volumes times W, 0 outside of sponges, 1 inside.
+        /// Interior value of the particle: sum of the present volumes of nodes times W, 0 outside of sponges, 1 inside.
         FluidInterior = interior: values("1"), Kept, needs Sponge;
         /// Drag rate of the particle; y: its derivative by the speed relative to the sponge \[1/m\]. z: root of the
-        /// compliance of the material to the pressure, over that of water, see `couple::solid_yield` \[1\].
-        FluidDragRate = drag_rate: rows(; DRAG_RATE 0 "1/s", INERTIAL_DRAG_RATE 1 "1/m", COMPLIANCE 2 "1"), Scratch, needs Sponge;
-        /// Impulse that the particle loses to the sponge, over its interior value.
+        /// compliance of the material to the pressure, over that of water, see `couple::solid_yield` \[1\]. w: sum of the
+        /// weights of nodes, chi.
+        FluidDragRate = drag_rate: rows(; DRAG_RATE 0 "1/s", INERTIAL_DRAG_RATE 1 "1/m", COMPLIANCE 2 "1", NODE_WEIGHT 3 "1"), Scratch,
+            needs Sponge;
+        /// Impulse that the particle loses to the sponge, over its sum of the weights of nodes.
         FluidDrag = drag: rows("kg m/s"; MASS 3 "kg"), Scratch, needs Sponge;
         /// Predicted position at the end of the step; w: change of the kinematic pressure \[m^2/s^2\]. With a pressure solve for
         /// the divergence the position at its beginning; w: the kinematic pressure.
@@ -103,7 +105,7 @@ columns! {
         /// Change of the velocity of a particle in a sponge over that without drag, with nodes at rest and with nodes that respond \[1\].
         /// What the response of the nodes adds to the diagonal of the system, over the squared norm of the renormalisation \[1/m^2\].
         FluidMobility = mobility: rows(; MOBILITY 0 "1", WITH_NODES 1 "1", DIAGONAL 2 "1/m^2"), Scratch, needs Sponge;
-        /// Impulse of the pressure that the drag hands on to the nodes, over the interior value. w: mass of the particle that moves
+        /// Impulse of the pressure that the drag hands on to the nodes, over the sum of their weights. w: mass of the particle that moves
         /// with them, over the same \[kg\].
         FluidHeld = held: rows("N s"; MASS 3 "kg"), Scratch, needs Sponge;
         /// Velocity by the pressure of the present round, without the drag.

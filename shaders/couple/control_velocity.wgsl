@@ -6,7 +6,7 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> fluid_interior: array<f32>;
+@group(0) @binding(3) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> control_position: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> control_fluid: array<u32>;
 @group(0) @binding(6) var<storage, read> control_unfiltered: array<vec4<f32>>;
@@ -34,7 +34,8 @@ fn main(
     for (var k = lane % CONTROL_THREADS; k < end; k += CONTROL_THREADS) {
         let other = control_fluid[first + 1u + k];
         let apart = own.xyz - fluid_position[other].xyz;
-        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * weight_inside(fluid_interior[other]);
+        let inverse = weight_inside(fluid_drag_rate[other][FLUID_DRAG_RATE_NODE_WEIGHT]);
+        part += scale * shape(closeness(params.coupling, dot(apart, apart))) * inverse;
     }
     let sum = control_sum(lane, vec4<f32>(part, 0.0, 0.0, 0.0)).x;
     if (!is_row || lane % CONTROL_THREADS != 0u) {

@@ -5,12 +5,11 @@
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> fluid_position: array<vec4<f32>>;
 @group(0) @binding(3) var<storage, read> fluid_velocity: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read> fluid_interior: array<f32>;
-@group(0) @binding(5) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read> fluid_controls: array<u32>;
-@group(0) @binding(7) var<storage, read> control_position: array<vec4<f32>>;
-@group(0) @binding(8) var<storage, read> control_velocity: array<vec4<f32>>;
-@group(0) @binding(9) var<storage, read_write> fluid_drag: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> fluid_controls: array<u32>;
+@group(0) @binding(6) var<storage, read> control_position: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read> control_velocity: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> fluid_drag: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
 fn main(
@@ -32,7 +31,7 @@ fn main(
         fluid_drag[row] = vec4<f32>(0.0);
         return;
     }
-    let inverse = weight_inside(fluid_interior[row]);
+    let inverse = weight_inside(fluid_drag_rate[row][FLUID_DRAG_RATE_NODE_WEIGHT]);
     let rate = fluid_drag_rate[row][FLUID_DRAG_RATE_DRAG_RATE] * clock.step;
     let strength = rate / (1.0 + rate) * params.particle_mass;
     // The column has impulses over chi.

@@ -3,7 +3,7 @@
 @group(0) @binding(0) var<uniform> clock: Clock;
 @group(0) @binding(1) var<uniform> params: Params;
 @group(0) @binding(2) var<storage, read> fluid_drag: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> fluid_interior: array<f32>;
+@group(0) @binding(3) var<storage, read> fluid_drag_rate: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read_write> fluid_velocity: array<vec4<f32>>;
 
 @compute @workgroup_size(GROUP)
@@ -16,7 +16,7 @@ fn main(
     if (clock.running == 0u || row >= params.fluid_rows) {
         return;
     }
-    let scale = fluid_interior[row] * (1.0 / params.particle_mass);
+    let scale = fluid_drag_rate[row][FLUID_DRAG_RATE_NODE_WEIGHT] * (1.0 / params.particle_mass);
     let before = fluid_velocity[row];
     fluid_velocity[row] = with_vector(before, before.xyz - fluid_drag[row].xyz * scale);
 }

@@ -1,7 +1,8 @@
 // #include smoothing, shares
 // Interior value of every particle in a sponge, and the drag rates there.
 //
-//     chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
+//     iota_i = sum_a J_a V_a W_ia,    chi_i = sum_a V_a W_ia
+//     beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //
 // and the compliance of the material, see `solid_yield.rs`.
 
@@ -38,6 +39,7 @@ fn main(
     var rate = vec2<f32>(0.0);
     var mobile = 0.0;
     var follows = 0.0;
+    var inside = 0.0;
     for (var k = share.first; k < end; k += SHARES) {
         let other = fluid_controls[row + (k + 1u) * rows];
         let there = control_position[other];
@@ -47,13 +49,14 @@ fn main(
         let node = control_node[other];
         let pores = node_pores[node];
         rate += weight * pores.yz;
+        inside += weight * pores[NODE_PORES_VOLUME_RATIO];
         follows += weight * pores[NODE_PORES_VOLUME_RATIO] * following(pores[NODE_PORES_POROSITY]);
         if (params.has_wetting != 0u) {
             mobile += weight * node_wetting[node][NODE_WETTING_MOBILITY];
         }
     }
     let all = share_sum(lane, vec4<f32>(rate, sum, mobile));
-    follows = share_sum(lane, vec4<f32>(follows, 0.0, 0.0, 0.0)).x;
+    let others = share_sum(lane, vec4<f32>(follows, inside, 0.0, 0.0));
     rate = all.xy;
     sum = all.z;
     mobile = all.w;
@@ -64,6 +67,6 @@ fn main(
         let slower = sum / mobile;
         rate *= vec2<f32>(slower, sqrt(slower));
     }
-    fluid_interior[row] = sum;
-    fluid_drag_rate[row] = vec4<f32>(rate, follows, 0.0);
+    fluid_interior[row] = others.y;
+    fluid_drag_rate[row] = vec4<f32>(rate, others.x, sum);
 }

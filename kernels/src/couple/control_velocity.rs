@@ -19,7 +19,7 @@ use crate::{
 
 declare! {
     needs: [Fluid, Sponge],
-    reads: [FluidInterior, ControlNode, ControlFluid, ControlFluidWeights, NodePosition, NodeVelocity],
+    reads: [FluidDragRate, ControlNode, ControlFluid, ControlFluidWeights, NodePosition, NodeVelocity],
     writes: [ControlVelocity, ControlUnfiltered, FluidDrag],
     oracle: crate::oracle::couple::control_velocity,
     bound: 6e-6,
@@ -38,9 +38,9 @@ fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
         *unfiltered = [x, y, z, w];
     }
     velocity.clone_from(unfiltered);
-    let interior = &fluid.interior;
+    let drag_rate = &fluid.drag_rate;
     fluid.drag.clear();
-    fluid.drag.resize(interior.len(), [0.0; 4]);
+    fluid.drag.resize(drag_rate.len(), [0.0; 4]);
     cpu.for_chunks(&mut velocity[..], |first, velocity| {
         let (lists, weights) = (lists.chunk(first), fluid_weights.chunk(first));
         with_lanes!(cpu, simd => {
@@ -48,7 +48,8 @@ fn cpu(cpu: &Cpu, _params: &Params, columns: &mut Columns) {
                 let [ux, uy, uz, w] = lanes::load_rows(simd, velocity, row);
                 let mut sum = lanes::splat(simd, 0.0);
                 for (entry, weight) in lists.group(row).iter().zip(&weights[lists.range(row)]) {
-                    let inverse = weight_inside(simd, lanes::gather(simd, interior, entry));
+                    let [_, _, _, chi] = lanes::gather_rows(simd, drag_rate, entry);
+                    let inverse = weight_inside(simd, chi);
                     sum += lanes::load(simd, weight, 0) * inverse;
                 }
                 lanes::store_rows(velocity, row, [ux, uy, uz, sum * w]);

@@ -28,7 +28,7 @@ use super::impulses::{weight_inside, weighted};
 declare! {
     needs: [Fluid, Sponge],
     reads: [
-        FluidVelocity, FluidControls, FluidControlWeights, FluidInterior, FluidDragRate, FluidDrag,
+        FluidVelocity, FluidControls, FluidControlWeights, FluidDragRate, FluidDrag,
         ControlVelocity,
     ],
     writes: [FluidDrag],
@@ -40,8 +40,7 @@ declare! {
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid { velocity, controls: lists, control_weights, interior, drag_rate, drag, .. } =
-        &mut columns.fluid;
+    let Fluid { velocity, controls: lists, control_weights, drag_rate, drag, .. } = &mut columns.fluid;
     let control_velocity = &columns.controls.velocity;
     let (step, mass) = (params.step, params.fluid.particle_mass);
     cpu.for_chunks(&mut drag[..], |first, drag| {
@@ -56,9 +55,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 }
                 let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
                 let sum = weighted(simd, control_velocity, group, &weights[lists.range(row)]);
-                let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
+                let [rate, _, _, chi] = lanes::load_rows(simd, drag_rate, first + row);
+                let inverse = weight_inside(simd, chi);
                 let sponge = times([sum[0], sum[1], sum[2]], inverse);
-                let [rate, _, _, _] = lanes::load_rows(simd, drag_rate, first + row);
                 let rate = rate * step;
                 let strength = rate / (one + rate) * mass;
                 // The column holds impulses over chi.

@@ -31,7 +31,7 @@ use super::{
 declare! {
     needs: [Fluid, Sponge, Incompressible, Porous, Smoothed],
     reads: [
-        FluidVelocity, FluidControls, FluidControlWeights, FluidInterior, FluidDragRate, ControlNode, NodePosition,
+        FluidVelocity, FluidControls, FluidControlWeights, FluidDragRate, ControlNode, NodePosition,
         NodePredicted,
     ],
     writes: [ControlVelocity, FluidDrag],
@@ -44,11 +44,10 @@ declare! {
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     node_velocities(cpu, params, columns);
-    let Fluid { velocity, controls: lists, control_weights, interior, drag_rate, drag, .. } =
-        &mut columns.fluid;
+    let Fluid { velocity, controls: lists, control_weights, drag_rate, drag, .. } = &mut columns.fluid;
     let control_velocity = &columns.controls.velocity;
     let (step, mass) = (params.step, params.fluid.particle_mass);
-    drag.resize(interior.len(), [0.0; 4]);
+    drag.resize(drag_rate.len(), [0.0; 4]);
     cpu.for_chunks(&mut drag[..], |first, drag| {
         let (lists, weights) = (lists.chunk(first), control_weights.chunk(first));
         with_lanes!(cpu, simd => {
@@ -60,9 +59,9 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 }
                 let [vx, vy, vz, _] = lanes::load_rows(simd, velocity, first + row);
                 let [ux, uy, uz, _] = weighted(simd, control_velocity, group, &weights[lists.range(row)]);
-                let inverse = weight_inside(simd, lanes::load(simd, interior, first + row));
+                let [linear, inertial, _, chi] = lanes::load_rows(simd, drag_rate, first + row);
+                let inverse = weight_inside(simd, chi);
                 let relative = minus([vx, vy, vz], times([ux, uy, uz], inverse));
-                let [linear, inertial, _, _] = lanes::load_rows(simd, drag_rate, first + row);
                 // The column has impulses and masses over chi.
                 let strength = strength(simd, step, relative, [linear, inertial]) * mass * inverse;
                 let [jx, jy, jz] = times(relative, strength);

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::{
-    columns::{Columns, Fluid},
+    columns::{Columns, Fluid, lane},
     cpu::Cpu,
     kernel::declare,
     params::Params,
@@ -13,7 +13,7 @@ use crate::{
 
 declare! {
     needs: [Fluid, Sponge, Smoothed],
-    reads: [FluidVelocity, FluidInterior, FluidDrag],
+    reads: [FluidVelocity, FluidDragRate, FluidDrag],
     writes: [FluidVelocity],
     oracle: crate::oracle::couple::drag_kick,
     bound: 2e-6,
@@ -21,11 +21,11 @@ declare! {
 }
 
 fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
-    let Fluid { velocity, drag, interior, .. } = &mut columns.fluid;
+    let Fluid { velocity, drag, drag_rate, .. } = &mut columns.fluid;
     let inverse_mass = 1.0 / params.fluid.particle_mass;
     cpu.for_chunks(&mut velocity[..], |first, velocity| {
-        for ((v, drag), chi) in velocity.iter_mut().zip(&drag[first..]).zip(&interior[first..]) {
-            let scale = chi * inverse_mass;
+        for ((v, drag), rate) in velocity.iter_mut().zip(&drag[first..]).zip(&drag_rate[first..]) {
+            let scale = rate[lane::fluid::drag_rate::NODE_WEIGHT] * inverse_mass;
             (0..3).for_each(|axis| v[axis] -= drag[axis] * scale);
         }
     });

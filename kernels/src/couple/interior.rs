@@ -1,13 +1,15 @@
 //! Interior value of every particle in a sponge, and the drag rates there.
 //!
 //! ```text
-//! chi_i = sum_a V_a W_ia,    beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
+//! iota_i = sum_a J_a V_a W_ia,    chi_i = sum_a V_a W_ia
+//! beta_i = sum_a J_a V_a W_ia beta_a,    gamma_i = sum_a J_a V_a W_ia gamma_a
 //! ```
 //!
-//! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. chi is 1 deep inside and 0 outside; beta and gamma are those
-//! of `couple::pores`. In partly filled pores the permeability is less by the factor `m_i = sum_a V_a W_ia m_a / chi_i`
-//! (`couple::wetting`). The rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of parallel conductors, so
-//! that dry pores ahead of a front do not hold the water behind it.
+//! and `f_i = sum_a J_a V_a W_ia f_a` of `couple::solid_yield`. V are volumes at rest, J the present ones over them. The interior value
+//! iota is 1 deep inside and 0 outside, also in a sponge that is squeezed, where nodes are closer. Means over nodes are divided by chi.
+//! beta and gamma are those of `couple::pores`. In partly filled pores the permeability is less by the factor
+//! `m_i = sum_a V_a W_ia m_a / chi_i` (`couple::wetting`). The rates are `beta_i / m_i` and `gamma_i / sqrt(m_i)`. The mean is that of
+//! parallel conductors, so that dry pores ahead of a front do not hold the water behind it.
 
 use super::compliance::following;
 use crate::{
@@ -35,8 +37,10 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
     let controls = &columns.controls.position;
     // In the order of the controls; padding rows have zero weight.
     let mut traits = vec![[0.0; 4]; controls.len()];
-    for (traits, node) in traits.iter_mut().zip(&columns.controls.node) {
+    let mut volume_ratios = vec![0.0; controls.len()];
+    for ((traits, ratio), node) in traits.iter_mut().zip(&mut volume_ratios).zip(&columns.controls.node) {
         *traits = traits_of(&columns.nodes, *node as usize);
+        *ratio = columns.nodes.pores[*node as usize][lane::nodes::pores::VOLUME_RATIO];
     }
     let has_wetting = !columns.nodes.wetting.is_empty();
     interior.resize(position.len(), 0.0);
@@ -50,7 +54,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                 let [x, y, z, _] = lanes::load_rows(simd, position, first + row);
                 let zero = lanes::splat(simd, 0.0);
                 let (mut sum, mut linear, mut inertial, mut mobile) = (zero, zero, zero, zero);
-                let mut follows = zero;
+                let (mut follows, mut filled) = (zero, zero);
                 for (entry, stored) in lists.group(row).iter().zip(&mut weights[lists.range(row)]) {
                     let [xa, ya, za, volume] = lanes::gather_rows(simd, controls, entry);
                     let (dx, dy, dz) = (x - xa, y - ya, z - za);
@@ -58,6 +62,7 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     let weight = volume * kernel.value_scale() * shape;
                     lanes::store(stored, 0, weight);
                     sum += weight;
+                    filled += weight * lanes::gather(simd, &volume_ratios, entry);
                     let [following, drag_rate, inertial_drag_rate, mobility] =
                         lanes::gather_rows(simd, &traits, entry);
                     follows += weight * following;
@@ -74,8 +79,8 @@ fn cpu(cpu: &Cpu, params: &Params, columns: &mut Columns) {
                     linear *= slower;
                     inertial *= slower.sqrt();
                 }
-                lanes::store(interior, row, sum);
-                lanes::store_rows(drag_rate, row, [linear, inertial, follows, zero]);
+                lanes::store(interior, row, filled);
+                lanes::store_rows(drag_rate, row, [linear, inertial, follows, sum]);
             }
         });
     });

@@ -131,12 +131,14 @@ pub(crate) fn interior(params: &Params, columns: &mut Columns) {
     columns.fluid.drag_rate = vec![[0.0; 4]; columns.fluid.position.len()];
     for particle in 0..columns.rows.fluid {
         let (mut chi, mut linear, mut inertial, mut mobile, mut follows) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut inside = 0.0;
         for control in 0..columns.rows.nodes {
             let weight = pairs.weight(particle, control);
             chi += weight;
             let node = columns.controls.node[control] as usize;
             let pores = columns.nodes.pores[node];
             let [volume_ratio, drag_rate, inertial_drag_rate, porosity] = pores.map(f64::from);
+            inside += weight * volume_ratio;
             follows += weight * volume_ratio * (0.7 * (1.0 - porosity) / porosity).min(1.0).sqrt();
             linear += weight * drag_rate;
             inertial += weight * inertial_drag_rate;
@@ -149,8 +151,8 @@ pub(crate) fn interior(params: &Params, columns: &mut Columns) {
         }
         let slower = if mobile > 0.0 { chi / mobile } else { 1.0 };
         (linear, inertial) = (linear * slower, inertial * slower.sqrt());
-        columns.fluid.interior[particle] = chi as f32;
-        columns.fluid.drag_rate[particle] = [linear as f32, inertial as f32, follows as f32, 0.0];
+        columns.fluid.interior[particle] = inside as f32;
+        columns.fluid.drag_rate[particle] = [linear as f32, inertial as f32, follows as f32, chi as f32];
     }
 }
 
@@ -188,7 +190,7 @@ pub(crate) fn zero_distance(params: &Params, columns: &mut Columns) {
 
 /// 1 / chi, or 0 where there is no drag.
 pub(super) fn weight_inside(columns: &Columns, particle: usize) -> f64 {
-    let chi = f64::from(columns.fluid.interior[particle]);
+    let chi = f64::from(columns.fluid.drag_rate[particle][lane::fluid::drag_rate::NODE_WEIGHT]);
     if chi > 1.0e-3 { 1.0 / chi } else { 0.0 }
 }
 
@@ -225,7 +227,7 @@ pub(crate) fn drag(params: &Params, columns: &mut Columns) {
         let rate = f64::from(params.step)
             * f64::from(columns.fluid.drag_rate[particle][lane::fluid::drag_rate::DRAG_RATE]);
         let strength = mass * rate / (1.0 + rate);
-        // The column holds J_i over the interior value.
+        // The column holds J_i over the sum of weights.
         let old = vector(columns.fluid.drag[particle]);
         let wanted = strength * inverse * (vector(columns.fluid.velocity[particle]) - sponge);
         columns.fluid.drag[particle] = row(old + (wanted - old) / (1.0 + strength * shared), 0.0);
@@ -262,7 +264,7 @@ pub(crate) fn exchange(params: &Params, columns: &mut Columns) {
 
 pub(crate) fn drag_kick(params: &Params, columns: &mut Columns) {
     for particle in 0..columns.rows.fluid {
-        let chi = f64::from(columns.fluid.interior[particle]);
+        let chi = f64::from(columns.fluid.drag_rate[particle][lane::fluid::drag_rate::NODE_WEIGHT]);
         let lost = chi * vector(columns.fluid.drag[particle]) / f64::from(params.fluid.particle_mass);
         let old = columns.fluid.velocity[particle];
         columns.fluid.velocity[particle] = keep(old, vector(old) - lost);

@@ -168,3 +168,31 @@ fn a_face_has_suction_as_far_as_another_covers_it() {
     // Negative control: the gap counts.
     assert!(covers[0] > covers[1] && covers[1] > covers[2], "{covers:?}");
 }
+
+#[test]
+fn a_squeezed_sponge_has_no_more_inside_than_one_at_rest() {
+    for height in [1.0_f32, 0.6] {
+        let mut scene = free();
+        scene.columns.nodes.wetting.fill([0.0; 4]);
+        for [_, y, _, _] in &mut scene.columns.nodes.position[..scene.columns.rows.nodes] {
+            *y *= height;
+        }
+        for [_, y, _, _] in &mut scene.columns.fluid.position[..scene.columns.rows.fluid] {
+            *y *= height;
+        }
+        let mut scene = scene.before("couple::interior", &best());
+        scene.run(&best(), &["couple::interior"]);
+        let fluid = &scene.columns.fluid;
+        let rows = fluid.interior.iter().zip(&fluid.drag_rate).take(scene.columns.rows.fluid);
+        let weight = |rate: &[f32; 4]| rate[lane::fluid::drag_rate::NODE_WEIGHT];
+        let deep: Vec<(f32, f32)> = rows
+            .map(|(interior, rate)| (*interior, weight(rate)))
+            .filter(|(_, weight)| *weight > 0.9 / height)
+            .collect();
+        assert!(deep.len() > 20, "{} deep inside", deep.len());
+        let mean = |of: fn(&(f32, f32)) -> f32| deep.iter().map(of).sum::<f32>() / deep.len() as f32;
+        assert!((mean(|row| row.0) - 1.0).abs() < 0.05, "{} at {height}", mean(|row| row.0));
+        // Negative control: the sum of the weights counts more nodes where the sponge is squeezed.
+        assert_eq!(mean(|row| row.1) > 1.3, height < 1.0, "{} at {height}", mean(|row| row.1));
+    }
+}

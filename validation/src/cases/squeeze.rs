@@ -14,7 +14,7 @@ pub(super) static CASE: Case = Case {
     title: "a soaked sponge is pressed to half its height and released, at four permeabilities",
     source: "a sponge holds at most its pore volume, and loses the excess",
     subject: Subject::Coupling,
-    control: "porosity 0.99 instead of 0.9",
+    control: "porosity 0.6 instead of 0.9",
     run,
 };
 
@@ -43,8 +43,10 @@ fn squeeze(setting: &Setting, permeability: f64) -> Result<Vec<Figure>, Failure>
     let solid = (1.0 - POROSITY) * rest_volume(&world);
     let water = |measures: &Measures| measures.absorbed_mass / 1000.0;
     let lost = water(&start) - water(&pressed);
-    let expected = (water(&start) - (pressed.sponge_volume - solid)).max(0.0);
-    let over = |measures: &Measures| (water(measures) / (measures.sponge_volume - solid) - 1.0).max(0.0);
+    let pores = |measures: &Measures| measures.sponge_volume - solid;
+    // It is full at first. What counts as inside is less than that by the edges of the sponge, a tenth, before and after.
+    let expected = water(&start) * (1.0 - pores(&pressed) / pores(&start));
+    let over = |measures: &Measures| (water(measures) / pores(measures) - 1.0).max(0.0);
     let full = over(&start).max(over(&pressed)).max(over(&released));
     Ok(vec![
         Figure::over(
@@ -84,7 +86,7 @@ fn scene(setting: &Setting, permeability: f64) -> Scene {
         edge: edge as f32,
         cells: UVec3::splat(cells),
         permeability: permeability as f32,
-        porosity: setting.planted(POROSITY as f32, 0.99),
+        porosity: setting.planted(POROSITY as f32, 0.6),
         entry_pressure: 400.0,
         saturation_gain: 0.0,
         saturation: 1.0,
