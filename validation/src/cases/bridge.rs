@@ -29,12 +29,23 @@ const PARTICLES: u32 = 10;
 const RADIUS: f64 = 0.008;
 const GAP: f64 = 0.008;
 const TENSION: f64 = 0.0728;
+/// Viscosities \[Pa s\]. Neither pull nor pressure depends on them. A thick liquid comes to rest, water does not.
+const WATER: f32 = 1e-3;
+const THICK: f32 = 0.1;
 /// Half extents of a plate \[m\].
 const PLATE: Vec3 = Vec3::new(0.02, 0.004, 0.02);
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
+    let mut figures = Vec::new();
+    for (name, viscosity) in [("", WATER), ("thick liquid: ", THICK)] {
+        figures.extend(of_a_liquid(setting, name, viscosity)?);
+    }
+    Ok(figures)
+}
+
+fn of_a_liquid(setting: &Setting, name: &str, viscosity: f32) -> Result<[Figure; 2], Failure> {
     let spacing = RADIUS / f64::from(setting.count(setting.pick(PARTICLES, PARTICLES * 4 / 5)));
-    let mut world = setting.world(&scene(setting, spacing))?;
+    let mut world = setting.world(&scene(setting, spacing, viscosity))?;
     let radius = (world.particle_ids().len() as f64 * spacing.powi(3) / (PI * GAP)).sqrt();
     let (mut pulls, mut pressures) = (Vec::new(), Vec::new());
     let (begin, end) = setting.pick((0.2, 0.5), (0.1, 0.25));
@@ -45,9 +56,10 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
             pressures.push(pressure(&world));
         }
     }
-    Ok(vec![
-        Figure::relative("pull on a plate", "N", PI * radius * TENSION, mean(pulls), 0.1),
-        Figure::relative("pressure in the middle", "Pa", TENSION / radius, mean(pressures), 0.1),
+    let (pull, pressure) = (PI * radius * TENSION, TENSION / radius);
+    Ok([
+        Figure::relative(format!("{name}pull on a plate"), "N", pull, mean(pulls), 0.1),
+        Figure::relative(format!("{name}pressure in the middle"), "Pa", pressure, mean(pressures), 0.1),
     ])
 }
 
@@ -69,7 +81,7 @@ fn pressure(world: &World) -> f64 {
     mean(inner.map(|(_, pressure)| f64::from(pressure)))
 }
 
-fn scene(setting: &Setting, spacing: f64) -> Scene {
+fn scene(setting: &Setting, spacing: f64, viscosity: f32) -> Scene {
     let (radius, gap) = (RADIUS as f32, GAP as f32);
     let cylinder = FluidBlock {
         shape: BlockShape::Cylinder { axis: Axis::Y },
@@ -77,6 +89,7 @@ fn scene(setting: &Setting, spacing: f64) -> Scene {
     };
     let fluid = Fluid {
         spacing: spacing as f32,
+        viscosity,
         surface_tension: setting.planted(TENSION, 0.5 * TENSION) as f32,
         blocks: vec![cylinder],
         ..Fluid::default()

@@ -10,16 +10,17 @@ use sorb::{
 
 use crate::{
     case::{Case, Failure, Figure, Setting, Subject},
-    level::heights,
     norms::mean,
-    references::kleefsman::{ARRIVAL, BOX, DAM, DEPTH, FIRST, H2, H4, HIGHEST, P2, PEAK, TANK},
+    references::kleefsman::{
+        ARRIVAL, BOX, DAM, DEPTH, FIRST, H2, H4, HEIGHTS, HIGHEST, INTERVAL, P2, PEAK, TANK,
+    },
 };
 
 /// The dam break of Kleefsman et al.
 pub(super) static CASE: Case = Case {
     name: "dam_spheric",
     title: "a dam breaks onto a box: pressure on its face, heights of the water",
-    source: "Kleefsman et al. 2005 (SPHERIC 2), values quoted in the literature",
+    source: "Kleefsman et al. 2005 (SPHERIC 2): heights of the experiment, pressures quoted in the literature",
     subject: Subject::Water,
     control: "gravity at two thirds",
     run,
@@ -38,8 +39,10 @@ const END: f64 = 2.4;
 /// Pressure that counts as arrival, over the peak of the experiment.
 const ARRIVED: f64 = 0.1;
 
-/// Time over which heights are averaged \[s\]: drops that pass a gauge are no level.
+/// Time over which the largest height is averaged \[s\]: drops that pass a gauge are no level.
 const SWELL: f64 = 0.1;
+/// The same for the series \[s\], of which every fiftieth value is known.
+const RIPPLE: f64 = 0.02;
 
 /// One sample in time.
 struct Sample {
@@ -47,7 +50,7 @@ struct Sample {
     /// Pressure \[Pa\] within a support radius of the line through P2 across the face of the box. The sum over the particles
     /// there, over the number that fits.
     pressure: f64,
-    /// Heights at H2 and H4 \[m\].
+    /// Depths of the water at H2 and H4, without air in between, as a wire feels them \[m\].
     heights: [f64; 2],
 }
 
@@ -60,6 +63,8 @@ struct Outcome {
     arrival: f64,
     highest: f64,
     first: f64,
+    /// Root mean square of the errors of both heights \[m\].
+    errors: [f64; 2],
 }
 
 fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
@@ -90,11 +95,13 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
         Figure::relative(
             format!("largest height at H2, mean of {SWELL} s"),
             "m",
-            middle(HIGHEST),
+            HIGHEST,
             of(|run| run.highest),
             0.1,
         ),
         Figure::relative("height at H4 at first", "m", FIRST, of(|run| run.first), 0.1),
+        Figure::error("height at H2 over the depth, RMSE", "1", of(|run| run.errors[0]) / DEPTH, 0.06),
+        Figure::error("height at H4 over the depth, RMSE", "1", of(|run| run.errors[1]) / DEPTH, 0.03),
     ])
 }
 
@@ -110,6 +117,14 @@ fn outcome(setting: &Setting, rate: f64) -> Result<Outcome, Failure> {
     let window = 0.5 * support_radius(&world) / (GRAVITY * DEPTH).sqrt();
     let pressure = |sample: &Sample| around(&samples, sample.time, window, |s| s.pressure);
     let height = |sample: &Sample| around(&samples, sample.time, SWELL, |s| s.heights[0]);
+    let error = |gauge: usize| {
+        let rows = HEIGHTS.iter().enumerate();
+        let squares = rows.map(|(row, heights)| {
+            let there = around(&samples, INTERVAL * row as f64, RIPPLE, |s| s.heights[gauge]);
+            (there - heights[gauge]).powi(2)
+        });
+        mean(squares).sqrt()
+    };
     let largest = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, f64::max);
     let arrival = samples.iter().find(|sample| sample.pressure > ARRIVED * PEAK);
     Ok(Outcome {
@@ -119,6 +134,7 @@ fn outcome(setting: &Setting, rate: f64) -> Result<Outcome, Failure> {
         arrival: arrival.ok_or_else(|| Failure::Nothing("no water comes to the box".to_owned()))?.time,
         highest: largest(&height),
         first: samples[0].heights[1],
+        errors: [0, 1].map(error),
     })
 }
 
@@ -168,10 +184,14 @@ impl Sample {
         let sum: f64 = rows.filter(|(row, _)| is_near(row)).map(|(_, pressure)| f64::from(*pressure)).sum();
         // Half a cylinder of water.
         let fit = 0.5 * PI * radius * radius * (along.end - along.start) / spacing.powi(3);
-        let across = [-1.0, 0.0, 1.0].map(|step| 0.5 * TANK[2] + step * spacing);
+        // Water around the wire, as wide as the smoothing function reaches.
         let height = |along: f64| {
-            let found = heights(world, &across.map(|z| (along, z)));
-            if found.is_empty() { 0.0 } else { mean(found) }
+            let is_near = |row: &&[f32; 4]| {
+                (f64::from(row[0]) - along).abs() < radius
+                    && (f64::from(row[2]) - 0.5 * TANK[2]).abs() < radius
+            };
+            let near = world.particle_positions().iter().filter(is_near).count();
+            near as f64 * spacing.powi(3) / (2.0 * radius).powi(2)
         };
         Self { time: world.clock().time, pressure: sum / fit, heights: [H2, H4].map(height) }
     }
