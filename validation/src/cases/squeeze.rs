@@ -37,6 +37,7 @@ fn run(setting: &Setting) -> Result<Vec<Figure>, Failure> {
 
 fn squeeze(setting: &Setting, permeability: f64) -> Result<Vec<Figure>, Failure> {
     let mut world = setting.world(&scene(setting, permeability))?;
+    let soaked = world.measures();
     let start = run_to(setting, &mut world, PLATE.1[0])?;
     let pressed = run_to(setting, &mut world, PLATE.1[1])?;
     let released = run_to(setting, &mut world, PLATE.1[2] + 0.6)?;
@@ -44,8 +45,9 @@ fn squeeze(setting: &Setting, permeability: f64) -> Result<Vec<Figure>, Failure>
     let water = |measures: &Measures| measures.absorbed_mass / 1000.0;
     let lost = water(&start) - water(&pressed);
     let pores = |measures: &Measures| measures.sponge_volume - solid;
-    // It is full at first. What counts as inside is less than that by the edges of the sponge, a tenth, before and after.
-    let expected = water(&start) * (1.0 - pores(&pressed) / pores(&start));
+    // What counts as inside a sponge that is full: a tenth less than its pores, by its edges.
+    let share = water(&soaked) / pores(&soaked);
+    let expected = (water(&start) - share * pores(&pressed)).max(0.0);
     let over = |measures: &Measures| (water(measures) / pores(measures) - 1.0).max(0.0);
     let full = over(&start).max(over(&pressed)).max(over(&released));
     Ok(vec![
