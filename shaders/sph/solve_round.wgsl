@@ -44,7 +44,7 @@ fn choose_length(sums: vec4<f32>, others: vec4<f32>) {
     if (rounds > 1u + still && sums.z > 0.0 && below > 0.0) {
         let ratio = above / below;
         if (is_finite(ratio)) {
-            fluid_pressure_solve.length = clamp(ratio, MINIMUM_LENGTH * most, MAXIMUM_LENGTH);
+            fluid_pressure_solve.length = clamp(ratio, MINIMUM_LENGTH * most * most, MAXIMUM_LENGTH);
         }
     }
 }

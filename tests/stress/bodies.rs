@@ -50,6 +50,33 @@ fn balls_of_next_to_nothing_rise() {
     table([1.0, 10.0, 30.0, 100.0].map(case));
 }
 
+/// A plate of 1.2 spacings floats, and a centimetre of water falls onto it. Some lighter than 50 kg/m^3 are thrown
+/// (docs/history.md, light plates).
+#[test]
+fn water_falls_onto_a_light_plate() {
+    let mut cases = Vec::new();
+    let mut pool = pool().in_box(Vec3::new(-BOX, 0.0, -BOX), Vec3::new(BOX, 0.15, BOX));
+    if let Some(fluid) = &mut pool.fluid {
+        let water = |half: f32, low: f32, high: f32| {
+            FluidBlock::new(Vec3::new(-half, low, -half), Vec3::new(half, high, half))
+        };
+        fluid.blocks = vec![water(BOX, 0.0, 0.05), water(0.04, 0.0665, 0.0765)];
+    }
+    for density in [50.0, 100.0, 200.0] {
+        let plate = ShapeKind::Cuboid { half_extents: Vec3::new(0.04, 0.003, 0.04) };
+        let plate = Body::dynamic("plate", plate, Vec3::Y * 0.0535, density);
+        let name = format!("pool: water falls onto a plate of {density} kg/m^3");
+        let figure = Figure { name: "plate m/s", of: speed_of_a_plate, maximum: 0.5 };
+        let case = Case::new(name, pool.clone().with_body(plate), pick(0.3, 1.0));
+        cases.push(Case { figure: Some(figure), ..case });
+    }
+    table(cases);
+}
+
+fn speed_of_a_plate(world: &World) -> f64 {
+    f64::from(world.bodies()[0].state.linear_velocity.length())
+}
+
 #[test]
 fn a_hundred_metres_a_second() {
     let mut cases = Vec::new();

@@ -311,7 +311,8 @@ impl PressureSolve {
         let ratio = if state.rounds.is_multiple_of(2) { change / mixed } else { mixed / response };
         let is_usable = state.rounds > 1 + still && mixed > 0.0 && ratio.is_finite();
         let length = if is_usable { ratio } else { f64::from(FIRST_LENGTH) * most };
-        state.length = length.clamp(MINIMUM_LENGTH * most, MAXIMUM_LENGTH) as f32;
+        // The square: a plate moves far more water than it displaces, and a length that is too great makes errors grow round by round.
+        state.length = length.clamp(MINIMUM_LENGTH * most * most, MAXIMUM_LENGTH) as f32;
     }
 }
 
