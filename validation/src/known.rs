@@ -55,7 +55,7 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "bridge",
         "dfsph",
         "thick liquid: pull",
-        "10.2 % too weak: its surface has 0.94 of the stiffness of `divergence`, which gives drops their pressure",
+        "10.2 % too weak with 8 particles over the radius; cause unknown",
     ),
     miss("bridge", "wcsph", "", "probably as in `drop`: the colour field of the paper's source"),
     miss(
@@ -252,8 +252,8 @@ pub const KNOWN_MISSES: &[KnownMiss] = &[
         "squeeze",
         "+vbd",
         "water pressed out at K 1e-10",
-        "6.5 % too much with 4 cells across, 9.3 % with 3, 1.5 % with 6 and 8: of water that cannot flow out in time, that in the coarse \
-         faces is counted as outside",
+        "6.5 % too much with 4 cells across, 9.3 % with 3, 1.5 % with 6 and 8: probably the width of \
+         its faces",
     ),
     miss(
         "rest",
